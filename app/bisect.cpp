@@ -169,7 +169,7 @@ void add_bisect(CLI::App& app, Action& chosen) {
       ->type_name("CHECK");
   command->add_option("--from", options->from, "the oldest version to try")->type_name("V");
   command->add_option("--to", options->to, "the newest version to try")->type_name("V");
-  command->add_option("--dt", options->dt, "step in s (default 1/60)")->type_name("X");
+  command->add_option("--dt", options->dt, "step in s (default 1/60)")->type_name("DT");
   command->add_option("--timeout", options->timeout, "s after which a run is stopped (default 60)")
       ->type_name("T");
   add_size(*command, options->size);

@@ -181,7 +181,7 @@ void add_check(CLI::App& app, Action& chosen) {
                    "in place of the course: a case file or a folder of them; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE|DIR");
-  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
+  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("DT");
   command->add_option("--timeout", options->timeout, "s that the program may take for each line (default 10)")
       ->type_name("T");
   command->add_flag("--show", options->show,

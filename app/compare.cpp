@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "app/commands.h"
+#include "app/compare_again.h"
 #include "app/compare_results.h"
 #include "app/exit_codes.h"
 #include "app/output.h"
@@ -37,8 +38,8 @@ using harness::Style;
 struct Options {
   std::vector<std::string> names;
   EngineOptions engines;
-  std::string dt, timeout, out = "results", format = "console", junit;
-  int size = 0;
+  std::string dt, timeout, out = "results", format = "console", junit, again;
+  int size = 0, jobs = 1;
   bool no_cost = false, no_report = false;
 };
 
@@ -81,7 +82,22 @@ void put_common_first(harness::CompareOptions& what) {
   if (first != what.instances.end()) std::rotate(what.instances.begin(), first, first + 1);
 }
 
+int again(const Options& options) {
+  if (!options.dt.empty()) throw UsageError("--dt and --again: each run has the step that it had");
+  AgainRequest request{.results = options.again,
+                       .names = options.names,
+                       .size = options.size,
+                       .engines = options.engines,
+                       .out = options.out,
+                       .format = options.format,
+                       .jobs = options.jobs};
+  if (!options.timeout.empty()) request.seconds_a_run = parse_positive("--timeout", options.timeout);
+  return compare_again(request);
+}
+
 int start(const Options& options) {
+  if (!options.again.empty()) return again(options);
+  if (options.jobs > 1) throw UsageError("--jobs goes with --again: costs are measured one at a time");
   if (mean_results(options.names))
     return compare_results(options.names.front(), options.names.back(), options.format);
   std::vector<std::unique_ptr<reference::Backend>> programs;
@@ -151,7 +167,7 @@ void add_compare(CLI::App& app, Action& chosen) {
       ->type_name("NAME");
   options->engines.add_to(*command);
   add_size(*command, options->size);
-  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("X");
+  command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("DT");
   command->add_option("--timeout", options->timeout, "s that a run may take (default 300)")->type_name("T");
   command
       ->add_option("--out", options->out,
@@ -164,6 +180,15 @@ void add_compare(CLI::App& app, Action& chosen) {
       ->check(problem_with_path)
       ->type_name("FILE");
   command->add_flag("--no-cost", options->no_cost, "leave out what a step costs");
+  command
+      ->add_option(
+          "--again", options->again,
+          "make the runs of a set of results again, each with its own settings, and print which differ "
+          "in any bit; costs are not measured")
+      ->type_name("DIR");
+  command->add_option("--jobs", options->jobs, "with --again: runs at a time (default 1)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   command->add_flag("--no-report", options->no_report, "write results.jsonl alone; `plumb report` draws it");
   command->footer(
       "Examples:\n  plumb compare\n  plumb compare free_fall pendulum_chain --size 20 --engine plumb,box2d\n"
@@ -171,6 +196,7 @@ void add_compare(CLI::App& app, Action& chosen) {
       "  plumb compare free_fall --engine plumb --engine-command mine='python3 my_engine.py'\n"
       "  plumb compare my_case.json --junit report.xml\n"
       "  plumb compare results-before results-after\n"
+      "  plumb compare --again results-of-a-cluster --out made-here --jobs 2\n"
       "Exit codes: 0 all as expected, 1 a check failed, 2 usage, 130 interrupted (finished results kept).");
   command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
 }

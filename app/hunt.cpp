@@ -80,14 +80,26 @@ std::vector<hunting::Engine> engines_of(const Options& options, const std::vecto
 int replay(const Options& options) {
   const std::string text = harness::read_text(options.replay);
   const bool is_finding = nlohmann::json::parse(text, nullptr, false).contains("case");
-  const hunting::Case one =
-      is_finding ? hunting::finding_from_json(text).smallest : hunting::case_from_json(text);
+  hunting::Case one;
   std::vector<std::string> usual{"plumb-float", "plumb"};
-  if (is_finding) usual = {hunting::finding_from_json(text).engine};
+  std::string law;
+  if (is_finding) {
+    const hunting::Finding finding = hunting::finding_from_json(text);
+    one = finding.smallest, usual = {finding.engine}, law = finding.objection.law;
+  } else {
+    one = hunting::case_from_json(text);
+  }
   std::vector<std::unique_ptr<reference::Backend>> programs;
   bool objected = false;
   for (const hunting::Engine& engine : engines_of(options, usual, programs)) {
-    const hunting::Examined seen = hunting::examine(engine, one);
+    hunting::Examined seen = hunting::examine(engine, one);
+    // Relations are judged in turn, by the number of a case: the one that the finding is of comes in any
+    // case.
+    const auto of_finding = [&](const hunting::Objection& each) { return each.law == law; };
+    if (!law.empty() && law != "crash" &&
+        std::none_of(seen.objections.begin(), seen.objections.end(), of_finding))
+      for (hunting::Objection& each : hunting::examine(engine, one, law).objections)
+        seen.objections.push_back(std::move(each));
     if (!seen.skipped.empty()) print(fmt::format("{}: skipped: {}\n", engine.name(), seen.skipped));
     if (seen.skipped.empty() && seen.objections.empty())
       print(fmt::format("{}: no judge objects\n", engine.name()));

@@ -50,7 +50,7 @@ void write_files(const std::string& folder, const reality::Findings& findings) {
 int run_published(const std::vector<const reference::Backend*>& engines, const Options& options) {
   const std::string& format = options.format;
   harness::catch_interrupts();
-  const std::vector<reality::PublishedFinding> findings = reality::examine_published(engines);
+  const std::vector<reality::PublishedFinding> findings = reality::examine_published(reality::published_laws(), engines);
   if (!options.out.empty() && !harness::interrupted()) {
     make_folder(options.out);
     harness::write_whole((std::filesystem::path(options.out) / "published.json").string(),
@@ -119,9 +119,10 @@ void add_reality(CLI::App& app, Action& chosen) {
   command->add_option("--seed", options->seed, "of the random halves (default 1)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
-  command->add_flag(
-      "--published", options->published,
-      "published laws of real matter instead, which need no measurements: column collapse, rocking block");
+  command->add_flag("--published", options->published,
+                    "published laws of real matter instead, which need no measurements: bouncing balls, "
+                    "column collapse, dominoes, "
+                    "rocking block");
   command->footer(
       "Examples:\n  plumb reality --data ~/impacts --out reality\n  plumb reality --engine plumb,box2d "
       "--format csv\n"

@@ -93,7 +93,7 @@ void add_tune(CLI::App& app, Action& chosen) {
   command
       ->add_option("--dt", options->step,
                    "step of the game in s (default 1/60); the engines' steps are this or divide it")
-      ->type_name("X");
+      ->type_name("DT");
   command->add_option("--budget", options->seconds, "s that the whole may take (default 45)")->type_name("T");
   add_file_duration(*command, options->duration);
   options->engines.add_to(*command);

@@ -87,6 +87,7 @@ Json result_json(const Result& result) {
             {"engine_version", result.engine_version},
             {"precision", result.precision},
             {"dt", result.dt},
+            {"sample", result.sample > 0 ? result.sample : result.dt},
             {"duration", result.duration},
             {"truth", result.truth},
             {"asked", asked_json(result.asked)},
@@ -125,6 +126,7 @@ Result result_from(const Json& json) {
   result.engine_version = json.at("engine_version");
   result.precision = json.at("precision");
   result.dt = number(json.at("dt"));
+  result.sample = json.contains("sample") ? number(json.at("sample")) : result.dt;
   result.duration = number(json.at("duration"));
   result.truth = json.at("truth");
   result.asked =

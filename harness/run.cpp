@@ -30,6 +30,7 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
   result.engine_version = identity.version;
   result.precision = identity.precision;
   result.dt = settings.dt;
+  result.sample = scene_case.truth.dt();
   result.asked = settings;
   result.duration = scene_case.problem.duration;
   result.truth = scene_case.problem.truth.source;

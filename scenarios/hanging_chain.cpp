@@ -1,6 +1,6 @@
-#include <cmath>
-
+#include "engine/math/arc_tangent.h"
 #include "scenarios/truth/parts.h"
+#include "scenarios/truth/set_up.h"
 
 // A chain of N equal uniform links hangs at rest between two points: tan(phi_k) = (W/H)(k - (N + 1)/2), W a
 // link's weight, H the tension sideways. Source: moments about the ends of each link.
@@ -10,19 +10,19 @@ using namespace truth;
 
 Problem build(std::string_view, int count) {
   Problem problem{.scene = scene_of("hanging_chain", count), .duration = 1};
-  Vec2<Real> end{};
+  Vec2d end{};
   std::string before(kWorld);
   for (int k = 1; k <= count; ++k) {
-    const Real angle = std::atan(0.4L * (k - (count + 1) / Real(2)));
-    const Vec2d centre = (end + Real(0.5) * direction(angle)).as<double>();
-    Body link = piece("link" + std::to_string(k), centre, untouchable(Box{1, 0.1}));
-    link.angle = static_cast<double>(angle);
+    const double angle = arc_tangent(0.4 * (k - (count + 1) / 2.0), 1);
+    const Vec2d half = 0.5 * set_up::direction(angle);
+    Body link = piece("link" + std::to_string(k), end + half, untouchable(Box{1, 0.1}));
+    link.angle = angle;
     problem.scene.joints.push_back(hinge(before, {k == 1 ? 0 : 0.5, 0}, link.name, {-0.5, 0}));
     problem.scene.bodies.push_back(link);
     before = link.name;
-    end += direction(angle);
+    end += 2.0 * half;
   }
-  problem.scene.joints.push_back(hinge(before, {0.5, 0}, kWorld, end.as<double>()));
+  problem.scene.joints.push_back(hinge(before, {0.5, 0}, kWorld, end));
   problem.truth = equilibrium(problem.scene, "tan(phi_k) = (W/H)(k - (N + 1)/2)");
   problem.conserved = {.energy = true};
   problem.precise = within(1e-10);

@@ -1,6 +1,5 @@
-#include <cmath>
-
 #include "scenarios/truth/parts.h"
+#include "scenarios/truth/set_up.h"
 
 // A box on a tilted rail slides down at g sin until a limit stops it, or is driven up by a motor at F/m - g
 // sin until it reaches the motor's speed. Source: Galileo, Newton.
@@ -13,7 +12,7 @@ constexpr double kMass = 2, kForce = 20, kSpeed = 1;  // kg, N, m/s
 Problem build(std::string_view variant, int) {
   Problem problem{.scene = scene_of("rail", variant), .duration = 1.2};
   const Vec2<Real> down = direction(-0.5L);
-  PrismaticJoint joint{.name = "rail", .body_a = "world", .body_b = "box", .axis = down.as<double>()};
+  PrismaticJoint joint{.name = "rail", .body_a = "world", .body_b = "box", .axis = set_up::direction(-0.5)};
   const bool stops = variant == "stops", driven = variant == "driven";
   if (stops) joint.limits = Range{-1, 1};
   if (driven) joint.motor = Motor{-kSpeed, kForce};

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scenarios/truth/parts.h"
+#include "scenarios/truth/set_up.h"
 
 // A block on a ramp: it slips iff tan(tilt) > mu, and then at a = g (sin - mu cos). Source: Coulomb, 1785.
 namespace plumb::scenarios {
@@ -12,7 +13,7 @@ constexpr double kTilt = 0.4;  // rad
 Problem build(std::string_view variant, int) {
   const double ratio =
       choose(variant, {{"holds", 2}, {"barely_holds", 1.001}, {"barely_slips", 0.999}, {"slips", 0.25}});
-  const double friction = ratio * std::tan(kTilt);
+  const double friction = ratio * set_up::tangent(kTilt);
   Problem problem{.scene = scene_of("ramp_block", variant), .duration = 1.5};
   const Body block = piece("block", {}, solid(Box{0.5, 0.25}, friction));
   problem.scene.bodies = {ramp(kTilt, friction), on_ramp(kTilt, block, 0.125)};

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scenarios/truth/parts.h"
+#include "scenarios/truth/set_up.h"
 
 // A disc on a ramp: it rolls iff mu >= tan(tilt)/3, at a = (2/3) g sin; else it slips at a = g (sin - mu
 // cos), and friction turns it at 2 mu g cos/r. Source: Newton and Euler with Coulomb friction, I = m r^2/2.
@@ -13,7 +14,7 @@ constexpr double kTilt = 0.4, kRadius = 0.25;  // rad, m
 Problem build(std::string_view variant, int) {
   const double ratio =
       choose(variant, {{"rolls", 2}, {"barely_rolls", 1.001}, {"barely_slips", 0.999}, {"slips", 0.25}});
-  const double friction = ratio * std::tan(kTilt) / 3;
+  const double friction = ratio * set_up::tangent(kTilt) / 3;
   Problem problem{.scene = scene_of("ramp_disc", variant), .duration = 1.5};
   const Body disc = piece("disc", {}, solid(Circle{kRadius}, friction), 2);
   problem.scene.bodies = {ramp(kTilt, friction), on_ramp(kTilt, disc, kRadius)};

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scenarios/truth/parts.h"
+#include "scenarios/truth/set_up.h"
 
 // A rod that falls without rotation, at the angle a, lands on one end. With r the vector from its centre to
 // that end, J = (1 + e) m v/(1 + r_x^2 m/I), which is (1 + e) m v/(1 + 3 cos^2 a) for a thin rod. Source:
@@ -15,8 +16,9 @@ Problem build(std::string_view, int) {
   Problem problem{.scene = scene_of("rod_lands"), .duration = 0.27};
   const Vec2<Real> end = turned(kAngle, {-kLength / Real(2), -kThick / Real(2)});
   const Shape shape = solid(Box{kLength, kThick}, 0, kRestitution);
-  problem.scene.bodies = {ground(0, kRestitution),
-                          piece("rod", {0, static_cast<double>(kDrop - end.y)}, shape, 2)};
+  problem.scene.bodies = {
+      ground(0, kRestitution),
+      piece("rod", {0, kDrop - set_up::turned(kAngle, {-kLength / 2, -kThick / 2}).y}, shape, 2)};
   problem.scene.bodies[1].angle = kAngle;
   const Real at = std::sqrt(2 * Real(kDrop) / kGravity);
   const Real inertia = (Real(kLength) * kLength + Real(kThick) * kThick) / 12;  // over the mass

@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include "scenarios/truth/bob_chain.h"
 #include "scenarios/truth/parts.h"
+#include "scenarios/truth/set_up.h"
 
 // The slowest swing of N equal bobs on a massless thread: w^2 = (g/L) x, x the smallest zero of the Laguerre
 // polynomial L_N (0.586, 0.416, 0.138 for N = 2, 3, 10), in the shape L_i(x) from below. Source: D.
@@ -13,11 +12,11 @@ using namespace truth;
 constexpr double kSwing = 0.01;  // m, of the lowest bob
 
 Problem build(std::string_view, int count) {
-  const Real x = smallest_laguerre_zero(count);
+  const double x = smallest_laguerre_zero(count);
   BobChain chain{.masses = std::vector<double>(count, 0.5), .angles = {}};
   for (int i = count; i > 0; --i)  // from the top: displacement of a rod's end relative to its start
     chain.angles.push_back(
-        static_cast<double>(std::asin(kSwing * (laguerre(i - 1, x) - (i == count ? 0 : laguerre(i, x))))));
+        set_up::arc_sine(kSwing * (laguerre(i - 1, x) - (i == count ? 0 : laguerre(i, x)))));
   Problem problem{.scene = chain.scene(scene_of("small_modes", count)), .duration = 2};
   problem.truth = chain.truth(problem.scene);
   problem.conserved = {.energy = true};

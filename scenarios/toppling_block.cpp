@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "engine/math/arc_tangent.h"
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/phases.h"
 
@@ -12,7 +13,7 @@ using namespace truth;
 constexpr double kWidth = 0.4, kHeight = 1;  // m
 
 Problem build(std::string_view variant, int) {
-  const double tilt = std::atan(kWidth / kHeight * (variant == "stands" ? 0.99 : 1.05));
+  const double tilt = arc_tangent(kWidth * (variant == "stands" ? 0.99 : 1.05), kHeight);
   Problem problem{.scene = scene_of("toppling_block", variant), .duration = 1};
   const Body block = piece("block", {}, solid(Box{kWidth, kHeight}, 2));
   problem.scene.bodies = {ramp(tilt, 2), on_ramp(tilt, block, kHeight / 2)};

@@ -1,5 +1,4 @@
-#include <cmath>
-
+#include "engine/math/arc_tangent.h"
 #include "scenarios/truth/parts.h"
 
 // A block slides down a movable wedge, all surfaces smooth: the wedge accelerates at A = m g sin cos/(M + m
@@ -14,13 +13,14 @@ constexpr double kWedge = 2, kBlock = 1;  // kg
 Problem build(std::string_view, int) {
   Problem problem{.scene = scene_of("wedge"), .duration = 0.6};
   const Real tilt = std::atan(Real(0.5));
-  const Vec2<Real> down = direction(-tilt), up = perpendicular(down);
-  // The triangle's corners from its centroid: 3 m wide, 1.5 m high, its right angle to the left.
+  const Vec2<Real> down = direction(-tilt);
+  // From its centroid: 3 m wide, 1.5 m high, its right angle to the left.
   const Shape triangle = solid(Polygon{{{-1, -0.5}, {2, -0.5}, {-1, 1}}});
-  const Vec2<Real> top{-1, 1.5L}, place = top + Real(0.5) * down + Real(0.1) * up;
+  const Vec2d along = 1 / std::sqrt(5.0) * Vec2d{2, -1};  // down the wedge
+  const Vec2d place = Vec2d{-1, 1.5} + 0.5 * along + 0.1 * perpendicular(along);
   problem.scene.bodies = {ground(), piece("wedge", {0, 0.5}, triangle, kWedge),
-                          piece("block", place.as<double>(), solid(Box{0.4, 0.2}), kBlock)};
-  problem.scene.bodies[2].angle = static_cast<double>(-tilt);
+                          piece("block", place, solid(Box{0.4, 0.2}), kBlock)};
+  problem.scene.bodies[2].angle = -arc_tangent(1, 2);
   const Real s = -down.y, c = down.x, share = kWedge + kBlock * s * s;
   const Vec2<Real> away{-kBlock * kGravity * s * c / share, 0};
   const Vec2<Real> slide = (kWedge + kBlock) * kGravity * s / share * down;

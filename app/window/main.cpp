@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -147,7 +148,11 @@ int run_course(const Given& given) {
     const bool wanted = given.check.empty() ? outcome.finding.verdict == course::Verdict::Fail
                                             : outcome.check->name == given.check;
     const auto same = [&](const Item& item) { return item.name.starts_with(outcome.check->name); };
-    for (const course::Recorded& run : outcome.runs) {
+    // The longest first: others are short experiments on the same mistake.
+    std::vector<course::Recorded> runs = outcome.runs;
+    std::ranges::stable_sort(runs, std::ranges::greater{},
+                             [](const course::Recorded& run) { return run.trace.duration(); });
+    for (const course::Recorded& run : runs) {
       if (wanted && !first) first = items.size();
       const auto count = std::count_if(items.begin(), items.end(), same);
       const std::string name =

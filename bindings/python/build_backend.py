@@ -61,7 +61,8 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with tempfile.TemporaryDirectory() as folder:
-        files = {f"plumb/{path.name}": path.read_bytes() for path in sorted(PACKAGE.iterdir()) if path.is_file()}
+        files = {f"plumb/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes()
+                 for path in sorted(PACKAGE.rglob("*")) if path.is_file() and "__pycache__" not in path.parts}
         harness = (config_settings or {}).get("harness", "no") == "yes"
         module, program = build(folder, harness)
         files[f"plumb/{module.name}"] = module.read_bytes()

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "engine/forces/attraction_force.h"
+#include "engine/forces/formula_force.h"
+#include "engine/forces/formula_spring.h"
 #include "engine/forces/linear_drag.h"
 #include "engine/forces/point_force.h"
 #include "engine/forces/quadratic_drag.h"
@@ -59,6 +61,19 @@ class LawCompiler {
   SinusoidalForceLaw<Real> compile(const SinusoidalForce& law) const {
     return {index_.at(law.body), law.amplitude.as<Real>(), law.point.as<Real>(), law.angular_frequency,
             law.phase};
+  }
+  FormulaForceLaw compile(const FormulaForce& law) const {
+    const std::size_t body = index_.at(law.body);
+    return {body,
+            law.point,
+            scene_.bodies[body].mass,
+            Formula(law.x, kForceVariables),
+            Formula(law.y, kForceVariables),
+            Formula(law.torque, kForceVariables)};
+  }
+  FormulaSpringLaw compile(const FormulaSpring& law) const {
+    return {end(law.body_a), end(law.body_b), law.anchor_a, law.anchor_b,
+            Formula(law.tension, kSpringVariables)};
   }
 
  private:

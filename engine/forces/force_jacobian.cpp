@@ -1,8 +1,12 @@
 #include "engine/forces/force_jacobian.h"
 
 #include <cmath>
+#include <span>
+#include <tuple>
+#include <type_traits>
 #include <variant>
 
+#include "engine/forces/compile.h"
 #include "engine/forces/laws.h"
 #include "engine/math/trigonometry.h"
 
@@ -123,6 +127,44 @@ struct Derivative {
     couple(c);
   }
 
+  // Each column from the formulas' derivatives along one coordinate; the torque r x F also changes as r
+  // turns.
+  void operator()(const FormulaForceLaw& law) const {
+    ForceBlock& b = block();
+    const FormulaForceLaw::Variables now = law.variables(time, ends[0].pose, ends[0].twist);
+    const Vec2d arm = ends[0].pose.rotation * law.point;
+    for (int k = 0; k < 6; ++k) {
+      Jet values[std::tuple_size_v<FormulaForceLaw::Variables>];
+      for (std::size_t i = 0; i < now.size(); ++i) values[i] = {now[i], i == 1 + std::size_t(k) ? 1.0 : 0.0};
+      const std::span<const Jet> along(values);
+      const Jet x = law.x.at(along), y = law.y.at(along), torque = law.torque.at(along);
+      const Vec2d change{x.first, y.first};
+      double turning = torque.first + cross(arm, change);
+      if (k == 2) turning -= dot(arm, Vec2d{x.value, y.value});
+      set_column(k < 3 ? b.position : b.velocity, k % 3, change, turning);
+    }
+  }
+
+  // As a spring, with the derivatives of T by the length and by its rate in place of k and c.
+  void operator()(const FormulaSpringLaw& law) const {
+    Coupling c{.arms = {ends[0].pose.rotation * law.anchor_a, ends[1].pose.rotation * law.anchor_b}};
+    const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
+    const double length = std::sqrt(length_squared(way));
+    if (length > 0) {
+      const Vec2d u = (1 / length) * way, rate = velocity(1, c.arms[1]) - velocity(0, c.arms[0]);
+      const double closing = dot(u, rate);
+      const Jet by_length[] = {time, {length, 1}, closing}, by_rate[] = {time, length, {closing, 1}};
+      const Jet tension = law.tension.at(std::span<const Jet>(by_length));
+      const double damping = law.tension.at(std::span<const Jet>(by_rate)).first;
+      c.force = tension.value * u;
+      c.by_way = tension.first * outer(u, u) +
+                 (tension.value / length) * outer(perpendicular(u), perpendicular(u)) +
+                 (damping / length) * outer(u, rate - closing * u);
+      c.by_rate = damping * outer(u, u);
+    }
+    couple(c);
+  }
+
   Vec2d place(int end, Vec2d arm) const { return ends[end].pose.position + arm; }
   Vec2d velocity(int end, Vec2d arm) const {
     return ends[end].twist.velocity + cross(ends[end].twist.angular_velocity, arm);
@@ -162,6 +204,9 @@ ForceJacobian::ForceJacobian(const Scene& scene) {
       if (const auto body = find_body(scene, names[end])) entry.bodies[end] = static_cast<int>(*body);
     }
     if (entry.bodies[0] != kFixedFrame) entry.mass = scene.bodies[entry.bodies[0]].mass;
+    const LawCompiler<double> compiler(scene);
+    if (const auto* force = std::get_if<FormulaForce>(&law)) entry.force = compiler.compile(*force);
+    if (const auto* spring = std::get_if<FormulaSpring>(&law)) entry.spring = compiler.compile(*spring);
     laws_.push_back(entry);
   }
 }
@@ -177,7 +222,12 @@ void ForceJacobian::evaluate(double time, std::span<const Pose<double>> poses,
     }
     std::visit(
         [&](const auto& l) {
-          if constexpr (requires { derivative(l, law.mass); }) {
+          using Kind = std::remove_cvref_t<decltype(l)>;
+          if constexpr (std::is_same_v<Kind, FormulaForce>) {
+            derivative(law.force);
+          } else if constexpr (std::is_same_v<Kind, FormulaSpring>) {
+            derivative(law.spring);
+          } else if constexpr (requires { derivative(l, law.mass); }) {
             derivative(l, law.mass);
           } else {
             derivative(l);

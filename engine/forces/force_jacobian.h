@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/forces/formula_force.h"
+#include "engine/forces/formula_spring.h"
 #include "engine/joints/row.h"
 #include "engine/scene/scene.h"
 
@@ -32,6 +34,8 @@ class ForceJacobian {
     ForceLaw law;
     int bodies[2] = {kFixedFrame, kFixedFrame};
     double mass = 0;  ///< kg, of the first body
+    FormulaForceLaw force{};
+    FormulaSpringLaw spring{};
   };
   std::vector<Law> laws_;
 };

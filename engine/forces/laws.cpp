@@ -29,6 +29,8 @@ Forces<Real>::Forces(const Scene& scene) : acts_on_(scene.bodies.size(), 0) {
     void operator()(const SinusoidalForce& law) const {
       to.sinusoidal_forces_.push_back(compiler.compile(law));
     }
+    void operator()(const FormulaForce& law) const { to.formula_forces_.push_back(compiler.compile(law)); }
+    void operator()(const FormulaSpring& law) const { to.formula_springs_.push_back(compiler.compile(law)); }
   };
   const LawCompiler<Real> compiler(scene);
   for (const ForceLaw& law : scene.forces) {
@@ -42,7 +44,8 @@ Forces<Real>::Forces(const Scene& scene) : acts_on_(scene.bodies.size(), 0) {
 template <class Real>
 bool Forces<Real>::empty() const {
   return linear_drags_.empty() && quadratic_drags_.empty() && point_forces_.empty() && torques_.empty() &&
-         springs_.empty() && attractions_.empty() && sinusoidal_forces_.empty();
+         springs_.empty() && attractions_.empty() && sinusoidal_forces_.empty() && formula_forces_.empty() &&
+         formula_springs_.empty();
 }
 
 template <class Real>
@@ -97,11 +100,40 @@ void Forces<Real>::add_swinging(double t0, double t1, const Pose<Real>* poses, c
 }
 
 template <class Real>
+void Forces<Real>::add_formulas(double time, const Pose<Real>* poses, const Twist<Real>* twists,
+                                Wrench<Real>* out) const {
+  const auto pose = [&](int body) -> Pose<double> {
+    if (body == kFixedFrame) return {};
+    const Pose<Real>& p = poses[body];
+    return {p.position.template as<double>(),
+            {static_cast<double>(p.rotation.c), static_cast<double>(p.rotation.s)}};
+  };
+  const auto twist = [&](int body) -> Twist<double> {
+    if (body == kFixedFrame) return {};
+    return {twists[body].velocity.template as<double>(), static_cast<double>(twists[body].angular_velocity)};
+  };
+  const auto add = [&](int body, const Wrench<double>& wrench) {
+    if (body != kFixedFrame)
+      out[body] += Wrench<Real>{wrench.force.template as<Real>(), static_cast<Real>(wrench.torque)};
+  };
+  for (const FormulaForceLaw& law : formula_forces_) {
+    const int body = static_cast<int>(law.body);
+    add(body, law.wrench(time, pose(body), twist(body)));
+  }
+  for (const FormulaSpringLaw& law : formula_springs_) {
+    const auto [on_a, on_b] = law.wrenches(time, pose(law.a), twist(law.a), pose(law.b), twist(law.b));
+    add(law.a, on_a);
+    add(law.b, on_b);
+  }
+}
+
+template <class Real>
 void Forces<Real>::add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
                        Wrench<Real>* out) const {
   add_steady(poses, twists, out);
   add_switched(t0, t1, poses, twists, out);
   add_swinging(t0, t1, poses, twists, out);
+  add_formulas(0.5 * (t0 + t1), poses, twists, out);
 }
 
 template <class Real>
@@ -110,6 +142,7 @@ void Forces<Real>::add_at(double time, double t0, double t1, const Pose<Real>* p
   add_steady(poses, twists, out);
   add_switched(t0, t1, poses, twists, out);
   add_swinging(time, time, poses, twists, out);
+  add_formulas(time, poses, twists, out);
 }
 
 template class Forces<float>;

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "engine/forces/attraction_force.h"
+#include "engine/forces/formula_force.h"
+#include "engine/forces/formula_spring.h"
 #include "engine/forces/linear_drag.h"
 #include "engine/forces/point_force.h"
 #include "engine/forces/quadratic_drag.h"
@@ -32,7 +34,8 @@ class Forces {
   bool acts_on(std::size_t body) const;
 
   /// Adds every law's wrench to `out`: averaged over [t0, t1] where a law depends on time, at the given
-  /// motion otherwise. Arrays are indexed by body. Gravity is not among the laws.
+  /// motion otherwise; formulas at the middle of [t0, t1]. Arrays are indexed by body. Gravity is not among
+  /// the laws.
   void add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
   /// The same at the instant `time` inside [t0, t1]: laws that change smoothly with time are evaluated there.
@@ -46,6 +49,7 @@ class Forces {
                     Wrench<Real>* out) const;
   void add_swinging(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
                     Wrench<Real>* out) const;
+  void add_formulas(double time, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
   std::vector<LinearDragLaw<Real>> linear_drags_;
   std::vector<QuadraticDragLaw<Real>> quadratic_drags_;
@@ -54,6 +58,8 @@ class Forces {
   std::vector<SpringForceLaw<Real>> springs_;
   std::vector<AttractionForceLaw<Real>> attractions_;
   std::vector<SinusoidalForceLaw<Real>> sinusoidal_forces_;
+  std::vector<FormulaForceLaw> formula_forces_;
+  std::vector<FormulaSpringLaw> formula_springs_;
   std::vector<char> acts_on_;  // by body
 };
 

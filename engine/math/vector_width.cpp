@@ -3,27 +3,22 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/math/lanes.h"
+#include "engine/math/widest_register.h"
 
 namespace plumb {
 namespace {
 
 VectorWidth find_widest() {
-#if !defined(PLUMB_VECTORS)
-  return VectorWidth::None;
-#elif defined(__x86_64__) || defined(__i386__)
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx2")) return VectorWidth::Bytes32;
-#if defined(__SSE2__)
-  return VectorWidth::Bytes16;
-#else
+#if defined(__x86_64__) || defined(__i386__)
+  if constexpr (kWidestRegister >= 32) {
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx2")) return VectorWidth::Bytes32;
+  }
+#if !defined(__SSE2__)
   return VectorWidth::None;
 #endif
-#elif defined(__ARM_NEON) || defined(__wasm_simd128__)
-  return VectorWidth::Bytes16;
-#else
-  return VectorWidth::None;
 #endif
+  return kWidestRegister >= 16 ? VectorWidth::Bytes16 : VectorWidth::None;
 }
 
 std::atomic<VectorWidth>& chosen() {

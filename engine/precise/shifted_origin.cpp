@@ -9,6 +9,11 @@
 namespace plumb::precise {
 
 Vec2d local_origin(const Scene& scene) {
+  // Formulas are in the scene's own coordinates.
+  for (const ForceLaw& law : scene.forces)
+    if (std::holds_alternative<FormulaForce>(law)) return {};
+  for (const Body& body : scene.bodies)
+    if (!body.motion.empty()) return {};
   /// Distance from the origin, in extents, beyond which a scene is shifted: it costs six bits of coordinates.
   constexpr double kFar = 64;
   Vec2d lower{1e300, 1e300}, upper{-1e300, -1e300};

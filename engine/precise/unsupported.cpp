@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/precise/dynamics/parts.h"
 #include "engine/precise/precise.h"
 #include "engine/scene/features.h"
+#include "engine/scene/formula.h"
 
 namespace plumb {
 namespace {
@@ -44,6 +46,8 @@ std::string precise_unsupported(const Scene& scene) {
            "through an impact: use impact \"poisson\" or \"stronge\"";
   Scene bodies = precise::with_body_laws(scene);
   bodies.joints.clear();
+  bodies.drives.clear();
+  for (Body& body : bodies.bodies) body.motion = {};
   if (const std::string feature = unusual_field(bodies); !feature.empty()) return feature + kElsewhere;
   for (const Joint& joint : scene.joints) {
     const std::string missing = missing_in(joint);
@@ -70,6 +74,14 @@ std::string symplectic_unsupported(const Scene& given) {
   for (const ForceLaw& law : scene.forces) {
     const bool brakes = std::visit(
         [](const auto& l) {
+          if constexpr (requires { l.tension; }) return Formula(l.tension, kSpringVariables).uses(2);
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(l)>, FormulaForce>) {
+            for (const std::string* text : {&l.x, &l.y, &l.torque}) {
+              const Formula formula(*text, kForceVariables);
+              if (formula.uses(4) || formula.uses(5) || formula.uses(6)) return true;
+            }
+            return false;
+          }
           if constexpr (requires { l.angular_coefficient; })
             return l.coefficient != 0 || l.angular_coefficient != 0;
           if constexpr (requires { l.coefficient; }) return l.coefficient != 0;
@@ -82,6 +94,13 @@ std::string symplectic_unsupported(const Scene& given) {
              "method "
              "= automatic";
     }
+  }
+  for (const Body& body : scene.bodies) {
+    if (!body.motion.empty())
+      return "body " + quoted(body.name) +
+             " has a prescribed motion, which does work: the symplectic method keeps energy only where none "
+             "is "
+             "added; use method = automatic";
   }
   if (precise::GeneralJoints(scene).has_springs()) {
     return "a joint has a spring, whose stiffness changes with its bodies' effective mass; use method = "

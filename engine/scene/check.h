@@ -8,7 +8,7 @@ namespace plumb {
 
 /// A part of a scene: the scene itself, or one entry of one of its lists.
 struct Place {
-  enum class List { None, Bodies, Joints, Forces };
+  enum class List { None, Bodies, Joints, Forces, Drives };
   List list = List::None;
   std::size_t index = 0;
 };

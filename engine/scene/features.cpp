@@ -22,6 +22,7 @@ std::string unusual_field_of(const Body& body) {
   if (body.angular_damping != 0) return "angular_damping";
   if (body.lock_x) return "lock_x";
   if (body.lock_y) return "lock_y";
+  if (!body.motion.empty()) return "a prescribed motion";
   for (const Shape& shape : body.shapes) {
     if (shape.rolling_resistance != 0) return "a shape with rolling_resistance";
     if (shape.surface_speed != 0) return "a shape with surface_speed";
@@ -88,6 +89,7 @@ std::string unusual_field(const Scene& scene) {
         std::visit([](const auto& j) { return std::pair(j.name, unusual_field_of(j)); }, joint);
     if (!field.empty()) return "joint " + quoted(name) + " has " + field;
   }
+  if (!scene.drives.empty()) return "joint " + quoted(scene.drives.front().joint) + " has a drive";
   return "";
 }
 

@@ -17,7 +17,8 @@ inline constexpr std::array<std::string_view, 6> kGeometryNames{"circle",  "box"
 inline constexpr std::array<std::string_view, 11> kJointNames{"revolute", "distance", "prismatic", "weld",
                                                               "wheel",    "motor",    "mouse",     "gear",
                                                               "pulley",   "ratchet",  "friction"};
-inline constexpr std::array<std::string_view, 7> kForceNames{
-    "linear_drag", "quadratic_drag", "point_force", "torque", "spring", "attraction", "sinusoidal_force"};
+inline constexpr std::array<std::string_view, 9> kForceNames{
+    "linear_drag", "quadratic_drag",   "point_force",   "torque",        "spring",
+    "attraction",  "sinusoidal_force", "formula_force", "formula_spring"};
 
 }  // namespace plumb

@@ -72,6 +72,7 @@ struct Finder {
   void operator()(std::optional<T>& value) {
     if (value) (*this)(*value);
   }
+  void operator()(std::string&) {}  // a formula is no number
   template <class T>
   requires(std::is_same_v<T, bool> || std::is_enum_v<T> || std::is_same_v<T, int>) void operator()(T&) {}
 

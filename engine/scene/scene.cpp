@@ -6,10 +6,12 @@
 #include "engine/core/hash.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/json.h"
+#include "engine/scene/prescribed_path.h"
 
 namespace plumb {
 BodyState initial_state(const Body& body) {
-  return {body.position, body.angle, body.velocity, body.angular_velocity};
+  const BodyState given{body.position, body.angle, body.velocity, body.angular_velocity};
+  return body.motion.empty() ? given : PrescribedPath(body).at(0).state;
 }
 
 double inertia_of(const Body& body) {
@@ -71,6 +73,14 @@ std::array<std::string_view, 2> ends_of(const ForceLaw& law) {
         }
       },
       law);
+}
+
+bool has_formulas(const Scene& scene) {
+  return !scene.drives.empty() || std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
+    return !body.motion.empty();
+  }) || std::any_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
+    return std::holds_alternative<FormulaForce>(law) || std::holds_alternative<FormulaSpring>(law);
+  });
 }
 
 std::optional<std::size_t> find_body(const Scene& scene, std::string_view name) {

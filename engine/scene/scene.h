@@ -45,6 +45,15 @@ struct Shape {
 
 enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
+/// Path of a kinematic body, by formulas in the time t, s (`Formula`). A coordinate without one follows the
+/// body's position and velocity.
+struct PrescribedMotion {
+  std::string x{}, y{};  ///< m
+  std::string angle{};   ///< rad
+  bool empty() const { return x.empty() && y.empty() && angle.empty(); }
+  friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
+};
+
 /// A rigid body. Its frame has its origin at the centre of mass.
 struct Body {
   std::string name;  ///< unique, not empty, not "world"
@@ -62,6 +71,7 @@ struct Body {
   double angular_damping = 0;  ///< 1/s, >= 0: the same for the angular velocity
   bool lock_x = false;         ///< the centre of mass keeps its x
   bool lock_y = false;         ///< the centre of mass keeps its y
+  PrescribedMotion motion{};   ///< of a kinematic body; its coordinates replace those above
   friend bool operator==(const Body&, const Body&) = default;
 };
 
@@ -138,8 +148,46 @@ struct SinusoidalForce {
   friend bool operator==(const SinusoidalForce&, const SinusoidalForce&) = default;
 };
 
+/// A force and a torque by formulas (`Formula`) in the names of `kForceVariables`: the time and the body's
+/// state, for forces that vary with time, place or velocity.
+struct FormulaForce {
+  std::string body;
+  std::string x{"0"}, y{"0"};  ///< N, along the world's axes
+  std::string torque{"0"};     ///< N m, besides that of the force at `point`
+  Vec2d point{};               ///< m, in the body's frame
+  friend bool operator==(const FormulaForce&, const FormulaForce&) = default;
+};
+
+/// A spring between two points whose tension is a formula in the names of `kSpringVariables`, so that it may
+/// follow any curve or table; zero for coinciding points.
+struct FormulaSpring {
+  std::string body_a;  ///< a body's name, or "world"
+  std::string body_b;
+  Vec2d anchor_a{};          ///< m, in body a's frame
+  Vec2d anchor_b{};          ///< m, in body b's frame
+  std::string tension{"0"};  ///< N; positive pulls the points together
+  friend bool operator==(const FormulaSpring&, const FormulaSpring&) = default;
+};
+
+/// Names in the formulas of a `FormulaForce`: the time (s), the body's position (m), angle (rad, from -pi to
+/// pi), velocity (m/s) and angular velocity (rad/s), and its mass (kg).
+inline constexpr std::array<std::string_view, 8> kForceVariables{"t",  "x",  "y", "angle",
+                                                                 "vx", "vy", "w", "m"};
+/// Names in the formula of a `FormulaSpring`: the time (s), the distance of its points (m) and its rate
+/// (m/s).
+inline constexpr std::array<std::string_view, 3> kSpringVariables{"t", "length", "rate"};
+/// The only name in formulas of a `PrescribedMotion` and of a `Drive`: the time (s).
+inline constexpr std::array<std::string_view, 1> kTimeVariable{"t"};
+
 using ForceLaw = std::variant<LinearDrag, QuadraticDrag, PointForce, Torque, SpringForce, AttractionForce,
-                              SinusoidalForce>;
+                              SinusoidalForce, FormulaForce, FormulaSpring>;
+
+/// Drives the motor of a joint at a speed that varies: it replaces the motor's own.
+struct Drive {
+  std::string joint;       ///< name of a joint with a motor
+  std::string speed{"0"};  ///< rad/s or m/s, a formula in the time t
+  friend bool operator==(const Drive&, const Drive&) = default;
+};
 
 /// Returns the names of the bodies that a law acts on: one, and another or "world" for laws between two.
 std::array<std::string_view, 2> ends_of(const ForceLaw& law);
@@ -183,6 +231,7 @@ struct Scene {
   std::vector<Body> bodies{};
   std::vector<Joint> joints{};
   std::vector<ForceLaw> forces{};
+  std::vector<Drive> drives{};
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
@@ -195,7 +244,8 @@ struct BodyState {
   friend bool operator==(const BodyState&, const BodyState&) = default;
 };
 
-/// Returns the initial state of `body`.
+/// Returns the initial state of `body`; with a prescribed motion, at t = 0. Throws `std::invalid_argument` if
+/// a formula is invalid.
 BodyState initial_state(const Body& body);
 
 /// Returns the rotational inertia of a dynamic body about its centre of mass, kg m^2: as given, otherwise
@@ -218,6 +268,9 @@ bool may_touch(const Filter& a, const Filter& b);
 
 /// Returns the index of the body called `name`; nothing for "world" or an unknown name.
 std::optional<std::size_t> find_body(const Scene& scene, std::string_view name);
+
+/// Returns true if the scene has formulas: force laws, prescribed motions or drives.
+bool has_formulas(const Scene& scene);
 
 /// Returns the 64-bit FNV-1a of the scene's one-line JSON: scenes with the same bits have the same hash on
 /// every platform. A negative zero counts as different from zero, though the two compare equal. Throws as

@@ -23,4 +23,6 @@ std::string force_subject(std::size_t index, std::string_view law, std::string_v
   return "force " + std::to_string(index) + (details.empty() ? "" : " (" + details + ")");
 }
 
+std::string drive_subject(std::size_t index) { return "drive " + std::to_string(index); }
+
 }  // namespace plumb

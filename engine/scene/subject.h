@@ -19,4 +19,7 @@ std::string joint_subject(std::size_t index, std::string_view name);
 /// "force 2 (linear_drag on 'ball')", counted from 0; force laws have no names. Empty parts are left out.
 std::string force_subject(std::size_t index, std::string_view law, std::string_view body);
 
+/// "drive 2", counted from 0; drives have no names.
+std::string drive_subject(std::size_t index);
+
 }  // namespace plumb

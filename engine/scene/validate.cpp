@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -13,8 +15,10 @@
 #include "engine/core/text.h"
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
+#include "engine/scene/formula.h"
 #include "engine/scene/joint_fields.h"
 #include "engine/scene/names.h"
+#include "engine/scene/prescribed_path.h"
 #include "engine/scene/subject.h"
 
 namespace plumb {
@@ -44,6 +48,10 @@ class Checker {
       place_ = {Place::List::Forces, i};
       std::visit([this](const auto& law) { check_force(law); }, scene_.forces[i]);
     }
+    for (std::size_t i = 0; i < scene_.drives.size(); ++i) {
+      place_ = {Place::List::Drives, i};
+      check_drive(scene_.drives[i]);
+    }
     place_ = {};
   }
 
@@ -64,6 +72,8 @@ class Checker {
         const ForceLaw& law = scene_.forces[place_.index];
         return force_subject(place_.index, kForceNames[law.index()], ends_of(law)[0]);
       }
+      case Place::List::Drives:
+        return drive_subject(place_.index);
       case Place::List::None:
         break;
     }
@@ -146,6 +156,7 @@ class Checker {
     vector("position", body.position, "m");
     number("angle", body.angle, Limits::Any, "rad");
     check_motion(body);
+    check_path(body);
     const bool dynamic = body.type == BodyType::Dynamic;
     number("mass", body.mass, dynamic ? Limits::Positive : Limits::NonNegative, "kg");
     if (body.inertia) number("inertia", *body.inertia, Limits::Positive, "kg m^2");
@@ -393,6 +404,76 @@ class Checker {
     vector("point", law.point, "m");
     number("angular_frequency", law.angular_frequency, Limits::NonNegative, "rad/s");
     number("phase", law.phase, Limits::Any, "rad");
+  }
+
+  void formula(const std::string& field, const std::string& value,
+               std::span<const std::string_view> variables) const {
+    if (!is_utf8(value) || has_control_character(value))
+      fail(Error::Kind::Name, field, printable(value), "must be UTF-8 without control characters");
+    try {
+      (void)Formula(value, variables);
+    } catch (const std::invalid_argument& problem) {
+      fail(Error::Kind::Syntax, field, printable(value), std::string("is no formula: it ") + problem.what());
+    }
+  }
+
+  void check_force(const FormulaForce& law) const {
+    body_called("body", law.body, false);
+    formula("force[0]", law.x, kForceVariables);
+    formula("force[1]", law.y, kForceVariables);
+    formula("torque", law.torque, kForceVariables);
+    vector("point", law.point, "m");
+  }
+
+  void check_force(const FormulaSpring& law) const {
+    const Body* a = body_called("body_a", law.body_a, true);
+    const Body* b = body_called("body_b", law.body_b, true);
+    if (a == b)
+      fail(Error::Kind::Name, "body_b", law.body_b, "must differ from body_a: a spring pulls two ends");
+    vector("anchor_a", law.anchor_a, "m");
+    vector("anchor_b", law.anchor_b, "m");
+    formula("tension", law.tension, kSpringVariables);
+  }
+
+  void check_path(const Body& body) const {
+    if (body.motion.empty()) return;
+    if (body.type != BodyType::Kinematic)
+      fail(Error::Kind::Value, "motion", "formulas", "must be absent: only a kinematic body has one");
+    if (!body.motion.x.empty()) formula("motion.x", body.motion.x, kTimeVariable);
+    if (!body.motion.y.empty()) formula("motion.y", body.motion.y, kTimeVariable);
+    if (!body.motion.angle.empty()) formula("motion.angle", body.motion.angle, kTimeVariable);
+    const PrescribedPath::Point start = PrescribedPath(body).at(0);
+    vector("motion at t = 0", start.state.position, "m");
+    vector("motion's velocity at t = 0", start.state.velocity, "m/s");
+    number("motion's angle at t = 0", start.state.angle, Limits::Any, "rad");
+    number("motion's angular velocity at t = 0", start.state.angular_velocity, Limits::Any, "rad/s");
+  }
+
+  void check_drive(const Drive& drive) const {
+    const auto joint = std::find_if(scene_.joints.begin(), scene_.joints.end(), [&](const Joint& any) {
+      return std::visit([&](const auto& j) { return j.name == drive.joint; }, any);
+    });
+    if (joint == scene_.joints.end()) {
+      std::vector<std::string> known;
+      for (const Joint& any : scene_.joints)
+        known.push_back(std::visit([](const auto& j) { return j.name; }, any));
+      fail(Error::Kind::Name, "joint", printable(drive.joint),
+           "must be the name of a joint" + did_you_mean(drive.joint, known));
+    }
+    const bool motor = std::visit(
+        [](const auto& j) {
+          if constexpr (requires { j.motor; }) return j.motor.has_value();
+          return false;
+        },
+        *joint);
+    if (!motor)
+      fail(Error::Kind::Value, "joint", printable(drive.joint),
+           "must have a motor: the drive sets its speed");
+    for (std::size_t other = 0; other < place_.index; ++other) {
+      if (scene_.drives[other].joint == drive.joint)
+        fail(Error::Kind::Name, "joint", printable(drive.joint), "must have one drive at most");
+    }
+    formula("speed", drive.speed, kTimeVariable);
   }
 
   void check_time(double start, double duration) const {

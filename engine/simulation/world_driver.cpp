@@ -45,6 +45,16 @@ WorldDriver<Real>::WorldDriver(const Scene& scene, const Realtime& accuracy, boo
       parts_(add_scene(world_, with_needed_parts(scene, plan_))),
       forces_(scene, parts_),
       before_(scene.bodies.size()) {
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    if (!scene.bodies[body].motion.empty()) prescribed_.push_back({body, PrescribedPath(scene.bodies[body])});
+  }
+  for (const Drive& drive : scene.drives) {
+    for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
+      if (std::visit([](const auto& j) -> const std::string& { return j.name; }, scene.joints[joint]) ==
+          drive.joint)
+        driven_.push_back({parts_.joints[joint], Formula(drive.speed, kTimeVariable)});
+    }
+  }
   if (accuracy_.on_violation != OnViolation::Ignore || every_stage) monitor_.emplace(world_);
 }
 
@@ -63,18 +73,44 @@ void WorldDriver<Real>::step() {
   if (found_) act_on_violation();
 }
 
-/// Force laws are evaluated at the middle of each substep, so with them the world takes the substeps as
-/// single steps. The Euler schemes evaluate forces at the start.
+/// Force laws are evaluated at the middle of each substep, so with them, and with what moves by a function of
+/// time, the world takes the substeps as single steps. The Euler schemes evaluate forces at the start.
 template <class Real>
 void WorldDriver<Real>::advance() {
-  const bool one_by_one = !forces_.empty();
+  const bool one_by_one = !forces_.empty() || !prescribed_.empty() || !driven_.empty();
   const int count = one_by_one ? accuracy_.substeps : 1;
   const double dt = accuracy_.dt / count;
   for (int i = 0; i < count; ++i) {
+    if (one_by_one) apply_drives(dt);
     if (one_by_one) apply_forces(dt);
     if (monitor_) monitor_->begin_step();
     world_.step(dt, one_by_one ? 1 : accuracy_.substeps);
     if (monitor_) check();
+  }
+}
+
+/// Gives each prescribed body the velocity that takes it to its place at the end of the step, and each drive
+/// its motor's mean speed, from the speeds at the start, middle and end (Simpson's rule).
+template <class Real>
+void WorldDriver<Real>::apply_drives(double dt) {
+  const double start = world_.time(), end = start + dt;
+  for (const Prescribed& one : prescribed_) {
+    const BodyState then = one.path.at(end).state;
+    world_.move_towards(parts_.bodies[one.body], then.position, then.angle, dt);
+  }
+  for (const Driven& one : driven_) {
+    const auto speed = [&](double time) {
+      const double now[] = {time};
+      return one.speed.at(std::span<const double>(now));
+    };
+    JointKind kind = world_.kind(one.joint);
+    std::visit(
+        [&](auto& joint) {
+          if constexpr (requires { joint.motor; })
+            joint.motor->speed = (speed(start) + 4 * speed(0.5 * (start + end)) + speed(end)) / 6;
+        },
+        kind);
+    world_.change(one.joint, kind);
   }
 }
 
@@ -123,6 +159,12 @@ void WorldDriver<Real>::read(std::span<BodyState> out) const {
     const BodyMotion<Real>& motion = w.motion[body];
     out[i] = {world_.position(parts_.bodies[i]), w.bodies[body].angle, motion.velocity.template as<double>(),
               static_cast<double>(motion.angular_velocity)};
+  }
+  // The world's velocity of a prescribed body is the mean of its last step.
+  for (const Prescribed& one : prescribed_) {
+    const BodyState now = one.path.at(time()).state;
+    out[one.body].velocity = now.velocity;
+    out[one.body].angular_velocity = now.angular_velocity;
   }
 }
 

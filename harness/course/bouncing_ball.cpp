@@ -104,6 +104,9 @@ Finding falls_far_enough(const Lab& lab) {
       .finding();
 }
 
+constexpr const char* kMixed =
+    "The components of gravity are mixed up: gravity[0] changes vx alone, and gravity[1] changes vy alone.";
+
 Finding scene_says_gravity(const Lab& lab) {
   const Vec2d gravity{1.5, -3}, v0{3, 4};
   Scene scene = scene_of("throw", gravity, {make(Ball{.velocity = v0})});
@@ -127,6 +130,11 @@ Finding scene_says_gravity(const Lab& lab) {
       .mistake("starts_at_rest", {t * gravity.x, t * gravity.y},
                "The ball starts at rest: take \"velocity\" from the scene.")
       .mistake("ignores_gravity", {v0.x, v0.y}, "The scene's gravity is not used.")
+      .mistake("gravity_mixed", {v0.x + t * gravity.y, v0.y + t * gravity.x}, kMixed)
+      .mistake("gravity_mixed", {right.x, right.y + t * gravity.x}, kMixed)
+      .mistake("gravity_mixed", {right.x + t * gravity.y, right.y}, kMixed)
+      .mistake("gravity_mixed", {right.x, v0.y + t * gravity.x}, kMixed)
+      .mistake("gravity_mixed", {v0.x + t * gravity.y, right.y}, kMixed)
       .mistake("explicit_euler",
                {right.x, right.y, v0.x * t + gravity.x * t * t / 2 - gravity.x * t * step_of(lab) / 2},
                explicit_euler())
@@ -155,11 +163,12 @@ Finding any_step_size(const Lab& lab) {
 constexpr const char* kStill =
     "The ball never moves: add v dt to its position in each step; v begins with the scene's \"velocity\".";
 
-// Drops a ball of radius r at (1, -2) m/s on a floor whose top is at -0.5 m.
-Trace bounce(const Lab& lab, double r, double e = 1) {
+// Drops a ball of radius r at (1, -2) m/s, or at a multiple, on a floor whose top is at -0.5 m.
+Trace bounce(const Lab& lab, double r, double e = 1, double times = 1) {
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1, .restitution = 0}));
-  const Body ball = make(Ball{.position = {0, 0.5 + r}, .velocity = {1, -2}, .radius = r, .restitution = e});
+  const Body ball =
+      make(Ball{.position = {0, 0.5 + r}, .velocity = times * Vec2d{1, -2}, .radius = r, .restitution = e});
   return lab.run(scene_of("bounce", {}, {ball, floor}), 1);
 }
 
@@ -191,18 +200,49 @@ constexpr const char* kOnePlus =
     "to send it "
     "back.";
 
+constexpr const char* kThreshold =
+    "The ball stops at 2 m/s and bounces when it is faster: the speed below which restitution is 0 is too "
+    "high. It is 2 g dt, or the scene's \"restitution_threshold\".";
+constexpr double kFloor = -0.5;  // m, its top
+
 Finding bounces(const Lab& lab) {
   const double r = 0.4, tolerance = 0.002;
   const Trace trace = bounce(lab, r);
   const BodyState& end = trace.last(0);
+  double lowest = trace.first(0).position.y - r;
+  for (const auto& states : trace.states) lowest = std::min(lowest, states[0].position.y - r);
   Judgement judgement;
   judgement.read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
-      .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance);
+      .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance)
+      .read("lowest point of the ball", "m", lowest, kFloor, 4 * lab.dt() + 0.05 * r);
   if (judgement.good()) return judgement.finding();
   // With a radius of 1 m the vector from the wall to the centre is 1 m long, less the overlap of a step.
   const double off_at_1 = std::abs(bounce(lab, 1).last(0).velocity.y - 2);
   const bool right_at_1 = off_at_1 < 0.3 && off_at_1 < std::abs(end.velocity.y - 2) / 3;
+  constexpr double kFaster = 5;
+  const bool stops = std::abs(end.velocity.y) < tolerance;
+  const bool bounces_fast =
+      stops && std::abs(bounce(lab, r, 1, kFaster).last(0).velocity.y - 2 * kFaster) < 0.1;
+  const double along = end.velocity.x;
   return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
+      .mistake_if(bounces_fast, "threshold_too_high", kThreshold)
+      .mistake_if(
+          std::abs(end.velocity.y - 2) <= 2 * tolerance && along > 0.05 && std::abs(along - 1) > tolerance,
+          "along_wall_changed",
+          "The bounce changes the speed along the wall as well: only the part along the normal "
+          "changes.")
+      .mistake("whole_sizes", {1, 2, kFloor + 0.5},
+               "It turns half a metre above the floor, which is 1 m high: a box reaches half of its width "
+               "and half of its height from its centre.")
+      .mistake("quarter_sizes", {1, 2, kFloor - 0.25},
+               "It sinks into the floor before it turns: a box reaches half of its width and half of its "
+               "height from its centre, not a quarter.")
+      .mistake("diameters", {1, 2, kFloor + r},
+               "It turns a radius too early: compare the distance with the "
+               "radius, not with the diameter.")
+      .mistake("radius_ignored", {1, 2, kFloor - r},
+               "It turns when its centre reaches the floor: it touches when the nearest point is a radius "
+               "away.")
       .mistake_if(
           pulled_into_floor(lab, trace), "normal_flipped",
           "The ball is pulled into the floor: the normal points into the wall, and should point out of it, "
@@ -262,10 +302,17 @@ Finding restitution(const Lab& lab) {
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1, .restitution = wall}));
   // The gap is not a whole number of steps, so the ball is detected well inside the floor.
-  const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -v}, .restitution = e});
-  const Trace trace = lab.run(scene_of("restitution", {}, {ball, floor}), 1);
+  const auto after = [&](double speed) {
+    const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -speed}, .restitution = e});
+    return lab.run(scene_of("restitution", {}, {ball, floor}), 1);
+  };
+  const Trace trace = after(v);
+  const double end = trace.last(0).velocity.y;
+  const bool stops = std::abs(end) < 0.002 * v && !trembles(trace) && !loses_what_it_got(trace);
+  const bool bounces_fast = stops && std::abs(after(5 * v).last(0).velocity.y - 5 * e * v) < 0.05 * v;
   return Judgement()
-      .read("vy after the bounce", "m/s", trace.last(0).velocity.y, e * v, 0.002 * v)
+      .read("vy after the bounce", "m/s", end, e * v, 0.002 * v)
+      .mistake_if(bounces_fast, "threshold_too_high", kThreshold)
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(trembles(trace) || loses_what_it_got(trace), "turned_every_step", kTurnedEveryStep)
       .mistake_if(keeps_rest(trace, e), "one_plus_forgotten", kOnePlus)

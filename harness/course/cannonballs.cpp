@@ -25,6 +25,14 @@ Finding force_accelerates(const Lab& lab) {
       .mistake("force_once", {6 * h},
                "The force acts for one step only: it lasts until its duration is over.")
       .mistake("force_backwards", {-v}, "The force pushes backwards: add it, do not subtract it.")
+      .mistake("force_dt_twice", {v * h}, "dt enters twice: a step adds F dt/m to the velocity, once.")
+      .mistake("force_twice", {2 * v},
+               "The force acts twice a step: add it once, and go through forces once.")
+      .mistake("force_halved", {v / 2}, "Half of the force acts: a step adds F dt/m to the velocity.")
+      .mistake("force_in_kilograms", {kGravity * v},
+               "9.81 times too fast: the force is in newtons already, F/m is the acceleration.")
+      .mistake("force_in_kilograms", {v / kGravity},
+               "9.81 times too slow: the force is in newtons already, F/m is the acceleration.")
       .mistake("force_without_dt", {v / h}, "dt is missing: a step adds F dt/m to the velocity, not F/m.")
       .mistake(
           "force_not_cleared", {6 * t * (t + h) / (2 * h)},
@@ -34,12 +42,21 @@ Finding force_accelerates(const Lab& lab) {
 
 Finding ten_times_the_mass(const Lab& lab) {
   const double mass = 10, force = 6;
-  Scene scene = scene_of("mass", {}, {make(Ball{.mass = mass})});
+  // Two more balls, above and below, which the force does not name.
+  Scene scene =
+      scene_of("mass", {},
+               {make(Ball{.name = "above", .position = {0, 3}, .mass = mass}), make(Ball{.mass = mass}),
+                make(Ball{.name = "below", .position = {0, -3}, .mass = mass})});
   scene.forces.emplace_back(push("ball", {force, 0}));
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = force / mass * t;
+  const double other = std::max(std::abs(trace.last(0).velocity.x), std::abs(trace.last(2).velocity.x));
   return Judgement()
-      .read("vx after 1 s of a ball of 10 kg", "m/s", trace.last(0).velocity.x, v, lab.rounding(v, t))
+      .read("vx after 1 s of a ball of 10 kg", "m/s", trace.last(1).velocity.x, v, lab.rounding(v, t))
+      .read("vx of a ball that nothing pushes", "m/s", other, 0, 1e-9)
+      .mistake_if(other > 1e-9, "force_on_wrong_body",
+                  "The force moves a ball that it does not name: it acts on the body called \"body\", and on "
+                  "no other.")
       .mistake("mass_not_divided", {force * t},
                "Ten times too fast: the force is not divided by the mass. a = F/m; a ball of 1 kg hides it.")
       .mistake("mass_multiplied", {force * mass * t}, "The force is multiplied by the mass: a = F/m.")
@@ -153,6 +170,20 @@ Finding spring(const Lab& lab) {
     return mass * dot(s.velocity, s.velocity) / 2 + k * stretch * stretch / 2;
   };
   const double h = lab.substep() > 0 ? lab.substep() : lab.dt();
+  // The spring's stiffness as it acts while it is longer than at rest, and while it is shorter.
+  const auto acting = [&](double side) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i + 1 < trace.states.size() && trace.times[i] < 2.5; ++i) {
+      const double stretch = trace.states[i][0].position.x - rest;
+      if (side * stretch < amplitude / 4) continue;
+      sum -= mass * (trace.states[i + 1][0].velocity.x - trace.states[i][0].velocity.x) /
+             (trace.times[i + 1] - trace.times[i]) / stretch;
+      ++count;
+    }
+    return count == 0 ? k : sum / count;
+  };
+  const double pulls = acting(1), pushes = acting(-1);
   const double t = trace.duration(), n = t / h;
   const double growth = std::pow(energy(trace.last(0)) / energy(trace.first(0)), 1 / n);
   const std::size_t early = trace.states.size() / 10;
@@ -179,6 +210,14 @@ Finding spring(const Lab& lab) {
       .mistake("rest_length_ignored", {kAny, (rest + amplitude) * std::cos(w * te)},
                "The spring pulls to its anchor: take \"rest_length\" off the length.")
       .mistake("spring_ignored", {1, rest + amplitude}, "The spring does nothing.")
+      .mistake_if(std::abs(pushes) < 0.1 * k && pulls > 0.5 * k, "spring_only_pulls",
+                  "The spring only pulls: shorter than at rest it pushes, with the same stiffness.")
+      .mistake_if(std::abs(pulls) < 0.1 * k && pushes > 0.5 * k, "spring_only_pushes",
+                  "The spring only pushes: longer than at rest it pulls, with the same stiffness.")
+      .otherwise_if(std::abs(pulls - k) > 0.2 * k, "stiffness_wrong",
+                    fmt::format("The spring acts with about {:.3g} N/m, and its \"stiffness\" is {:.3g}: its "
+                                "force is stiffness (length - rest_length), on both ends.",
+                                pulls, k))
       .finding();
 }
 

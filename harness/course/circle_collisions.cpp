@@ -127,7 +127,8 @@ Finding equal_masses_swap(const Lab& lab) {
                "The velocities do not change: no contact is found, or no impulse is applied.")
       .mistake(
           "restitution_ignored", {mean, mean},
-          "They stick together: with restitution 1 they part as fast as they came; the impulse has 1 + e.")
+          "They stick together: with restitution 1 they part as fast as they came; the impulse has 1 + e. "
+          "If you go over contacts several times, compute the bounce once, before the first time.")
       .mistake("each_turned", {-u, -w},
                "Each velocity is reversed by itself: reverse the relative velocity along the normal.")
       .mistake_if(trace.last(0).velocity.x > u + closing / 2 && trace.last(1).velocity.x < w - closing / 2,
@@ -172,6 +173,9 @@ Finding heavy_hits_light(const Lab& lab) {
     return std::abs(t.last(0).velocity.x - after_heavy) + std::abs(t.last(1).velocity.x - after_light);
   };
   const double off_at_1 = off(meet(1 / 1.8));
+  const Trace alike = head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}}, {.position = {0, 0}}, 2);
+  const bool alike_is_right =
+      std::abs(alike.last(0).velocity.x) + std::abs(alike.last(1).velocity.x - v) < 0.01 * v;
   const bool right_at_1 = off_at_1 < 0.2 * v && off_at_1 < off(trace) / 3;
   return judgement.mistake_if(right_at_1, "normal_not_unit", kNormalNotUnit)
       .mistake_if(pulled_back(trace, v), "no_test_of_parting", kPulledBack)
@@ -184,6 +188,12 @@ Finding heavy_hits_light(const Lab& lab) {
       .mistake("masses_in_place_of_inverses", {changes > 2 ? together : kNever, together}, kInverses)
       .mistake("restitution_ignored", {changes > 2 ? kNever : together, together},
                "They go on together: with restitution 1 they part as fast as they came.")
+      .mistake("no_collision", {alike_is_right ? kNever : v, 0},
+               "The velocities do not change: no contact is found, or no impulse is applied.")
+      .otherwise_if(
+          alike_is_right, "masses_wrong",
+          "The collision is right for equal masses and wrong for 10 kg and 1 kg: the impulse is -(1 + "
+          "e) vn/(1/ma + 1/mb), and each velocity changes by it times its own inverse mass.")
       .mistake("masses_swapped", {v - j / light, j / heavy}, "Each ball gets the other's inverse mass.")
       .mistake("effective_mass_forgotten", {v - 2 * v / heavy, 2 * v / light},
                "The impulse is not divided by 1/m1 + 1/m2.")
@@ -319,12 +329,20 @@ Finding break_shot(const Lab& lab) {
     }
   }
   const double e0 = v * v / 2, ratio = energy / e0, p = std::hypot(momentum.x - v, momentum.y) / v;
+  double deepest = 0;  // in any step
+  for (const auto& states : trace.states)
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vec2d way = states[i].position - states[j].position;
+        deepest = std::max(deepest, 2 * r - std::hypot(way.x, way.y));
+      }
   const double parting = kick(lab);
   return Judgement()
       .read("momentum lost", "of all", p, 0, lab.rounding(20, 3))
       .read("energy kept", "of all", ratio, 1, 0.02)
       .read("overlap at the end", "m", overlap, 0, v * lab.dt())
       .read("speed apart of two that overlap", "m/s", parting, 0, 0.05)
+      .read("deepest overlap on the way", "m", deepest, 0, 3 * v * lab.dt() + 0.05 * r)
       .mistake_if(p > 0.01, "momentum_not_kept",
                   "Momentum is lost or gained: what one ball gets the other must lose. Do both get opposite "
                   "impulses, "
@@ -341,6 +359,8 @@ Finding break_shot(const Lab& lab) {
                   "Elastic balls lose energy: restitution is 1 here. Does a contact get two impulses a step, "
                   "or one that is "
                   "computed from velocities of before another contact?")
+      .mistake_if(deepest > r, "pairs_missed",
+                  "Balls go through each other: find the contacts of all pairs, not only of some.")
       .mistake_if(overlap > v * lab.dt(), "overlaps_stay",
                   "Balls stay in each other: correct their positions as well.")
       .finding();
@@ -384,6 +404,18 @@ Finding overlap_is_shared(const Lab& lab) try {
   throw;
 }
 
+// Returns true if a ball that rests falls freely in many single steps, because its contact is not found in
+// them.
+bool loses_contact(const Lab& lab, const Trace& trace, double g) {
+  const std::size_t n = trace.states.size(), from = n - n / 3;
+  std::size_t falls = 0;
+  for (std::size_t k = from; k < n; ++k) {
+    const double gain = trace.states[k][0].velocity.y - trace.states[k - 1][0].velocity.y;
+    falls += gain < -0.5 * g * lab.dt();
+  }
+  return 4 * falls > n - from && 4 * falls < 3 * (n - from);
+}
+
 Finding pile_rests(const Lab& lab) {
   const double r = 0.5, g = 9.81, drop = 0.1;
   const Body floor =
@@ -395,12 +427,28 @@ Finding pile_rests(const Lab& lab) {
   const double height = trace.last(0).position.y - r;
   const double gap = trace.last(1).position.y - trace.last(0).position.y - 2 * r;
   const double tolerance = g * lab.dt() * lab.dt() + 0.04 * r;
+  const bool through = height < -2 * r || gap < -2 * r;
+  const auto rests_alone = [&] {
+    return std::abs(lab.run(scene_of("one", {0, -g}, {lower, floor}), 1.5).last(0).position.y - r) <
+           tolerance;
+  };
+  const bool missed = through && rests_alone();
+  const bool lost = loses_contact(lab, trace, g);
   return Judgement()
       .read("lower ball above the floor", "m", height, 0, tolerance)
       .read("upper ball above the lower", "m", gap, 0, tolerance)
       .read("vy of the upper", "m/s", trace.last(1).velocity.y, 0, 2 * g * lab.dt())
       .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
-      .mistake_if(height < -2 * r || gap < -2 * r, "falls_through",
+      .mistake_if(
+          missed, "pairs_missed",
+          "A ball rests on the floor when it is alone, and falls through when there are two: find the "
+          "contacts of all pairs, not only of some.")
+      .mistake_if(
+          lost, "contact_lost",
+          "The lower ball is stopped in one step and falls in the next: what was pushed apart by all of "
+          "its overlap does not touch in the next step. Remove a share of the overlap a step, and leave "
+          "the last half millimetre.")
+      .mistake_if(through, "falls_through",
                   "A ball sinks through what it rests on: apply an impulse in each step in which two overlap "
                   "and close.")
       .mistake_if(height < -tolerance || gap < -tolerance, "sinks",

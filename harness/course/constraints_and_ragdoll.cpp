@@ -114,6 +114,11 @@ Finding stick_weighs_masses(const Lab& lab) {
       .mistake("shares_swapped",
                {force * t / light * heavy / (heavy + light), force * t / light * heavy / (heavy + light)},
                "The shares are swapped: the light end moves more, by inverse mass.")
+      .otherwise_if(
+          std::abs(momentum - force * t) < 0.001 * force * t, "joint_impulse_weak",
+          "The two ends part although the total momentum is right: the stick's impulse is too weak. "
+          "It is -dC/dt/(1/ma + 1/mb), not divided by ma + mb, and each end changes by it times its "
+          "own inverse mass.")
       .otherwise_if(std::abs(momentum - force * t) > 0.05 * force * t, "momentum_not_kept",
                     "The stick changes the total momentum: its two ends must get opposite impulses.")
       .finding();
@@ -224,12 +229,42 @@ Finding hinged_rod(const Lab& lab) {
   double to_unturned = l;
   for (std::size_t k = 0; k < trace.states.size() && trace.times[k] < 1; ++k)
     to_unturned = std::min(to_unturned, length(trace.states[k][0].position - Vec2d{l / 2, 0}));
+  // The anchor's speed along x and y: a hinge holds both at 0.
+  double slides_x = 0, slides_y = 0;
+  for (std::size_t k = 1; k < trace.states.size() && trace.times[k] < 0.5; ++k) {
+    const BodyState& s = trace.states[k][0];
+    const Vec2d arm = -l / 2 * Vec2d{std::cos(s.angle), std::sin(s.angle)};
+    slides_x = std::max(slides_x, std::abs(s.velocity.x - s.angular_velocity * arm.y));
+    slides_y = std::max(slides_y, std::abs(s.velocity.y + s.angular_velocity * arm.x));
+  }
+  const double less = std::min(slides_x, slides_y), more = std::max(slides_x, slides_y);
+  // The same rod on a post that it overlaps: joined bodies do not collide.
+  const auto gap_on_post = [&] {
+    Scene joined = scene;
+    joined.bodies.push_back(fixed(make(Crate{.name = "post", .width = 0.4, .height = 0.4})));
+    std::get<RevoluteJoint>(joined.joints.front()).body_a = "post";
+    double most = 0;
+    for (const auto& states : lab.run(joined, 1).states)
+      most = std::max(most, length(states[0].position -
+                                   l / 2 * Vec2d{std::cos(states[0].angle), std::sin(states[0].angle)}));
+    return most;
+  };
+  const double at_post = gap_on_post();
   const double due = period_with(about_end);
   const std::optional<double> period = period_of(trace, swing);
   const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
   return Judgement()
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
+      .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
+      .mistake_if(gap < 0.01 * l * lab.coarseness() && at_post > 0.01 * l * lab.coarseness(),
+                  "joined_bodies_collide",
+                  "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "
+                  "collide, unless \"collide\" is true.")
+      .mistake_if(more > 0.2 && less < 0.1 * more, "hinge_one_axis",
+                  fmt::format("The hinge holds its anchor along {0} and lets go along {1}: solve both, along "
+                              "(1, 0) and along (0, 1).",
+                              slides_x < slides_y ? "x" : "y", slides_x < slides_y ? "y" : "x"))
       .mistake_if(gap > 0.2 * l && to_unturned < l / 4, "anchor_not_turned",
                   "The anchor does not turn with the rod: turn \"anchor_b\" by the body's angle to get r.")
       .mistake_if(

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/error.h"
+#include "harness/course/flight.h"
 #include "reference/process_backend.h"
 
 namespace plumb::course {
@@ -57,10 +58,24 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
   }
 }
 
-Finding run(const Check& check, const Lab& lab, int& timeouts) {
+// Names a mistake that a free flight shows: it explains a failed check better than the figures do.
+void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
+  for (const Recorded& run : runs) {
+    const std::optional<Seen> seen = seen_in_flight(run);
+    if (!seen) continue;
+    finding.mistake = seen->mistake;
+    finding.says = seen->says;
+    return;
+  }
+}
+
+Finding run(const Check& check, const Lab& lab, const std::vector<Recorded>& runs, int& timeouts) {
   try {
     Finding out = check.run(lab);
-    if (out.verdict == Verdict::Fail) compare_with_second_run(check, lab, out);
+    if (out.verdict == Verdict::Fail) {
+      compare_with_second_run(check, lab, out);
+      if (out.mistake != "runs_differ") look_at_flights(runs, out);
+    }
     for (const Reading& reading : out.readings)
       if (!std::isfinite(reading.measured))
         return broken(fmt::format("{} is not a finite number", reading.what));
@@ -99,7 +114,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       const Lab lab(engine, settings, &outcome.runs);
       outcome.finding = timeouts >= kPatience
                             ? broken(fmt::format("not tried: the engine has hung {} times", timeouts))
-                            : run(check, lab, timeouts);
+                            : run(check, lab, outcome.runs, timeouts);
       if (!named.empty() && outcome.finding.mistake != named) outcome.finding.follows = named;
       if (named.empty()) named = outcome.finding.mistake;
       done(outcome);

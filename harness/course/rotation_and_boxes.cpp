@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,19 +21,32 @@ constexpr const char* kContacts =
     "\"shapes\":[\"circle\",\"box\"] and \"features\":[\"contacts\"]: boxes that turn and collide";
 
 Finding torque_spins(const Lab& lab) {
-  const double mass = 3, side = 0.8, torque = 0.32;
-  const double inertia = mass * (side * side + side * side) / 12;
-  Scene scene = scene_of("torque", {}, {make(Crate{.mass = mass, .width = side, .height = side})});
+  // Not a square, in which w^2 + h^2, 2 w h, and half of (w + h)^2 are the same.
+  const double mass = 3, width = 1.2, height = 0.5, torque = 0.4225;
+  const double share = mass / 12, inertia = share * (width * width + height * height);
+  Scene scene = scene_of("torque", {}, {make(Crate{.mass = mass, .width = width, .height = height})});
   scene.forces.emplace_back(Torque{.body = "box", .torque = torque});
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), w = torque / inertia * t;
+  const auto with = [&](double other) { return torque / (share * other) * t; };
   return Judgement()
       .read("spin after 1 s", "rad/s", trace.last(0).angular_velocity, w, lab.rounding(w, t))
       .mistake("inertia_sixth", {w / 2},
                "Twice too slow: is the inertia 1/6 where it should be 1/12? A box has m (w^2 + h^2)/12.")
-      .mistake(
-          "inertia_half", {2 * w},
-          "Twice too fast: is the inertia 1/24, or one side left out? A box has m (w^2 + h^2)/12, with both.")
+      .mistake("inertia_half", {2 * w}, "Twice too fast: is the inertia 1/24? A box has m (w^2 + h^2)/12.")
+      .mistake("one_side", {with(width * width)}, "The box's height is left out: a box has m (w^2 + h^2)/12.")
+      .mistake("one_side", {with(height * height)},
+               "The box's width is left out: a box has m (w^2 + h^2)/12.")
+      .mistake("thin_box_as_square", {with(2 * width * width)},
+               "The box spins as a square of its width does: w^2 + h^2, not 2 w^2.")
+      .mistake("thin_box_as_square", {with(2 * height * height)},
+               "The box spins as a square of its height does: w^2 + h^2, not 2 h^2.")
+      .mistake("square_of_sum", {with((width + height) * (width + height))},
+               "(w + h)^2 stands where w^2 + h^2 should.")
+      .mistake("box_by_area", {with(width * height)}, "w h stands where w^2 + h^2 should.")
+      .mistake("torque_without_dt", {w / lab.dt()},
+               "dt is missing: a step adds torque dt/I to the spin, not torque/I.")
+      .mistake("torque_dt_twice", {w * lab.dt()}, "dt enters twice: a step adds torque dt/I to the spin.")
       .mistake("inertia_third", {w / 4},
                "Four times too slow: 1/3 is a rod about its end; about its centre it is 1/12.")
       .mistake("half_sides", {4 * w},
@@ -245,7 +259,19 @@ Finding ball_hits_rod(const Lab& lab) {
       .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.005 * std::abs(w));
   if (judgement.good()) return judgement.finding();
   const bool right_at_origin = std::abs(meet({}).last(1).angular_velocity - w) < 0.02 * std::abs(w);
+  // A rod that turns about its centre at 2 rad/s, its end towards a ball that rests.
+  const auto turns_into_ball = [&] {
+    Body rod = make(Crate{.name = "rod", .mass = rod_mass, .width = width, .height = height});
+    rod.angular_velocity = -2;
+    const Body ball = make(Ball{.position = {0.4, arm}, .mass = m, .radius = 0.2});
+    return lab.run(scene_of("turning rod", {}, {ball, rod}), 0.3).last(0).velocity.x;
+  };
+  const bool passes = trace.last(0).velocity.x != v && std::abs(turns_into_ball()) < 1e-9;
   return judgement.mistake_if(right_at_origin, "lever_from_origin", kLever)
+      .mistake_if(
+          passes, "point_velocity",
+          "A rod that turns into a ball at rest does not push it: the speed at which two close is that "
+          "of their points, v + w x r, which is (vx - w ry, vy + w rx).")
       .mistake("r_cross_n_flipped", {v - j / m, j / rod_mass, -w}, kFlipped)
       .otherwise_if(trace.last(1).angular_velocity > -0.2 * w, "r_cross_n_flipped", kFlipped)
       .mistake(
@@ -289,11 +315,28 @@ Finding lands_flat(const Lab& lab) {
                               .height = side,
                               .restitution = e});
   const Trace trace = lab.run(scene_of("flat", {}, {box, ground(e, 0)}), 0.8);
+  const auto right = [&](const Trace& landing) {
+    return std::abs(landing.last(0).velocity.y - e * v) <= 0.005 * v &&
+           std::abs(landing.last(0).angular_velocity) <= 0.02;
+  };
+  // On ground of its own width there is nothing to clip.
+  const auto lands_on_its_width = [&] {
+    Body narrow = ground(e, 0);
+    narrow.position.x = box.position.x;
+    narrow.shapes.front().geometry = Box{side, 2};
+    return right(lab.run(scene_of("narrow", {}, {box, narrow}), 0.8));
+  };
+  const bool not_clipped = !right(trace) && !trace.still(0) && trace.last(0).velocity.y > -0.99 * v &&
+                           trace.last(0).angular_velocity != 0 && lands_on_its_width();
   return Judgement()
       .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.005 * v)
       .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)
       .mistake_if(trace.still(0), "starts_at_rest",
                   "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
+      .mistake_if(
+          not_clipped, "not_clipped",
+          "The box lands flat on ground of its own width and tips on wider ground: clip the side that "
+          "lands at both ends of the face, so that contact points lie on both bodies.")
       .mistake("no_collision", {-v, 0}, "The box goes through the ground.")
       .mistake("restitution_ignored", {0, 0}, "The box does not bounce: restitution is not used for boxes.")
       .mistake("always_elastic", {v, 0},
@@ -305,6 +348,19 @@ Finding lands_flat(const Lab& lab) {
                   "landing has two "
                   "contact points; go over them several times.")
       .finding();
+}
+
+// Returns the ratio of the speed to that of the step before, if it is the same and below 1 in most steps.
+std::optional<double> slowed_by_ratio(const Trace& trace) {
+  const std::size_t n = trace.states.size(), middle = n / 2;
+  const auto ratio = [&](std::size_t k) {
+    return trace.states[k][0].velocity.x / trace.states[k - 1][0].velocity.x;
+  };
+  const double kept = ratio(middle);
+  if (!(kept > 0 && kept < 1 - 1e-6)) return std::nullopt;
+  for (std::size_t k = n / 4; k < n; ++k)
+    if (std::abs(ratio(k) - kept) > 1e-3 * (1 - kept)) return std::nullopt;
+  return kept;
 }
 
 // Slides a flat box at 5 m/s. The coefficients 0.2 and 0.45 make 0.3 as their geometric mean.
@@ -324,6 +380,9 @@ Finding slides(const Lab& lab) {
   const auto with = [&](double mu) { return v - mu * kGravity * t; };
   const double mu = std::sqrt(mu_box * mu_ground), x = v * v / (2 * mu * kGravity);
   const double late = 3 * mu * kGravity * lab.dt();  // contact may begin, and end, some steps late
+  const std::optional<double> ratio = slowed_by_ratio(sliding);
+  const double early = sliding.times[sliding.times.size() / 4];
+  const double acts = (v - sliding.states[sliding.times.size() / 4][0].velocity.x) / (kGravity * early);
   const auto rule = [](const char* name) {
     return fmt::format("{}: \"contact_rules\" says geometric_mean, the root of their product.", name);
   };
@@ -346,6 +405,19 @@ Finding slides(const Lab& lab) {
                rule("The smaller coefficient, the box's, is taken"))
       .mistake("friction_maximum", {with(mu_ground), kAny, kAny},
                rule("The larger coefficient, the ground's, is taken"))
+      .mistake("friction_sum",
+               {std::max(0.0, with(mu_box + mu_ground)), kAny, v * v / (2 * kGravity * (mu_box + mu_ground))},
+               rule("The coefficients are added"))
+      .mistake_if(
+          ratio.has_value(), "friction_as_damping",
+          fmt::format("Friction multiplies the speed by {:.6g} in each step: it does not depend on the "
+                      "speed. Its impulse is at most mu times the one along the normal.",
+                      ratio.value_or(1)))
+      .otherwise_if(
+          std::abs(acts - mu) > 0.05 * mu, "friction_wrong",
+          fmt::format("The box is slowed as by a coefficient of {:.3g}, and the rule gives {:.3g}: the "
+                      "impulse of friction is at most mu times the one along the normal.",
+                      acts, mu))
       .mistake(
           "friction_twice", {with(2 * mu), kAny, kAny},
           "Friction is twice too strong: each of two contact points is limited by the impulse at that point.")

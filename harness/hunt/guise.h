@@ -19,6 +19,7 @@ enum class Guise : std::uint8_t {
   Observed,    ///< read, queried, saved and monitored after each step
   Refused,     ///< with calls between the steps that must be refused
   Overrun,     ///< with a body that goes beyond the world's numbers after half of the steps
+  Asked,       ///< asked queries, whose answers are held against the shapes' outlines
   Labelled,    ///< with other names and user data, and hit events
 };
 

@@ -15,6 +15,7 @@ struct Site {
   enum class Kind { Air, Floor, Enclosure } kind = Kind::Air;
   double width = 0;   ///< m, of the floor or the inside; its middle is x = 0, its ground y = 0
   double height = 0;  ///< m, of the inside
+  double wall = 0;    ///< m, thickness of an enclosure's walls
   double friction = 0.6;
   bool level = true;   ///< a floor that is flat and at rest
   bool moves = false;  ///< the ground moves or has a surface speed

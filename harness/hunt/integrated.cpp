@@ -21,6 +21,9 @@ constexpr double kKnown = 0.1;
 constexpr double kPreciseShare = 1e-5, kGrown = 1000;
 constexpr double kSteady = 0.25;  // of the bound, the most that a fixed step may change with half of it
 constexpr double kShare = 0.05;   // of the smallest body, of methods of first order
+// rad, turn within a step of a body that is pulled beside its centre, up to which such methods know where the
+// force points.
+constexpr double kMostTurn = 0.5;
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }
 Vec2d turned(double angle, Vec2d v) {
@@ -169,6 +172,10 @@ class Free {
     if (holder) push(out, *holder, arm, -1.0 * force);
   }
 
+  // Scenes with formulas are not `integrable`.
+  void add(const FormulaForce&, const std::vector<BodyState>&, double, Loads&) const {}
+  void add(const FormulaSpring&, const std::vector<BodyState>&, double, Loads&) const {}
+
   const Scene& scene_;
   std::vector<double> inertia_;
   std::set<double> switches_;
@@ -197,6 +204,23 @@ bool may_meet(const Case& one, const std::vector<BodyState>& states) {
   return false;
 }
 
+/// Returns for each body true if a force on it depends on its angle.
+std::vector<bool> pulled_beside_centre(const Scene& scene) {
+  std::vector<bool> out(scene.bodies.size(), false);
+  const auto mark = [&](const std::string& name, Vec2d arm) {
+    if (const auto at = find_body(scene, name); at && arm != Vec2d{}) out[*at] = true;
+  };
+  for (const ForceLaw& law : scene.forces) {
+    if (const auto* force = std::get_if<PointForce>(&law))
+      mark(force->body, force->frame == Frame::Body ? Vec2d{1, 0} : force->point);
+    if (const auto* force = std::get_if<SinusoidalForce>(&law)) mark(force->body, force->point);
+    if (const auto* spring = std::get_if<SpringForce>(&law))
+      mark(spring->body_a, spring->anchor_a), mark(spring->body_b, spring->anchor_b);
+    if (const auto* pull = std::get_if<AttractionForce>(&law)) mark(pull->centre_body, pull->centre);
+  }
+  return out;
+}
+
 double bound_of(const Case& one, const Engine& engine, double fastest, double hardest, double time) {
   if (engine.kind == Engine::Kind::Precise) return kPreciseShare * largest_size(one.scene);
   // Allows the displacement of three steps, and that of velocities that are one step late.
@@ -206,7 +230,7 @@ double bound_of(const Case& one, const Engine& engine, double fastest, double ha
 }  // namespace
 
 bool integrable(const Case& one) {
-  if (!one.scene.joints.empty() || one.scene.forces.empty()) return false;
+  if (!one.scene.joints.empty() || one.scene.forces.empty() || has_formulas(one.scene)) return false;
   return std::none_of(one.scene.bodies.begin(), one.scene.bodies.end(),
                       [](const Body& body) { return body.lock_x || body.lock_y || body.fixed_rotation; });
 }
@@ -224,6 +248,7 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
                         length(a[i].position - b[i].position) + reach[i] * std::abs(a[i].angle - b[i].angle));
     return most;
   };
+  const std::vector<bool> beside = pulled_beside_centre(one.scene);
   double fastest = 0, hardest = 0;
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     if (may_meet(one, fine)) return {};
@@ -231,6 +256,9 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     const std::vector<BodyState> before = fine;
     free.advance(coarse, from, to, kSteps), free.advance(fine, from, to, 2 * kSteps);
     for (std::size_t i = 0; i < fine.size(); ++i) {
+      if (beside[i] && engine.kind != Engine::Kind::Precise &&
+          std::abs(fine[i].angle - before[i].angle) > kMostTurn)
+        return {};
       fastest = std::max(fastest, length(fine[i].velocity) + reach[i] * std::abs(fine[i].angular_velocity));
       hardest = std::max(
           hardest, length(fine[i].velocity - before[i].velocity) / one.dt +

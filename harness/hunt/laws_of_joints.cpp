@@ -98,6 +98,7 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
         // Displacement error of a tangent step along a curved path, per substep.
         speed += std::abs(s.angular_velocity) * arm * std::min(1.0, std::abs(s.angular_velocity) * step);
       }
+      if (!(size > 0)) size = largest_size(one.scene);  // points, which have no size of their own
       const double gap = gaps.gap(i, states);
       const double bound =
           engine.kind == Engine::Kind::Precise ? 1e-5 * size : kGapShare * size + 2 * speed * step;

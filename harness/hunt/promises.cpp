@@ -62,6 +62,10 @@ Verdict observed(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "observed", "a world that is looked at goes on with the same bits",
                  {Guise::Observed});
 }
+Verdict asked(const Case& one, const Engine& engine, const Motion&) {
+  return compare(one, engine, "queries",
+                 "rays, casts, overlaps and distances are those of the shapes' outlines", {Guise::Asked});
+}
 Verdict refused(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "refused", "calls with numbers out of range are refused and change nothing",
                  {Guise::Refused});
@@ -90,6 +94,7 @@ const std::vector<Relation>& promises() {
                                          {"threads", is_world, threaded},
                                          {"widths", is_world, widths},
                                          {"observed", is_world, observed},
+                                         {"queries", is_world, asked},
                                          {"refused", is_world, refused},
                                          {"labels", is_world, labelled},
                                          {"overrun", is_world, overrun},

@@ -201,7 +201,8 @@ bool driven(const Case& one) {
   }
   for (const ForceLaw& law : one.scene.forces)
     if (std::holds_alternative<PointForce>(law) || std::holds_alternative<Torque>(law) ||
-        std::holds_alternative<SinusoidalForce>(law))
+        std::holds_alternative<SinusoidalForce>(law) || std::holds_alternative<FormulaForce>(law) ||
+        std::holds_alternative<FormulaSpring>(law))
       return true;
   return false;
 }

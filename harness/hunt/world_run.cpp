@@ -19,6 +19,7 @@
 #include "engine/world/scene/scene_forces.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/world_data.h"
+#include "harness/hunt/answers.h"
 #include "harness/hunt/guise.h"
 #include "harness/hunt/processor_time.h"
 
@@ -235,6 +236,8 @@ class Run {
       out.broken_promise = overrun(world_, case_.dt, case_.substeps);
       over_ = true;
     }
+    if (options_.guise == Guise::Asked && step % kBetweenLooks == 0)
+      out.broken_promise = wrong_answer(world_, case_.index + static_cast<std::uint64_t>(step));
     if (options_.guise == Guise::Refused && step % kBetweenRefusals == 0)
       out.broken_promise = not_refused(world_);
   }

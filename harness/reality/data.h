@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct MeasuredDrop {
 };
 
 inline constexpr double kFramesPerSecond = 250;
+/// Steps in which engines are run, s: a frame, and a quarter of one.
+inline constexpr std::array<double, 2> kSteps{1 / kFramesPerSecond, 1 / (4 * kFramesPerSecond)};
 inline constexpr const char* kImpactFile = "ellipse_impacts.csv";
 inline constexpr const char* kDropFile = "square_drops.csv";
 

@@ -1,12 +1,13 @@
 #include "harness/reality/drop_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "harness/reality/drop_motion.h"
-#include "harness/reality/sample.h"
+#include "harness/reality/linear_fit.h"
 
 namespace plumb::harness::reality {
 namespace {
@@ -43,83 +44,38 @@ double loss_of(std::span<const DropStart* const> drops, const DropLaw& law, std:
                  for_each(drops, [&](const DropStart& drop) { return solve(drop, law, values, kFitted); }));
 }
 
-/// Gradient of the loss, and the Gauss-Newton approximation of its second derivatives.
-struct Slope {
-  Values gradient, curvature;  // row after row
-};
-
-Slope slope_of(std::span<const DropStart* const> drops, const DropLaw& law, std::span<const double> values) {
+/// Residuals by time, with their derivatives.
+std::vector<Residuals> residuals_of(std::span<const DropStart* const> drops, const DropLaw& law,
+                                    std::span<const double> values) {
   const std::size_t n = values.size();
   const std::vector<DerivedPoses> found =
       for_each(drops, [&](const DropStart& drop) { return solve_derived(drop, law, values, kFitted); });
-  Slope out{Values(n, 0.0), Values(n * n, 0.0)};
-  for (std::size_t time = 0; time < kTimes.size(); ++time) {
-    struct Residual {
-      double error = 0;
-      MeasuredPose off{};
-      std::vector<MeasuredPose> by;
-    };
-    std::vector<Residual> residuals;
-    for (std::size_t i = 0; i < drops.size(); ++i) {
-      const Poses truth = measured(*drops[i], law, values), rate = measured_rates(*drops[i], law, values);
+  std::vector<Residuals> out(kTimes.size());
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    const Poses truth = measured(*drops[i], law, values), rate = measured_rates(*drops[i], law, values);
+    for (std::size_t time = 0; time < kTimes.size(); ++time) {
+      Residual& one = out[time].emplace_back();
+      one.error = std::numeric_limits<double>::infinity();
       if (!found[i].poses || !truth || !rate) continue;
-      const MeasuredPose &computed = (*found[i].poses)[time], &seen = (*truth)[time];
-      Residual one{pose_distance(computed, seen),
-                   {computed.position - seen.position, computed.angle - seen.angle},
-                   {}};
-      if (found[i].by[time]) {
-        one.by = *found[i].by[time];
-        one.by[1].position -= (*rate)[time].position, one.by[1].angle -= (*rate)[time].angle;
-        one.by[2].angle -= 1;  // the offset is added to the measured angle
-      }
-      residuals.push_back(std::move(one));
-    }
-    std::sort(residuals.begin(), residuals.end(),
-              [](const Residual& a, const Residual& b) { return a.error < b.error; });
-    const std::size_t quarter = residuals.size() / 4, end = residuals.size() - quarter;
-    double sum = 0;
-    for (std::size_t i = quarter; i < end; ++i) sum += residuals[i].error;
-    for (std::size_t i = quarter; i < end; ++i) {
-      const Residual& r = residuals[i];
-      if (r.by.empty() || !(r.error > 0)) continue;
-      const double weight = 1 / (sum * r.error);
-      const auto product = [](const MeasuredPose& a, const MeasuredPose& b) {
-        return dot(a.position, b.position) + kAngleWeight * a.angle * b.angle;
+      const auto components = [](const MeasuredPose& pose) {
+        return std::array{pose.position.x, pose.position.y, std::sqrt(kAngleWeight) * pose.angle};
       };
+      const MeasuredPose &computed = (*found[i].poses)[time], &seen = (*truth)[time];
+      const auto off = components({computed.position - seen.position, computed.angle - seen.angle});
+      one.off.assign(off.begin(), off.end());
+      one.error = pose_distance(computed, seen);
+      if (!found[i].by[time]) continue;
+      std::vector<MeasuredPose> by = *found[i].by[time];
+      by[1].position -= (*rate)[time].position, by[1].angle -= (*rate)[time].angle;
+      by[2].angle -= 1;  // the offset is added to the measured angle
+      one.by.resize(off.size() * n);
       for (std::size_t j = 0; j < n; ++j) {
-        out.gradient[j] += weight * product(r.by[j], r.off);
-        for (std::size_t k = 0; k < n; ++k) out.curvature[j * n + k] += weight * product(r.by[j], r.by[k]);
+        const auto column = components(by[j]);
+        for (std::size_t c = 0; c < column.size(); ++c) one.by[c * n + j] = column[c];
       }
     }
   }
   return out;
-}
-
-/// Solves (C + damping diag C) x = -g by Cholesky's method; parameters that change nothing stay.
-Values damped_step(const Slope& slope, double damping) {
-  const std::size_t n = slope.gradient.size();
-  Values l = slope.curvature, x(n);
-  for (std::size_t j = 0; j < n; ++j) {
-    double& own = l[j * n + j];
-    own = own > 0 ? own * (1 + damping) : 1;
-  }
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t i = j; i < n; ++i) {
-      double sum = l[i * n + j];
-      for (std::size_t k = 0; k < j; ++k) sum -= l[i * n + k] * l[j * n + k];
-      l[i * n + j] = i == j ? std::sqrt(std::max(sum, 1e-300)) : sum / l[j * n + j];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] = -slope.gradient[i];
-    for (std::size_t k = 0; k < i; ++k) x[i] -= l[i * n + k] * x[k];
-    x[i] /= l[i * n + i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = i + 1; k < n; ++k) x[i] -= l[k * n + i] * x[k];
-    x[i] /= l[i * n + i];
-  }
-  return x;
 }
 
 }  // namespace
@@ -131,7 +87,7 @@ Fit fit_drops(std::span<const DropStart* const> drops, const DropLaw& law) {
   double damping = kDamping;
   int tries = 0;
   for (int step = 0; step < kMostSteps && tries < kMostTries && !interrupted(); ++step) {
-    const Slope slope = slope_of(drops, law, best.values);
+    const Slope slope = slope_of(residuals_of(drops, law, best.values), best.values.size());
     const double before = best.loss;
     while (tries++ < kMostTries && damping <= kHardest && best.loss >= before && !interrupted()) {
       const Values change = damped_step(slope, damping);
@@ -148,6 +104,11 @@ Fit fit_drops(std::span<const DropStart* const> drops, const DropLaw& law) {
     if (before - best.loss < kDone) break;
   }
   return best;
+}
+
+std::vector<Estimate> intervals_of_drops(std::span<const DropStart* const> drops, const DropLaw& law,
+                                         std::span<const double> values, std::uint64_t seed) {
+  return with_intervals(values, law.parameters, residuals_of(drops, law, values), seed);
 }
 
 }  // namespace plumb::harness::reality

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "harness/reality/drops.h"
 #include "harness/reality/fit.h"
@@ -13,5 +15,9 @@ namespace plumb::harness::reality {
 /// impacts (`Simulation::sensitivities`); motions without a derivative do not direct a step, but count in the
 /// loss.
 Fit fit_drops(std::span<const DropStart* const> drops, const DropLaw& law);
+
+/// Returns fitted values with their intervals, see `with_intervals`.
+std::vector<Estimate> intervals_of_drops(std::span<const DropStart* const> drops, const DropLaw& law,
+                                         std::span<const double> values, std::uint64_t seed);
 
 }  // namespace plumb::harness::reality

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <future>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "harness/interrupt.h"
 #include "harness/reality/drops.h"
+#include "harness/reality/parallel.h"
 
 namespace plumb::harness::reality {
 
@@ -49,17 +48,10 @@ inline constexpr double kAngleWeight = 0.06 * 0.06 / 6;
 /// Returns the difference of two poses as the norm of the kinetic energy weighs it, m.
 double pose_distance(const MeasuredPose& a, const MeasuredPose& b);
 
-/// Computes `of` for all drops on two threads.
+/// Returns `of` for all drops, computed on two threads.
 template <class Of>
 auto for_each(std::span<const DropStart* const> drops, const Of& of) {
-  std::vector<decltype(of(*drops[0]))> out(drops.size());
-  const auto part = [&](std::size_t first) {
-    for (std::size_t i = first; i < drops.size() && !interrupted(); i += 2) out[i] = of(*drops[i]);
-  };
-  auto other = std::async(std::launch::async, part, std::size_t{1});
-  part(0);
-  other.get();
-  return out;
+  return in_parallel(drops.size(), [&](std::size_t i) { return of(*drops[i]); });
 }
 
 }  // namespace plumb::harness::reality

@@ -17,8 +17,6 @@ constexpr double kExact = 1e-9;
 /// Number of drops of the training half that a law is fitted on.
 constexpr std::size_t kFittedDrops = 120;
 
-constexpr std::array<double, 2> kSteps{1.0 / 250, 1.0 / 1000};
-
 Poses run(const reference::Backend& engine, const DropStart& start, const DropLaw& law,
           std::span<const double> values, double dt) {
   const Scene scene = scene_of(start, law, values);
@@ -46,18 +44,45 @@ double distance(const MeasuredPose& a, const MeasuredPose& b) {
   return std::sqrt(length_squared(a.position - b.position));
 }
 
+/// Distances of pairs of motions at a time.
+struct Distances {
+  std::vector<double> lengths, angles;
+};
+
+Distances distances(const std::vector<Poses>& a, const std::vector<Poses>& b, const std::vector<Poses>& also,
+                    std::size_t time) {
+  Distances out;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!a[i] || !b[i] || !also[i]) continue;
+    out.lengths.push_back(distance((*a[i])[time], (*b[i])[time]));
+    out.angles.push_back(std::abs((*a[i])[time].angle - (*b[i])[time].angle));
+  }
+  return out;
+}
+
 Differences differences(const std::vector<Poses>& a, const std::vector<Poses>& b, std::uint64_t seed) {
   Differences out;
   for (std::size_t time = 0; time < kTimes.size(); ++time) {
-    std::vector<double> lengths, angles;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (!a[i] || !b[i]) continue;
-      lengths.push_back(distance((*a[i])[time], (*b[i])[time]));
-      angles.push_back(std::abs((*a[i])[time].angle - (*b[i])[time].angle));
-    }
-    out.position[time] = estimate(lengths, 0.5, seed);
-    out.ninetieth[time] = estimate(lengths, 0.9, seed);
-    out.angle[time] = estimate(angles, 0.5, seed);
+    const Distances all = distances(a, b, a, time);
+    out.position[time] = estimate(all.lengths, 0.5, seed);
+    out.ninetieth[time] = estimate(all.lengths, 0.9, seed);
+    out.angle[time] = estimate(all.angles, 0.5, seed);
+    out.angle_ninetieth[time] = estimate(all.angles, 0.9, seed);
+  }
+  return out;
+}
+
+/// Returns the error of `found` against `exact` over that of `exact` against `seen`, drop by drop.
+Differences shares(const std::vector<Poses>& found, const std::vector<Poses>& exact,
+                   const std::vector<Poses>& seen, std::uint64_t seed) {
+  Differences out;
+  for (std::size_t time = 0; time < kTimes.size(); ++time) {
+    const Distances numerical = distances(found, exact, seen, time),
+                    law = distances(exact, seen, found, time);
+    out.position[time] = ratio(numerical.lengths, law.lengths, 0.5, seed);
+    out.ninetieth[time] = ratio(numerical.lengths, law.lengths, 0.9, seed);
+    out.angle[time] = ratio(numerical.angles, law.angles, 0.5, seed);
+    out.angle_ninetieth[time] = ratio(numerical.angles, law.angles, 0.9, seed);
   }
   return out;
 }
@@ -83,7 +108,8 @@ DropFindings examine_drops(std::span<const MeasuredDrop> drops,
     const auto exact =
         for_each(test, [&](const DropStart& drop) { return solve(drop, law, fit.values, kExact); });
     const auto truth = for_each(test, [&](const DropStart& drop) { return measured(drop, law, fit.values); });
-    out.laws.push_back({law.name, law.text, law.parameters, fit.values, differences(exact, truth, seed)});
+    out.laws.push_back({law.name, law.text, law.parameters, fit.values,
+                        intervals_of_drops(train, law, fit.values, seed), differences(exact, truth, seed)});
     if (&law != &drop_laws().front()) continue;
     first_exact = exact;
     first_measured = truth;
@@ -108,6 +134,7 @@ DropFindings examine_drops(std::span<const MeasuredDrop> drops,
         for (const Poses& poses : found) finding.failed += poses ? 0 : 1;
         finding.numerical = differences(found, first_exact, seed);
         finding.measured = differences(found, first_measured, seed);
+        finding.share = shares(found, first_exact, first_measured, seed);
       }
       const bool adaptive =
           finding.why_not.empty() && engine->method({.dt = dt}).scheme == reference::Scheme::Adaptive;

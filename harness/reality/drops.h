@@ -48,11 +48,12 @@ const std::vector<DropLaw>& drop_laws();
 /// Returns the scene of a drop: a square of uniform density over a floor at y = 0.
 Scene scene_of(const DropStart& start, const DropLaw& law, std::span<const double> values);
 
-/// Differences of two motions at each of `kTimes`.
+/// Differences of two motions at each of `kTimes`, with their intervals.
 struct Differences {
-  std::array<Estimate, kTimes.size()> position;   ///< m, median with its interval
-  std::array<Estimate, kTimes.size()> ninetieth;  ///< m, 90th percentile with its interval
-  std::array<Estimate, kTimes.size()> angle;      ///< rad, median
+  std::array<Estimate, kTimes.size()> position;         ///< m, median
+  std::array<Estimate, kTimes.size()> ninetieth;        ///< m, 90th percentile
+  std::array<Estimate, kTimes.size()> angle;            ///< rad, median
+  std::array<Estimate, kTimes.size()> angle_ninetieth;  ///< rad, 90th percentile
 };
 
 /// A law solved to a tolerance, against the measurement.
@@ -60,7 +61,8 @@ struct DropFinding {
   std::string name, text;
   std::vector<Parameter> parameters;
   std::vector<double> values;
-  Differences model;  ///< exact motion under the law, against the measured one
+  std::vector<Estimate> fitted;  ///< the values with the intervals of fits to bootstrap samples
+  Differences model;             ///< exact motion under the law, against the measured one
 };
 
 /// An engine at a step, under the first law that it has.
@@ -71,6 +73,7 @@ struct EngineFinding {
   int failed = 0;         ///< drops that it did not finish
   Differences numerical;  ///< against the same law solved to a tolerance
   Differences measured;   ///< against the measurement
+  Differences share;      ///< numerical over the law's error: numbers
 };
 
 struct DropFindings {

@@ -10,8 +10,13 @@
 #include "harness/reality/data.h"
 #include "harness/reality/fit.h"
 #include "harness/reality/sample.h"
+#include "reference/backend.h"
 
 namespace plumb::harness::reality {
+
+/// Inertia over mass of a uniform ellipse of 70 mm x 50 mm, m^2: (a^2 + b^2) / 4. It weighs all errors alike,
+/// whatever inertia a law is fitted with.
+inline constexpr double kUniformEllipse = (0.035 * 0.035 + 0.025 * 0.025) / 4;
 
 /// A law of impact with its parameters. The first is always the inertia over the mass, m^2.
 struct EllipseLaw {
@@ -33,10 +38,29 @@ struct EllipseFinding {
   bool of_this_floor = false;
   std::vector<Parameter> parameters;
   std::vector<double> values;    ///< fitted on the training half
-  double validated = 0;          ///< median error by cross-validation within the training half
-  double train = 0;              ///< median error on the training half
+  std::vector<Estimate> fitted;  ///< the same with the intervals of fits to bootstrap samples of that half
+  Estimate validated;            ///< median error by cross-validation within the training half
+  Estimate train;                ///< median error on the training half
   Estimate median, ninetieth;    ///< on the test half
   std::vector<double> errors{};  ///< on the test half, sorted
+};
+
+/// Median and 90th percentile.
+struct Quantiles {
+  Estimate median, ninetieth;
+};
+
+/// An engine at a step, whose impacts are at a disc where the measured contact was. Errors are those of the
+/// velocity after the impact, as above.
+struct EllipseEngine {
+  std::string engine, law;
+  double dt = 0;          ///< s; 0: to a tolerance
+  std::string why_not{};  ///< reason if it was not run
+  int failed = 0;         ///< impacts that it did not finish
+  Quantiles numerical;    ///< against the same law solved to a tolerance
+  Quantiles of_the_law;   ///< that against the measurement
+  Quantiles measured;     ///< against the measurement
+  Quantiles share;        ///< numerical over the law's
 };
 
 struct EllipseFindings {
@@ -44,9 +68,17 @@ struct EllipseFindings {
   std::vector<EllipseFinding> laws;              ///< in the order of `ellipse_laws`
   EllipseFinding bound;                          ///< the best impulse at the contact, with the best inertia
   std::size_t best = 0, best_of_all_floors = 0;  ///< laws with the least `validated`
+  std::vector<EllipseEngine> engines;            ///< under the first law
 };
 
-/// Fits every law on one half of the impacts and tests it on the other.
-EllipseFindings examine_ellipse(std::span<const MeasuredImpact> impacts, std::uint64_t seed);
+/// Fits every law on one half of the impacts and tests it on the other, and the engines on that.
+EllipseFindings examine_ellipse(std::span<const MeasuredImpact> impacts, std::uint64_t seed,
+                                std::span<const reference::Backend* const> engines = {});
+
+/// Runs engines under a law with its fitted values: inertia over mass, friction, restitution.
+std::vector<EllipseEngine> examine_ellipse_engines(std::span<const MeasuredImpact* const> test,
+                                                   const EllipseFinding& law,
+                                                   std::span<const reference::Backend* const> engines,
+                                                   std::uint64_t seed);
 
 }  // namespace plumb::harness::reality

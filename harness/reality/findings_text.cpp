@@ -1,3 +1,5 @@
+#include <array>
+
 #include <fmt/format.h>
 
 #include "harness/reality/reality.h"
@@ -10,26 +12,50 @@ std::string with_interval(const Estimate& estimate, double scale, int digits) {
                      digits, scale * estimate.high, digits);
 }
 
-std::string fitted_text(std::span<const Parameter> parameters, std::span<const double> values) {
+/// With three significant digits, which tells an error of rounding from none.
+std::string significant(const Estimate& estimate, double scale) {
+  return fmt::format("{:.3g} [{:.3g} {:.3g}]", scale * estimate.value, scale * estimate.low,
+                     scale * estimate.high);
+}
+
+std::string fitted_text(std::span<const Parameter> parameters, std::span<const Estimate> values) {
   std::string out;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const std::string unit = *parameters[i].unit == '\0' ? "" : std::string(" ") + parameters[i].unit;
-    out += fmt::format("{}{} {:.3g}{}", i == 0 ? "" : ", ", parameters[i].name, values[i], unit);
+    out += fmt::format("{}{} {}{}", i == 0 ? "" : ", ", parameters[i].name, significant(values[i], 1), unit);
   }
   return out;
 }
 
 std::string ellipse_line(const EllipseFinding& law, const std::string& mark) {
-  return fmt::format("  {:<24}{:>2}  {:>6.3f}  {:<22}{:<22}{}\n", law.name, law.parameters.size(),
-                     law.validated, with_interval(law.median, 1, 3), with_interval(law.ninetieth, 1, 3),
-                     mark);
+  return fmt::format("  {:<24}{:>2}  {:<22}{:<22}{:<22}{}\n", law.name, law.parameters.size(),
+                     with_interval(law.validated, 1, 3), with_interval(law.median, 1, 3),
+                     with_interval(law.ninetieth, 1, 3), mark);
 }
 
-std::string position_columns(const Differences& differences) {
+std::string columns(const std::array<Estimate, kTimes.size()>& estimates, double scale) {
   std::string out;
-  for (const Estimate& estimate : differences.position)
-    out += fmt::format(" {:>21}", with_interval(estimate, 1e3, 2));
+  for (const Estimate& estimate : estimates) out += fmt::format(" {:>29}", significant(estimate, scale));
   return out;
+}
+
+std::string name_of(const std::string& engine, double dt) {
+  return dt > 0 ? fmt::format("{} {:.0f} Hz", engine, 1 / dt) : engine;
+}
+
+/// Returns the lines of the engines in the ellipse's impacts.
+std::string ellipse_engine_lines(const EllipseFindings& ellipse) {
+  if (ellipse.engines.empty()) return "";
+  std::string out = fmt::format("  {:<24}{:<30}{:<30}{}\n", "engine, " + ellipse.laws.front().name,
+                                "numerical, median", "90 %", "numerical / law, %");
+  for (const EllipseEngine& engine : ellipse.engines) {
+    out += fmt::format("  {:<24}", name_of(engine.engine, engine.dt));
+    out += engine.why_not.empty() ? fmt::format("{:<30}{:<30}{}\n", significant(engine.numerical.median, 1),
+                                                significant(engine.numerical.ninetieth, 1),
+                                                significant(engine.share.median, 100))
+                                  : engine.why_not + "\n";
+  }
+  return out + "\n";
 }
 
 }  // namespace
@@ -41,7 +67,7 @@ std::string to_text(const Findings& findings, const Style& style) {
       title(fmt::format("Ellipse: velocity after an impact, relative error ({} impacts, {} doubted "
                         "left out; seed {})",
                         ellipse.impacts, ellipse.doubted, findings.seed));
-  out += fmt::format("  {:<24}{:>2}  {:>6}  {:<22}{}\n", "law", "p", "cv", "test median", "90 %");
+  out += fmt::format("  {:<24}{:>2}  {:<22}{:<22}{}\n", "law", "p", "cv", "test median", "90 %");
   for (std::size_t i = 0; i < ellipse.laws.size(); ++i) {
     const std::string mark = i == ellipse.best ? "best by cross-validation"
                              : i == ellipse.best_of_all_floors
@@ -52,25 +78,28 @@ std::string to_text(const Findings& findings, const Style& style) {
   out += ellipse_line(ellipse.bound, "best impulse at the contact point");
   out +=
       "  p: parameters fitted on one half; cv: median error by cross-validation in that half; [95 % "
-      "interval]\n\n";
+      "interval]\n";
+  for (const EllipseFinding& law : ellipse.laws)
+    out += fmt::format("  {:<24}{}\n", law.name, fitted_text(law.parameters, law.fitted));
+  out += "\n" + ellipse_engine_lines(ellipse);
 
   const DropFindings& drops = findings.drops;
   out += title(fmt::format("Square: position after the first impact, mm ({} drops, {} left out, {} tested)",
                            drops.drops, drops.left_out, drops.tested));
   std::string heads;
-  for (const double time : kTimes) heads += fmt::format(" {:>21}", fmt::format("{:.0f} ms", 1e3 * time));
+  for (const double time : kTimes) heads += fmt::format(" {:>29}", fmt::format("{:.0f} ms", 1e3 * time));
   out += fmt::format("  {:<22}{}\n", "law, against measured", heads);
   for (const DropFinding& law : drops.laws)
-    out += fmt::format("  {:<22}{}\n    {}\n", law.name, position_columns(law.model),
-                       fitted_text(law.parameters, law.values));
+    out += fmt::format("  {:<22}{}\n    {}\n", law.name, columns(law.model.position, 1e3),
+                       fitted_text(law.parameters, law.fitted));
   out += fmt::format("  {:<22}{}\n", "engine, numerical", heads);
   for (const EngineFinding& engine : drops.engines) {
-    const std::string name =
-        engine.dt > 0 ? fmt::format("{} {:.0f} Hz", engine.engine, 1 / engine.dt) : engine.engine;
+    const std::string name = name_of(engine.engine, engine.dt);
     if (!engine.why_not.empty()) {
       out += fmt::format("  {:<22} {}\n", name, engine.why_not);
     } else {
-      out += fmt::format("  {:<22}{}\n", name, position_columns(engine.numerical));
+      out += fmt::format("  {:<22}{}\n  {:<22}{}\n", name, columns(engine.numerical.position, 1e3),
+                         "  of the law's, %", columns(engine.share.position, 100));
     }
   }
   return out + "  numerical: against the law's exact motion, by Precise\n";

@@ -57,7 +57,7 @@ std::string ellipse_picture(const Findings& findings) {
   const auto at = [&](double error, double share) {
     return std::array<double, 2>{kLeft + kWide * error / kLargest, kTop + kHigh * (1 - share)};
   };
-  std::string out = open(880, 370, "Share of the measured impacts whose error is below a value");
+  std::string out = open(960, 370, "Share of the measured impacts whose error is below a value");
   for (int i = 0; i <= 4; ++i) {
     const double share = 0.25 * i, y = at(0, share)[1];
     out += line(kLeft, y, kLeft + kWide, y) +
@@ -82,11 +82,13 @@ std::string ellipse_picture(const Findings& findings) {
     out += fmt::format("<path class=\"curve c{}\" d=\"{}\"/>\n", kind, path);
     const double y = kTop + 20 + 22 * static_cast<double>(k);
     out += fmt::format("<path class=\"curve c{}\" d=\"M640 {:.0f}h30\"/>\n", kind, y);
-    out += label(678, y + 4, fmt::format("{} ({:.3f})", shown[k]->name, shown[k]->median.value));
+    out += label(678, y + 4,
+                 fmt::format("{} {:.3f} [{:.3f} {:.3f}]", shown[k]->name, shown[k]->median.value,
+                             shown[k]->median.low, shown[k]->median.high));
   }
   return out +
-         label(640, kTop + 20 + 22 * static_cast<double>(shown.size()) + 4, "in brackets: the median",
-               "start", "soft") +
+         label(640, kTop + 20 + 22 * static_cast<double>(shown.size()) + 4,
+               "the median, in brackets 95 % of samples", "start", "soft") +
          "</svg>\n";
 }
 
@@ -102,7 +104,7 @@ std::string engine_picture(const Findings& findings) {
     if (engine.why_not.empty()) rows.push_back(&engine);
   const double height = kTop + static_cast<double>(rows.size()) * (2 * kHigh + kGap) + 40;
   std::string out =
-      open(860, static_cast<int>(height), "Numerical error and error of the law, engine by engine");
+      open(900, static_cast<int>(height), "Numerical error and error of the law, engine by engine");
   out += label(kLeft, 18,
                fmt::format("Position {:.0f} ms after the first impact, median: blue, numerical error; "
                            "orange, error of the law (log scale)",
@@ -112,10 +114,15 @@ std::string engine_picture(const Findings& findings) {
     const double x = kLeft + kWide * i / 5;
     out += line(x, kTop - 6, x, height - 34) + label(x, height - 16, names[i], "middle", "soft");
   }
-  const double law_error = findings.drops.laws.front().model.position[kTime].value;
+  const Estimate& law = findings.drops.laws.front().model.position[kTime];
+  const double law_error = law.value;
+  const auto in_millimetres = [](const Estimate& e) {
+    return fmt::format("{:.3g} [{:.3g} {:.3g}] mm", 1e3 * e.value, 1e3 * e.low, 1e3 * e.high);
+  };
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double y = kTop + static_cast<double>(k) * (2 * kHigh + kGap);
-    const double error = rows[k]->numerical.position[kTime].value;
+    const Estimate& numerical = rows[k]->numerical.position[kTime];
+    const double error = numerical.value;
     out += label(
         kLeft - 8, y + kHigh + 4,
         rows[k]->dt > 0 ? fmt::format("{} {:.0f} Hz", rows[k]->engine, 1 / rows[k]->dt) : rows[k]->engine,
@@ -124,8 +131,8 @@ std::string engine_picture(const Findings& findings) {
                        kLeft, y, std::max(1.0, x_of(error) - kLeft), kHigh);
     out += fmt::format("<rect class=\"law\" x=\"{}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>\n", kLeft,
                        y + kHigh, x_of(law_error) - kLeft, kHigh);
-    out += label(std::max(x_of(error), kLeft + 1) + 6, y + kHigh - 4, fmt::format("{:.3g} mm", 1e3 * error));
-    out += label(x_of(law_error) + 6, y + 2 * kHigh - 4, fmt::format("{:.3g} mm", 1e3 * law_error));
+    out += label(std::max(x_of(error), kLeft + 1) + 6, y + kHigh - 4, in_millimetres(numerical));
+    out += label(x_of(law_error) + 6, y + 2 * kHigh - 4, in_millimetres(law));
   }
   return out + "</svg>\n";
 }

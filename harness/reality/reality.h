@@ -29,13 +29,14 @@ struct Figure {
   std::string_view body;  ///< "ellipse", "square"
   std::string_view law, engine;
   double dt = 0;              ///< s; 0: a formula, or steps to a tolerance
-  std::string_view error;     ///< "law": exact motion against measurement; "numerical"; "total"
+  std::string_view error;     ///< "law": exact motion against measurement; "numerical"; "total"; "share":
+                              ///< numerical over law
   double after = 0;           ///< s after the first impact
   std::string_view quantity;  ///< "velocity", "position", "angle"
   std::string_view unit;      ///< "1", "m", "rad"
   int parameters = 0;         ///< fitted on the training half
   Estimate median;
-  Estimate ninetieth;  ///< percentile; nan where it was not found
+  Estimate ninetieth;  ///< percentile
 };
 std::vector<Figure> figures_of(const Findings& findings);
 

@@ -5,11 +5,14 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <utility>
 
 namespace plumb::harness::reality {
 namespace {
 
 constexpr int kBootstraps = 1000;
+/// Quantiles that 95 % of the samples lie between.
+constexpr double kLow = 0.025, kHigh = 0.975;
 
 std::size_t below(std::mt19937_64& random, std::size_t count) { return random() % count; }
 
@@ -47,17 +50,43 @@ double middle_mean(std::vector<double> values) {
   return sum / static_cast<double>(values.end() - values.begin() - 2 * quarter);
 }
 
+Estimate interval_of(double value, const std::vector<double>& found) {
+  return {value, quantile(found, kLow), quantile(found, kHigh)};
+}
+
+Estimate ratio(std::span<const double> values, std::span<const double> others, double share,
+               std::uint64_t seed) {
+  const auto quotient = [share](std::vector<double> some, std::vector<double> all) {
+    return quantile(std::move(some), share) / quantile(std::move(all), share);
+  };
+  std::vector<double> drawn(values.size()), drawn_others(values.size()), found;
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < kBootstraps && !values.empty(); ++i) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t pair = below(random, values.size());
+      drawn[k] = values[pair], drawn_others[k] = others[pair];
+    }
+    found.push_back(quotient(drawn, drawn_others));
+  }
+  return interval_of(quotient({values.begin(), values.end()}, {others.begin(), others.end()}), found);
+}
+
+std::vector<std::size_t> resample(std::size_t count, std::uint64_t seed, std::uint64_t number) {
+  std::seed_seq sequence{seed, number};
+  std::mt19937_64 random(sequence);
+  std::vector<std::size_t> out(count);
+  for (std::size_t& index : out) index = below(random, count);
+  return out;
+}
+
 Estimate estimate(std::span<const double> values, double share, std::uint64_t seed) {
-  Estimate out{quantile({values.begin(), values.end()}, share)};
   std::vector<double> drawn(values.size()), found;
   std::mt19937_64 random(seed);
   for (int i = 0; i < kBootstraps && !values.empty(); ++i) {
     for (double& value : drawn) value = values[below(random, values.size())];
     found.push_back(quantile(drawn, share));
   }
-  out.low = quantile(found, 0.025);
-  out.high = quantile(found, 0.975);
-  return out;
+  return interval_of(quantile({values.begin(), values.end()}, share), found);
 }
 
 }  // namespace plumb::harness::reality

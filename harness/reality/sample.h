@@ -25,8 +25,19 @@ double quantile(std::vector<double> values, double share);
 /// value to the next when all change a little. Nan for none.
 double middle_mean(std::vector<double> values);
 
+/// Returns a value with the interval that holds 95 % of what bootstrap samples gave.
+Estimate interval_of(double value, const std::vector<double>& found);
+
 /// Returns the quantile with its interval from 1000 bootstrap samples (percentiles 2.5 and 97.5 of theirs).
 /// Source: Efron and Tibshirani, An Introduction to the Bootstrap (1993), 13.3.
 Estimate estimate(std::span<const double> values, double share, std::uint64_t seed);
+
+/// Returns the quantile of `values` divided by that of `others`, whose elements belong together pair by pair,
+/// with its interval from bootstrap samples of pairs.
+Estimate ratio(std::span<const double> values, std::span<const double> others, double share,
+               std::uint64_t seed);
+
+/// Returns `count` numbers below `count`, drawn with replacement: bootstrap sample `number` of a seed.
+std::vector<std::size_t> resample(std::size_t count, std::uint64_t seed, std::uint64_t number);
 
 }  // namespace plumb::harness::reality

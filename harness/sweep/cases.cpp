@@ -32,8 +32,7 @@ Cases::Own& Cases::own(const reference::Backend& backend) {
 
 const OwnLimit& Cases::limit(const reference::Backend& backend) { return *own(backend).limit; }
 
-const Case& Cases::at(const reference::Backend& backend, double dt) {
-  const double sample = sample_interval(dt);
+const Case& Cases::sampled(const reference::Backend& backend, double sample) {
   auto& known = cases_[{has_truth_ ? std::string() : std::string(backend.name()), sample}];
   if (known) return *known;
   scenarios::Instance instance = instance_;

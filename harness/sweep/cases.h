@@ -24,7 +24,11 @@ class Cases {
   bool has_truth() const { return has_truth_; }
 
   /// Returns the reference for a run with steps of `dt`. Throws `Error` (Run) if the engine has no limit.
-  const Case& at(const reference::Backend& backend, double dt);
+  const Case& at(const reference::Backend& backend, double dt) {
+    return sampled(backend, sample_interval(dt));
+  }
+  /// Returns the reference with states `sample` s apart.
+  const Case& sampled(const reference::Backend& backend, double sample);
 
   /// Returns the engine's own limit; only used if `has_truth` is false.
   const OwnLimit& limit(const reference::Backend& backend);

@@ -117,4 +117,9 @@ bool any_worse(std::span<const Difference> rows) {
   });
 }
 
+bool all_same(std::span<const Difference> rows) {
+  return std::ranges::all_of(
+      rows, [](const Difference& row) { return row.before == row.after && row.errors.empty(); });
+}
+
 }  // namespace plumb::harness::sweep

@@ -54,6 +54,9 @@ std::vector<Difference> differences(std::span<const Result> before, std::span<co
 /// Returns true if anything is worse: an error, a cost, or a run that was ok before and is not now.
 bool any_worse(std::span<const Difference> rows);
 
+/// Returns true if every run is in both, ended alike, and has the same bits in every error.
+bool all_same(std::span<const Difference> rows);
+
 /// Formats the changes, worse first, with the number of each kind.
 std::string difference_table(std::span<const Difference> rows, const Style& style);
 std::string difference_json(std::span<const Difference> rows);

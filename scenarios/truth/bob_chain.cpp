@@ -3,17 +3,19 @@
 #include <cmath>
 #include <memory>
 
+#include "scenarios/truth/set_up.h"
+
 namespace plumb::scenarios::truth {
 
 Scene BobChain::scene(Scene scene) const {
-  Vec2<Real> end{};
+  Vec2d end{};
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    end += turned(angles[i], {0, -1});
+    end += set_up::turned(angles[i], {0, -1});
     const std::string name = "bob" + std::to_string(i);
     const std::string above = i == 0 ? std::string(kWorld) : scene.bodies.back().name;
     scene.joints.push_back(
         DistanceJoint{.name = "rod" + std::to_string(i), .body_a = above, .body_b = name, .length = 1});
-    scene.bodies.push_back(piece(name, end.as<double>(), untouchable(Circle{0.1}), masses[i]));
+    scene.bodies.push_back(piece(name, end, untouchable(Circle{0.1}), masses[i]));
   }
   return scene;
 }
@@ -65,22 +67,22 @@ Truth BobChain::truth(const Scene& scene) const {
                            }));
 }
 
-Real laguerre(int n, Real x) {
-  Real before = 1, now = 1 - x;
+double laguerre(int n, double x) {
+  double before = 1, now = 1 - x;
   if (n == 0) return before;
   for (int k = 1; k < n; ++k) {
-    const Real next = ((2 * k + 1 - x) * now - k * before) / (k + 1);
+    const double next = ((2 * k + 1 - x) * now - k * before) / (k + 1);
     before = now;
     now = next;
   }
   return now;
 }
 
-Real smallest_laguerre_zero(int n) {
-  Real x = 0;  // L_n falls and is convex from here to its first zero; x L_n' = n (L_n - L_(n-1))
+double smallest_laguerre_zero(int n) {
+  double x = 0;  // L_n falls and is convex from here to its first zero; x L_n' = n (L_n - L_(n-1))
   for (int i = 0; i < 100; ++i) {
-    const Real value = laguerre(n, x);
-    const Real slope = x == 0 ? -n : n * (value - laguerre(n - 1, x)) / x;
+    const double value = laguerre(n, x);
+    const double slope = x == 0 ? -n : n * (value - laguerre(n - 1, x)) / x;
     x -= value / slope;
   }
   return x;

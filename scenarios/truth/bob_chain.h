@@ -27,9 +27,9 @@ struct BobChain {
 /// Returns the smallest zero of the Laguerre polynomial L_n. Small swings of n equal bobs have w^2 = g/L
 /// times its zeros, and bob i from below then moves by L_i in proportion. Source: Bernoulli, 1733; Newton's
 /// method.
-Real smallest_laguerre_zero(int n);
+double smallest_laguerre_zero(int n);
 
 /// Returns L_n(x), by recurrence.
-Real laguerre(int n, Real x);
+double laguerre(int n, double x);
 
 }  // namespace plumb::scenarios::truth

@@ -5,6 +5,7 @@
 
 #include "engine/scene/error.h"
 #include "scenarios/truth/phases.h"
+#include "scenarios/truth/set_up.h"
 
 namespace plumb::scenarios::truth {
 namespace {
@@ -41,11 +42,12 @@ void on_floor_alone(const State& y, State& rate) {
 Scene ladder_scene(std::string_view name, std::string_view variant, double angle, double friction) {
   Scene scene = scene_of(name, variant);
   const double half = kLadder / 2;
+  const Vec2d way = set_up::direction(angle);
   const Shape shape = solid(Polygon{{{-half, 0}, {0, -0.02}, {half, 0}, {0, 0.02}}}, friction);
   scene.bodies = {ground(friction),
                   fixed("wall", {-1, 2}, solid(Box{2, 6})),
                   {.name = "ladder",
-                   .position = half * Vec2d{std::sin(angle), std::cos(angle)},
+                   .position = half * Vec2d{way.y, way.x},
                    .angle = angle + std::numbers::pi / 2,
                    .inertia = kLadder * kLadder / 12,
                    .shapes = {shape}}};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/scene/error.h"
+#include "scenarios/truth/set_up.h"
 
 namespace plumb::scenarios::truth {
 
@@ -61,11 +62,13 @@ Body ground(double friction, double restitution) {
 }
 
 Body ramp(double tilt, double friction, double restitution) {
-  return fixed("ramp", {-std::sin(tilt), -std::cos(tilt)}, solid(Box{40, 2}, friction, restitution), -tilt);
+  const Vec2d way = set_up::direction(tilt);
+  return fixed("ramp", {-way.y, -way.x}, solid(Box{40, 2}, friction, restitution), -tilt);
 }
 
 Body on_ramp(double tilt, Body body, double height) {
-  body.position = height * Vec2d{std::sin(tilt), std::cos(tilt)};
+  const Vec2d way = set_up::direction(tilt);
+  body.position = height * Vec2d{way.y, way.x};
   body.angle = -tilt;
   return body;
 }

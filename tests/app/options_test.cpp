@@ -74,6 +74,20 @@ bool is_number(const std::string& type) {
   return kNumbers.count(type.substr(0, type.find(':'))) > 0;
 }
 
+// A length of a step is written alike wherever it is given.
+TEST(Options, AnOptionHasOneTypeInEverySubcommand) {
+  std::map<std::string, std::map<std::string, std::string>> types;  // option, type: a subcommand
+  for (const std::string& subcommand : subcommands()) {
+    if (plumb({subcommand, "--help"}).code != 0) continue;
+    for (const Option& option : options_of(subcommand)) {
+      types[option.name][option.type.substr(0, option.type.find(':'))] = subcommand;
+    }
+  }
+  for (const std::string option : {"--dt", "--duration", "--budget", "--timeout", "--substeps"}) {
+    EXPECT_EQ(types[option].size(), 1u) << option << " of " << types[option].begin()->second << " and others";
+  }
+}
+
 TEST(Options, BadNumbersAreRefusedInOneLine) {
   const std::vector<std::string> bad{"nan", "-inf", "-1",  "1e400", "1/0", "",
                                      "abc", "1x",   "1,5", "0x",    "\xFF"};

@@ -54,6 +54,37 @@ TEST(Sweep, KilledInTheMiddleTheSameCommandGoesOn) {
   EXPECT_NE(same.out.find("costs: 0 better, 0 worse"), std::string::npos) << same.out;
 }
 
+// The settings that a sweep chose, its engines and its instants of measurement are all in its results.
+TEST(Compare, RunsOfASweepMadeAgainAreTheSameToTheBit) {
+  const Folder folder;
+  const Ran swept = plumb({"sweep", "free_fall/drag", "--engine", "plumb,plumb-precise,box2d", "--budget",
+                           "3", "--out", folder.path("s")});
+  ASSERT_EQ(swept.code, 0) << swept.err;
+  // Finer than what a sweep measures at.
+  ASSERT_EQ(plumb({"compare", "free_fall/vacuum", "--engine", "plumb", "--dt", "1/1000", "--no-cost",
+                   "--no-report", "--out", folder.path("s")})
+                .code,
+            0);
+  const std::size_t count = lines_of(folder.read("s/results.jsonl")).size();
+  const std::vector<std::string> command = {
+      "compare", "--again", folder.path("s"), "--out", folder.path("again"), "--jobs", "2"};
+  const Ran again = plumb(command);
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_NE(again.out.find("all runs are the same to the bit"), std::string::npos) << again.out;
+  EXPECT_EQ(lines_of(folder.read("again/results.jsonl")).size(), count);
+  // Complete runs are not made a second time.
+  EXPECT_EQ(plumb(command).code, 0);
+  EXPECT_EQ(lines_of(folder.read("again/results.jsonl")).size(), count);
+
+  std::string one_digit = folder.read("s/results.jsonl");
+  one_digit.insert(one_digit.find("\"position_error\":") + 17, "1");
+  folder.write("s/results.jsonl", one_digit);
+  const Ran differs = plumb(command);
+  EXPECT_EQ(differs.code, 1);
+  EXPECT_NE(differs.out.find("not all runs are the same"), std::string::npos) << differs.out;
+  EXPECT_EQ(plumb({"compare", "--again", folder.path("s"), "--out", folder.path("s")}).code, 2);
+}
+
 TEST(Compare, ResultsAndScenariosAreNotMixed) {
   const Folder folder;
   folder.write("results.jsonl", "");

@@ -79,6 +79,9 @@ std::map<std::string, Rule> scene_rules() {
                                     {"SinusoidalForce.point", kAny},
                                     {"SinusoidalForce.angular_frequency", kNotNegative},
                                     {"SinusoidalForce.phase", kAny},
+                                    {"FormulaForce.point", kAny},
+                                    {"FormulaSpring.anchor_a", kAny},
+                                    {"FormulaSpring.anchor_b", kAny},
                                     {"Spring.hertz", kPositive},
                                     {"Spring.damping_ratio", kNotNegative},
                                     {"Motor.speed", kAny},
@@ -162,7 +165,10 @@ Scene full_scene() {
                   Torque{.body = a, .torque = 1, .duration = 1},
                   SpringForce{.body_a = a, .body_b = b, .rest_length = 1, .stiffness = 2, .damping = 0.5},
                   AttractionForce{.body = a, .centre_body = b, .strength = 1},
-                  SinusoidalForce{.body = a, .amplitude = {1, 1}, .angular_frequency = 2}};
+                  SinusoidalForce{.body = a, .amplitude = {1, 1}, .angular_frequency = 2},
+                  FormulaForce{.body = a, .x = "sin(t)"},
+                  FormulaSpring{.body_a = a, .body_b = b, .tension = "length"}};
+  scene.drives = {{"1", "sin(t)"}};
   return scene;
 }
 

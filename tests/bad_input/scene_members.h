@@ -10,7 +10,9 @@ PLUMB_MEMBERS(Chain, points, closed)
 PLUMB_MEMBERS(Shape, geometry, position, angle, friction, restitution, filter, rolling_resistance,
               surface_speed, density)
 PLUMB_MEMBERS(Body, name, type, position, angle, velocity, angular_velocity, mass, inertia, fixed_rotation,
-              shapes, gravity_scale, linear_damping, angular_damping, lock_x, lock_y)
+              shapes, gravity_scale, linear_damping, angular_damping, lock_x, lock_y, motion)
+PLUMB_MEMBERS(PrescribedMotion, x, y, angle)
+PLUMB_MEMBERS(Drive, joint, speed)
 PLUMB_MEMBERS(LinearDrag, body, coefficient, angular_coefficient)
 PLUMB_MEMBERS(QuadraticDrag, body, coefficient)
 PLUMB_MEMBERS(PointForce, body, force, point, frame, start, duration)
@@ -18,6 +20,8 @@ PLUMB_MEMBERS(Torque, body, torque, start, duration)
 PLUMB_MEMBERS(SpringForce, body_a, body_b, anchor_a, anchor_b, rest_length, stiffness, damping)
 PLUMB_MEMBERS(AttractionForce, body, centre_body, centre, strength, exponent)
 PLUMB_MEMBERS(SinusoidalForce, body, amplitude, point, angular_frequency, phase)
+PLUMB_MEMBERS(FormulaForce, body, x, y, torque, point)
+PLUMB_MEMBERS(FormulaSpring, body_a, body_b, anchor_a, anchor_b, tension)
 PLUMB_MEMBERS(RevoluteJoint, name, body_a, body_b, anchor_a, anchor_b, collide, break_force, break_torque,
               reference_angle, limits, motor, spring, target_angle)
 PLUMB_MEMBERS(DistanceJoint, name, body_a, body_b, anchor_a, anchor_b, length, collide, break_force,
@@ -40,7 +44,7 @@ PLUMB_MEMBERS(FrictionJoint, name, body_a, body_b, anchor_a, anchor_b, collide, 
               max_force, max_torque)
 PLUMB_MEMBERS(ContactRules, friction, restitution, restitution_threshold, simultaneous, impact, yield_speed,
               tangential_restitution, friction_after_stop, friction_while_sliding)
-PLUMB_MEMBERS(Scene, name, gravity, contact_rules, bodies, joints, forces)
+PLUMB_MEMBERS(Scene, name, gravity, contact_rules, bodies, joints, forces, drives)
 PLUMB_MEMBERS(Realtime, dt, substeps, iterations, precision, integrator, solver, continuous, sleeping,
               on_violation, threads)
 PLUMB_MEMBERS(Precise, tolerance, max_dt, method, estimate_error)

@@ -82,7 +82,7 @@ constexpr Seed kSeeds[] = {
     {"correction_adds_energy", "break_shot", "correction_adds_energy"},
     {"sinks", "pile_rests", "sinks"},
     {"inertia_sixth", "torque_spins", "inertia_sixth"},
-    {"one_side_only", "torque_spins", "inertia_half"},
+    {"one_side_only", "torque_spins", "one_side"},
     {"mass_for_inertia", "torque_spins", "mass_for_inertia"},
     {"thin_box_as_square", "shapes_have_inertia", "thin_box_as_square"},
     {"disc_as_ring", "shapes_have_inertia", "disc_as_ring"},

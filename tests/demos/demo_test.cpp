@@ -6,23 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "demos/core/registry.h"
+#include "demos/core/source.h"
 #include "engine/scene/error.h"
+#include "engine/scene/json.h"
+#include "engine/scene/validate.h"
+#include "tests/demos/play.h"
 
 // Checks that hold for every demo.
 namespace plumb::demos {
 namespace {
-
-class EveryDemo : public testing::TestWithParam<std::string> {
- protected:
-  std::unique_ptr<Demo> demo_ = make(GetParam());
-};
-
-std::vector<std::string> names() {
-  std::vector<std::string> out;
-  for (const Entry& entry : all()) out.push_back(entry.about.name);
-  return out;
-}
 
 INSTANTIATE_TEST_SUITE_P(Demos, EveryDemo, testing::ValuesIn(names()),
                          [](const auto& each) { return each.param; });
@@ -193,6 +185,20 @@ TEST_P(EveryDemo, DrawsItself) {
   const Aabb<double> view = demo_->view();
   const auto inside = [&](Vec2d p) { return view.contains({p, p}); };
   EXPECT_GT(std::ranges::count_if(shapes.points, inside), 4);
+}
+
+TEST_P(EveryDemo, HasASceneThatIsValid) {
+  steps(*demo_, 20);
+  const std::optional<Scene> scene = demo_->scene();
+  ASSERT_TRUE(scene.has_value());
+  validate(*scene);
+  EXPECT_EQ(scene_from_json(to_json(*scene)), *scene);
+}
+
+TEST_P(EveryDemo, ShowsItsCode) {
+  if (GetParam() == "drop") GTEST_SKIP() << "its source is a test's";
+  // Of a whole file a failure would print all.
+  EXPECT_NE(source_of(GetParam()).find('"' + GetParam() + '"'), std::string_view::npos);
 }
 
 TEST_P(EveryDemo, SaysWhatItIs) {

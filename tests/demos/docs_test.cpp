@@ -40,12 +40,13 @@ TEST(Docs, EveryDemoAndItsKeysAreListed) {
   }
 }
 
-// Every milestone that the page names is a test here.
+// Every milestone that the page names is a test here or in tests/window.
 TEST(Docs, MilestonesAreTests) {
   const std::string page = content(kDocs / "demos.md");
   std::string tests;
-  for (const auto& entry : std::filesystem::directory_iterator(kDocs / ".." / "tests" / "demos"))
-    tests += content(entry.path());
+  for (const char* folder : {"demos", "window"})
+    for (const auto& entry : std::filesystem::directory_iterator(kDocs / ".." / "tests" / folder))
+      tests += content(entry.path());
   std::istringstream lines(page.substr(page.find("## Milestones")));
   int found = 0;
   for (std::string line; std::getline(lines, line);) {

@@ -35,6 +35,18 @@ inline double figure(const Demo& demo, std::string_view name) {
   return 0;
 }
 
+/// The names of all demos, for tests of each.
+inline std::vector<std::string> names() {
+  std::vector<std::string> out;
+  for (const Entry& entry : all()) out.push_back(entry.about.name);
+  return out;
+}
+
+class EveryDemo : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Demo> demo_ = make(GetParam());
+};
+
 /// The bodies of a name, in the order of their places.
 inline std::vector<BodyId> bodies_called(const Demo& demo, std::string_view name) {
   std::vector<BodyId> out;

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "demos/core/source.h"
 #include "engine/scene/json.h"
-#include "engine/scene/validate.h"
 #include "engine/simulation/simulation.h"
 #include "tests/demos/play.h"
 
@@ -99,32 +97,6 @@ TEST(Sandbox, ItsSceneRunsAsItDoes) {
     EXPECT_NEAR(again.state(i).position.x, demo->world()->centre(body).x, 0.01) << read.bodies[i].name;
     EXPECT_NEAR(again.state(i).position.y, demo->world()->centre(body).y, 0.01) << read.bodies[i].name;
   }
-}
-
-class AnyDemo : public testing::TestWithParam<std::string> {
- protected:
-  std::unique_ptr<Demo> demo_ = make(GetParam());
-};
-std::vector<std::string> names() {
-  std::vector<std::string> out;
-  for (const Entry& entry : all()) out.push_back(entry.about.name);
-  return out;
-}
-INSTANTIATE_TEST_SUITE_P(Demos, AnyDemo, testing::ValuesIn(names()),
-                         [](const auto& each) { return each.param; });
-
-TEST_P(AnyDemo, HasASceneThatIsValid) {
-  steps(*demo_, 20);
-  const std::optional<Scene> scene = demo_->scene();
-  ASSERT_TRUE(scene.has_value());
-  validate(*scene);
-  EXPECT_EQ(scene_from_json(to_json(*scene)), *scene);
-}
-
-TEST_P(AnyDemo, ShowsItsCode) {
-  if (GetParam() == "drop") GTEST_SKIP() << "its source is a test's";
-  // Of a whole file a failure would print all.
-  EXPECT_NE(source_of(GetParam()).find('"' + GetParam() + '"'), std::string_view::npos);
 }
 
 // Keeps the arrows and labels of the motion.

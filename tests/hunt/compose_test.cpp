@@ -57,7 +57,7 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
 TEST(Compose, PreciseMovesAsIsExpected) {
   const Engine precise(reference::find_backend("plumb-precise")),
       world(reference::find_backend("plumb-float"));
-  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse"}) {
+  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse", "cradle"}) {
     int judged = 0;
     for (std::uint64_t index = 0; index < 60; ++index) {
       const Case one = compose(23, index, {&find_idiom(name)});
@@ -71,6 +71,53 @@ TEST(Compose, PreciseMovesAsIsExpected) {
     }
     EXPECT_GE(judged, 10) << name;
   }
+}
+
+// The centre of each brick that is owed to stand lies between the outermost edges of those that carry it,
+// which are among what it needs.
+TEST(Compose, BricksThatAreOwedToStandAreCarried) {
+  int carried = 0;
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    const Case one = compose(31, index, {&find_idiom("wall")});
+    if (one.idioms.size() > 2) continue;
+    const auto box_of = [&](const Body& body) { return std::get<Box>(body.shapes.front().geometry); };
+    for (const Expectation& owed : one.expectations) {
+      if (owed.name != "stands") continue;
+      const Body& brick = one.scene.bodies[find_body(one.scene, owed.body).value()];
+      const Box box = box_of(brick);
+      if (brick.position.y < 0.6 * box.height) continue;  // on the floor
+      double low = INFINITY, high = -INFINITY;
+      for (const std::string& name : owed.needs) {
+        const auto at = find_body(one.scene, name);
+        if (!at || one.scene.bodies[*at].type != BodyType::Dynamic) continue;
+        const Vec2d way = one.scene.bodies[*at].position - brick.position;
+        const double half = box_of(one.scene.bodies[*at]).width / 2;
+        const double left = std::max(way.x - half, -box.width / 2),
+                     right = std::min(way.x + half, box.width / 2);
+        if (std::abs(way.y + box.height) > 0.1 * box.height || right < left) continue;
+        low = std::min(low, left), high = std::max(high, right);
+      }
+      EXPECT_GT(std::min(-low, high), 0.2 * box.width) << index << " " << owed.body;
+      ++carried;
+    }
+  }
+  EXPECT_GT(carried, 100);
+}
+
+// A body that is as thin as shapes may lie in each other is not outside when it lies in a wall.
+TEST(Compose, ThinBodiesMayLieInTheWallsAroundThem) {
+  int owed = 0;
+  for (std::uint64_t index = 0; index < 30; ++index) {
+    const Case one = compose(31, index, {&find_idiom("thrown")});
+    if (one.idioms.size() > 2) continue;
+    for (const Expectation& each : one.expectations) {
+      if (each.name != "stays_inside" || each.quantity != Quantity::Y) continue;
+      ++owed;
+      EXPECT_LT(each.lower, 0);
+      EXPECT_GT(each.lower, -0.01 - 2 * length(one.scene.gravity) * one.dt * one.dt);
+    }
+  }
+  EXPECT_GT(owed, 10);
 }
 
 TEST(Compose, WhatMassesMatterToIsNotOwedWithOthers) {

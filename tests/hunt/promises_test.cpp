@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "engine/world/world.h"
 #include "harness/hunt/examine.h"
 #include "harness/hunt/guise.h"
+#include "harness/hunt/idiom.h"
 
 namespace plumb::harness::hunt {
 namespace {
@@ -51,6 +53,16 @@ TEST(Promises, AreKeptByAChainThatSwingsIntoAStack) {
       const Verdict verdict = promise.judge(one, engine(name), {});
       EXPECT_FALSE(verdict) << name << ", " << promise.name << ": " << verdict->what;
     }
+}
+
+// Scenes of all kinds, with steps of 1 to 20.
+TEST(Promises, QueriesFindWhatOutlinesSay) {
+  for (std::uint64_t index = 0; index < 40; ++index) {
+    Case one = compose(41, index);
+    one.steps = std::min(one.steps, static_cast<int>(1 + index / 2));
+    for (const Objection& objection : examine(engine("plumb-float"), one, "queries").objections)
+      ADD_FAILURE() << index << ": " << objection.what;
+  }
 }
 
 TEST(Promises, DigestsDifferWhereSettingsMotionsOrNamesDo) {

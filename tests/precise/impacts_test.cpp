@@ -442,5 +442,33 @@ TEST(PreciseImpact, ADiscThatRollsOverSeamsOfAFloorKeepsItsSpeed) {
   }
 }
 
+// A box strikes the corner of a tile twice, a tenth of a second apart. The time of the first blow is refined
+// after its step was cut there; a state that is read before it, and after that step began, is still known.
+TEST(PreciseImpact, StatesBeforeABlowAreKnownWhenItsTimeIsRefined) {
+  Scene scene{.name = "beside a tile", .gravity = {0, -9.81}};
+  scene.bodies = {
+      {.name = "tile", .type = BodyType::Static, .position = {0, -0.5}, .shapes = {{.geometry = Box{1, 1}}}},
+      {.name = "box",
+       .position = {0, 2.638},
+       .angle = 63.22185307179586,
+       .velocity = {-0.528, -16},
+       .angular_velocity = 6.08,
+       .mass = 2.13255,
+       .shapes = {{.geometry = Box{1.5, 1.4217}, .angle = -62.83185307179586}}}};
+  set_material(scene, 0.8, 0);
+  for (const double rate : {60.0, 59.5, 61.0, 240.0}) {
+    const auto driver = make_precise_driver(scene, {.max_dt = 1 / rate}, {});
+    for (int i = 0; i < 2.3 * rate; ++i) {
+      driver->step();
+      std::vector<BodyState> states(2);
+      driver->read(states);
+      ASSERT_TRUE(std::isfinite(states[1].position.x)) << rate << " " << i;
+      if (i > 2.15 * rate) {
+        EXPECT_NEAR(states[1].velocity.x, -12.046426, 1e-5) << rate << " " << i;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb

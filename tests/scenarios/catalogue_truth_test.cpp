@@ -162,13 +162,13 @@ TEST(Pendulum, HasThePeriodsOfTheEllipticIntegral) {
 }
 
 TEST(BobChain, SwingsSlowlyAsBernoulliSays) {
-  EXPECT_NEAR(static_cast<double>(smallest_laguerre_zero(2)), 2 - std::sqrt(2), 1e-15);
-  EXPECT_NEAR(static_cast<double>(smallest_laguerre_zero(3)), 0.415774557, 5e-10);
-  EXPECT_NEAR(static_cast<double>(smallest_laguerre_zero(10)), 0.137793471, 5e-10);
+  EXPECT_NEAR(smallest_laguerre_zero(2), 2 - std::sqrt(2), 1e-15);
+  EXPECT_NEAR(smallest_laguerre_zero(3), 0.415774557, 5e-10);
+  EXPECT_NEAR(smallest_laguerre_zero(10), 0.137793471, 5e-10);
   for (const int count : {2, 3, 10}) {
     // A quarter of the period, but for the amplitude: 1 cm of the lowest bob, in rods of 1 m.
     const Problem modes = problem("small_modes[" + std::to_string(count) + "]");
-    const double w = std::sqrt(9.81 * static_cast<double>(smallest_laguerre_zero(count)));
+    const double w = std::sqrt(9.81 * smallest_laguerre_zero(count));
     const double quarter = moment(0.1, 2, [&](double t) { return last(modes, t).position.x < 0; });
     EXPECT_NEAR(quarter * w, std::numbers::pi / 2, 1e-4) << count;
     EXPECT_NEAR(exact(modes, quarter)[0].position.x, 0, 1e-6) << count;  // all pass the middle at once

@@ -172,7 +172,7 @@ ForceLaw random_force(std::mt19937_64& random, const Body& body) {
   const double infinite = std::numeric_limits<double>::infinity();
   const double start = non_negative(random);
   const double duration = coin(random) ? infinite : non_negative(random);
-  switch (up_to(random, 6)) {
+  switch (up_to(random, 8)) {
     case 0:
       return LinearDrag{body.name, non_negative(random), non_negative(random)};
     case 1:
@@ -195,6 +195,10 @@ ForceLaw random_force(std::mt19937_64& random, const Body& body) {
       const double strength = any(random);
       return AttractionForce{body.name, "world", centre, strength, up_to(random, 18) - 9};
     }
+    case 6:
+      return FormulaForce{body.name, "sin(t)", "-m*x^3", "0.5*w", vector(random)};
+    case 7:
+      return FormulaSpring{"world", body.name, vector(random), vector(random), "table(length, 0, 1, 2, -3)"};
     default: {
       SinusoidalForce force{body.name, vector(random), vector(random)};
       force.angular_frequency = non_negative(random);
@@ -286,7 +290,11 @@ Scene full_scene() {
                   Torque{"ball", -2, 0.25, 2},
                   SpringForce{"ball", "floor", {1, 2}, {3, 4}, 0.5, 60, 0.75},
                   AttractionForce{"ball", "floor", {5, 6}, 8, 3},
-                  SinusoidalForce{"ball", {1, 2}, {3, 4}, 5, 6}};
+                  SinusoidalForce{"ball", {1, 2}, {3, 4}, 5, 6},
+                  FormulaForce{"ball", "1", "2*t", "sin(w)", {3, 4}},
+                  FormulaSpring{"ball", "floor", {1, 2}, {3, 4}, "5*length"}};
+  scene.bodies.back().motion = {"9", "1 + 0.1*t", "0.125"};
+  scene.drives = {{"hinge", "cos(t)"}};
   return scene;
 }
 

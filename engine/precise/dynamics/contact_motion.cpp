@@ -189,6 +189,11 @@ void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     contact_side_[i] = -(row_speed(constraints_[i], accelerations) + constraints_[i].bias_acceleration);
   }
+  std::size_t place = constraints_.size() - held_stops_;
+  for (std::size_t k = 0; held_stops_ > 0 && k < stop_modes_.size(); ++k) {
+    if (stop_modes_[k] == StopMode::Held)
+      contact_side_[place++] += kind_joints_.stops()[k].speed_at(time_).first;
+  }
   solve_contacts(contact_side_);
   add_response(active_response_, contact_side_, accelerations);
   for (std::size_t i = 0; i < constraints_.size(); ++i) contact_side_[i] += decided[i];
@@ -261,7 +266,7 @@ void EquationsOfMotion::close_contacts(std::span<const Twist<double>> motion, bo
     if (stop_modes_[k] != StopMode::Held) continue;
     const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
     if (gaps && stop.role == RowRole::Limit) contact_side_[place] -= constraints_[place].residual;
-    if (!gaps && stop.role == RowRole::Motor) contact_side_[place] += stop.speed;
+    if (!gaps && stop.role == RowRole::Motor) contact_side_[place] += stop.speed_at(time_).value;
     ++place;
   }
   solve_contacts(contact_side_);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -22,6 +23,7 @@
 #include "engine/joints/weld_joint.h"
 #include "engine/joints/wheel_joint.h"
 #include "engine/math/dual.h"
+#include "engine/scene/formula.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
@@ -54,12 +56,18 @@ class GeneralJoints {
   struct Stop {
     RowRole role = RowRole::Limit;
     double speed = 0, max_force = 0;
+    std::optional<Formula> drive{};  ///< of a motor's speed, in place of `speed`
     std::string joint{};
     /// Meaning of a limit's C: an angle; the position of anchor b along a's axis; the anchors' distance.
     enum class Kind { Turn, Line, Distance };
     Kind kind = Kind::Turn;
     int a = kFixedFrame, b = kFixedFrame;
     Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass; of a for distances alone
+    /// Returns the motor's speed at `time`, s, and its rate.
+    Jet speed_at(double time) const {
+      const Jet now[] = {{time, 1}};
+      return drive ? drive->at(std::span<const Jet>(now)) : Jet(speed);
+    }
   };
   const std::vector<Stop>& stops() const { return stops_; }
   /// Computes the rows of C; `out` has an element for each stop.

@@ -97,8 +97,9 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
   std::vector<Pose<double>> poses;
   std::vector<double> angles;
   for (const Body& body : scene.bodies) {
-    poses.push_back({body.position, rotation_of(body.angle)});
-    angles.push_back(body.angle);
+    const BodyState state = initial_state(body);
+    poses.push_back({state.position, rotation_of(state.angle)});
+    angles.push_back(state.angle);
   }
   const std::vector<Twist<double>> twists(scene.bodies.size());
   const BodiesNow start{poses, angles, twists};
@@ -133,7 +134,16 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
     e.first_stop = stops_.size();
     const auto& name = std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
     const auto add_stop = [&](const JointRow<Dual>& row, const RowRule& rule) {
-      Stop stop{rule.role, rule.speed, rule.max_force, name, Stop::Kind::Turn, e.a, e.b, {}, {}};
+      Stop stop{.role = rule.role,
+                .speed = rule.speed,
+                .max_force = rule.max_force,
+                .joint = name,
+                .a = e.a,
+                .b = e.b};
+      for (const Drive& drive : scene.drives) {
+        if (rule.role == RowRole::Motor && drive.joint == name)
+          stop.drive = Formula(drive.speed, kTimeVariable);
+      }
       place_stop(e, length_squared(Vec2d{row.linear_b.x.value, row.linear_b.y.value}) > 0, stop);
       stops_.push_back(stop);
     };

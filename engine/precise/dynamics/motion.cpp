@@ -73,8 +73,11 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
 /// refinement that rows have.
 HingeLines hinge_lines(const JointSystem<double>& system, const Joints& joints, const GeneralJoints& others,
                        const std::vector<double>& inverse_mass, const std::vector<double>& inverse_inertia,
-                       bool wide_mass_ratio) {
-  const bool plain = joints.distance.empty() && others.row_count() == 0 && !wide_mass_ratio;
+                       bool wide_mass_ratio, const Scene& scene) {
+  // Rows know the acceleration of a prescribed body, which the lines take as a fixed one.
+  const bool moved = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                 [](const Body& body) { return !body.motion.empty(); });
+  const bool plain = joints.distance.empty() && others.row_count() == 0 && !wide_mass_ratio && !moved;
   return {plain ? system.hinges() : std::vector<HingePlace>{}, joints.revolute, inverse_mass,
           inverse_inertia};
 }
@@ -110,7 +113,7 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       wrenches_(scene.bodies.size()),
       system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
       hinges_(hinge_lines(system_, joints_, kind_joints_, joint_inverse_mass_, joint_inverse_inertia_,
-                          has_wide_mass_ratio(rows_, joint_inverse_mass_))),
+                          has_wide_mass_ratio(rows_, joint_inverse_mass_), scene)),
       right_side_(rows_.size()),
       multipliers_(rows_.size()),
       has_forces_(!forces_.empty() || kind_joints_.has_springs() || !kind_joints_.stops().empty() ||
@@ -122,6 +125,10 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
       speed_(scales_of(scene, parts).speed),
       tolerance_(tolerance) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
+    const Body& body = scene.bodies[bodies_[slot]];
+    if (!body.motion.empty()) prescribed_.push_back({bodies_[slot], slot, PrescribedPath(body)});
+  }
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) slot_[bodies_[slot]] = static_cast<int>(slot);
   for (const ForceLaw& law : with_laws_on(scene, bodies_).forces) {
     for (const std::string_view name : ends_of(law)) {
@@ -156,6 +163,7 @@ void EquationsOfMotion::set_state(Compensated& y, std::size_t slot, const BodySt
 }
 
 void EquationsOfMotion::place(double time, std::span<const double> y) {
+  time_ = time;
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = state(y, slot);
     const std::size_t body = bodies_[slot];
@@ -240,7 +248,7 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
   place(time, y);
   if (!has_forces_) {
     for (const std::size_t body : bodies_) out[body] = {gravity_, 0};
-    return;
+    return accelerate_prescribed(time, out);
   }
   for (const std::size_t body : bodies_) wrenches_[body] = {};
   {
@@ -255,6 +263,18 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
     out[body] = {gravity_ + inverse_mass_[body] * w.force, inverse_inertia_[body] * w.torque};
     power_ += dot(w.force, twists_[body].velocity) + w.torque * twists_[body].angular_velocity;
   }
+  accelerate_prescribed(time, out);
+}
+
+void EquationsOfMotion::accelerate_prescribed(double time, std::span<Twist<double>> out) const {
+  for (const Prescribed& one : prescribed_) {
+    const PrescribedPath::Point now = one.path.at(time);
+    out[one.body] = {now.acceleration, now.angular_acceleration};
+  }
+}
+
+void EquationsOfMotion::keep_prescribed(double time, Compensated& y) const {
+  for (const Prescribed& one : prescribed_) set_state(y, one.slot, one.path.at(time).state);
 }
 
 void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {

@@ -17,6 +17,7 @@
 #include "engine/precise/dynamics/hinges.h"
 #include "engine/precise/dynamics/joints.h"
 #include "engine/precise/dynamics/parts.h"
+#include "engine/scene/prescribed_path.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
@@ -190,6 +191,8 @@ class EquationsOfMotion final : public Flow {
   void linearise();
   bool only_hinges() const { return !hinges_.empty() && !holds_anything(); }
   void accelerate_joints();
+  void accelerate_prescribed(double time, std::span<Twist<double>> out) const;
+  void keep_prescribed(double time, Compensated& y) const;
   void write_rate(std::span<const double> y, std::span<double> out) const;
   void hang(double time, Compensated& y);
   void close_gaps(double time, Compensated& y);
@@ -244,7 +247,13 @@ class EquationsOfMotion final : public Flow {
   int dependent_rows_ = 0;
   double power_ = 0;  // W, of the forces of the last evaluation
   double window_start_ = 0, window_end_ = 0;
-  double length_ = 1, speed_ = 1;  // the scene's, m and m/s
+  double time_ = 0;  // s, of the last `place`
+  struct Prescribed {
+    std::size_t body, slot;
+    PrescribedPath path;
+  };
+  std::vector<Prescribed> prescribed_;  // bodies with a motion of their own: no force moves them
+  double length_ = 1, speed_ = 1;       // the scene's, m and m/s
   double tolerance_ = 0;
   double may_stay_open_ = 0;  // m, of gaps
   std::int64_t evaluations_ = 0;

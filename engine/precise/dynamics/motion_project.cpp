@@ -10,6 +10,7 @@
 namespace plumb::precise {
 
 void EquationsOfMotion::project(double time, Compensated& y) {
+  keep_prescribed(time, y);
   if (!has_joints_ && !holds_anything()) return;
   if (only_hinges() && hinges_.rooted()) return hang(time, y);
   close_gaps(time, y);
@@ -57,9 +58,10 @@ bool EquationsOfMotion::held_works() const {
   bool drives = false;
   for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
     const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
-    drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor && stop.speed != 0);
+    drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor &&
+                        (stop.speed != 0 || stop.drive));
   }
-  return drives || std::any_of(guides_.begin(), guides_.end(), moves) ||
+  return drives || !prescribed_.empty() || std::any_of(guides_.begin(), guides_.end(), moves) ||
          std::any_of(patches_.begin(), patches_.end(), rubs);
 }
 

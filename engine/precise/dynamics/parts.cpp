@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <string_view>
 #include <variant>
 
 #include "engine/forces/attraction_force.h"
+#include "engine/forces/compile.h"
 #include "engine/math/trigonometry.h"
 #include "engine/precise/dynamics/joints.h"
+#include "engine/scene/prescribed_path.h"
 
 namespace plumb::precise {
 namespace {
@@ -35,6 +38,9 @@ bool is_constant(const Torque&, const Body&) { return true; }
 bool is_constant(const SpringForce& law, const Body&) { return law.stiffness == 0 && law.damping == 0; }
 bool is_constant(const AttractionForce& law, const Body&) { return law.strength == 0; }
 bool is_constant(const SinusoidalForce& law, const Body&) { return law.amplitude == Vec2d{}; }
+
+bool is_constant(const FormulaForce&, const Body&) { return false; }
+bool is_constant(const FormulaSpring&, const Body&) { return false; }
 
 void add_window(const ForceLaw& law, std::vector<double>& switches) {
   std::visit(
@@ -70,7 +76,8 @@ std::vector<char> not_flying(const Scene& scene, const Index& index) {
     }
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].type != BodyType::Dynamic) result[i] = 0;
+    // Prescribed motions are integrated as well: so steps and searches for contacts know their path.
+    if (scene.bodies[i].type != BodyType::Dynamic) result[i] = scene.bodies[i].motion.empty() ? 0 : 1;
   }
   return result;
 }
@@ -127,8 +134,23 @@ class LawScales {
     if (distance == 0) return {};
     return {distance, std::abs(law.strength) * whole_power(distance, -law.exponent)};
   }
+  LawScale operator()(const FormulaForce& law) const {
+    const Body& body = scene_.bodies[index_.at(law.body)];
+    const FormulaForceLaw compiled = LawCompiler<double>(scene_).compile(law);
+    const Wrench<double> start =
+        compiled.wrench(0, {body.position, rotation_of(body.angle)}, {body.velocity, body.angular_velocity});
+    return {length(law.point), finite(length(start.force) / mass(law.body))};
+  }
+  LawScale operator()(const FormulaSpring& law) const {
+    const double span = length(place(law.body_b, law.anchor_b) - place(law.body_a, law.anchor_a));
+    const double now[] = {0, span, 0};
+    const double pull =
+        std::abs(LawCompiler<double>(scene_).compile(law).tension.at(std::span<const double>(now)));
+    return {span, finite(pull / std::min(mass(law.body_a), mass(law.body_b)))};
+  }
 
  private:
+  static double finite(double value) { return std::isfinite(value) ? value : 0; }
   double mass(std::string_view name) const {
     if (name == kWorld) return std::numeric_limits<double>::infinity();
     const Body& body = scene_.bodies[index_.at(name)];
@@ -220,6 +242,11 @@ Scales scales_of(const Scene& scene, const Parts& parts) {
   for (const std::size_t i : parts.integrated) {
     const Body& body = scene.bodies[i];
     speed = std::max(speed, length(body.velocity));
+    if (!body.motion.empty()) {
+      const PrescribedPath::Point start = PrescribedPath(body).at(0);
+      speed = std::max(speed, length(start.state.velocity));
+      acceleration = std::max(acceleration, length(start.acceleration));
+    }
     for (const Shape& shape : body.shapes) {
       largest = std::max(largest, reach_of(shape.geometry));
     }

@@ -264,7 +264,8 @@ double Contacts::guard_value(const Guard& guard, double time, std::span<const do
   const bool by_forces = quantity == Quantity::Force || quantity == Quantity::Cone;
   const ContactForces& forces =
       by_forces ? equations_.contact_forces(time, y) : equations_.last_contact_forces();
-  return contact_value({quantity, guard.patch, guard.point, {}, 0}, forces, first, placed);
+  return contact_value({quantity, static_cast<std::size_t>(guard.patch), guard.point, {}, 0}, forces, first,
+                       placed);
 }
 
 void Contacts::follow(const Contacts& other) {
@@ -342,12 +343,9 @@ void Contacts::refine(const Event& event) {
     if (std::abs(row.residual) <= near_ / 64 || !(closing < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - row.residual / closing;
     if (time == smooth_.time() || time <= start) return;
-    if (time < smooth_.time()) {
-      smooth_.cut(time);
-    } else {
-      smooth_.step(time);
-      if (smooth_.time() < time) return;
-    }
+    // Anew from the step's start, also to a later time: a further step would lose the part that is not yet
+    // read.
+    smooth_.cut(time);
   }
 }
 
@@ -359,12 +357,9 @@ void Contacts::refine_limit(std::size_t limit) {
     if (std::abs(at.gap) <= 1e-14 * length || !(at.rate < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - at.gap / at.rate;
     if (time == smooth_.time() || time <= start) return;
-    if (time < smooth_.time()) {
-      smooth_.cut(time);
-    } else {
-      smooth_.step(time);
-      if (smooth_.time() < time) return;
-    }
+    // Anew from the step's start, also to a later time: a further step would lose the part that is not yet
+    // read.
+    smooth_.cut(time);
   }
 }
 

@@ -1,12 +1,17 @@
 #include "engine/precise/events/contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <tuple>
 #include <variant>
 
 #include "engine/core/text.h"
+#include "engine/forces/compile.h"
+#include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
 
 // Handles events: resolves impacts, then decides which contacts persist.
@@ -22,6 +27,45 @@ constexpr double kClatter = 1e-7;
 /// Gaps up to this multiple of the rounding of positions count as touching.
 constexpr double kTouching = 8;
 constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
+
+/// Returns an estimate of the angular frequency (rad/s) with which a formula swings while only time passes:
+/// its fastest change over its range, at times spread over the first seconds. A sine's is exact wherever the
+/// times fall.
+template <std::size_t kCount>
+double swing_of(const Formula& formula, std::array<Jet, kCount> variables) {
+  constexpr int kTimes = 4096;
+  constexpr double kSpan = 10, kGolden = 0.6180339887498949;  // s; a step that repeats no fraction
+  if (!formula.uses(0)) return 0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  double fastest = 0, place = 0;
+  for (int i = 0; i < kTimes; ++i) {
+    place += kGolden;
+    place -= std::floor(place);
+    variables[0] = {kSpan * place, 1};
+    const Jet now = formula.at(std::span<const Jet>(variables));
+    if (!std::isfinite(now.value) || !std::isfinite(now.first)) continue;
+    lowest = std::min(lowest, now.value), highest = std::max(highest, now.value);
+    fastest = std::max(fastest, std::abs(now.first));
+  }
+  return highest > lowest ? fastest / (0.5 * (highest - lowest)) : 0;
+}
+
+double swing_of(const Scene& scene, const ForceLaw& law) {
+  const LawCompiler<double> compiler(scene);
+  if (const auto* force = std::get_if<FormulaForce>(&law)) {
+    const FormulaForceLaw compiled = compiler.compile(*force);
+    const BodyState start = initial_state(scene.bodies[compiled.body]);
+    const FormulaForceLaw::Variables values = compiled.variables(
+        0, {start.position, rotation_of(start.angle)}, {start.velocity, start.angular_velocity});
+    std::array<Jet, std::tuple_size_v<FormulaForceLaw::Variables>> jets;
+    std::copy(values.begin(), values.end(), jets.begin());
+    return std::max(
+        {swing_of(compiled.x, jets), swing_of(compiled.y, jets), swing_of(compiled.torque, jets)});
+  }
+  if (const auto* spring = std::get_if<FormulaSpring>(&law))
+    return swing_of(compiler.compile(*spring).tension, std::array<Jet, 3>{0, 1, 0});
+  return 0;
+}
 
 }  // namespace
 
@@ -41,7 +85,11 @@ Contacts::Contacts(const Scene& scene, const Parts& parts, const Flight& flight,
   for (const ForceLaw& law : scene.forces) {
     if (const auto* swinging = std::get_if<SinusoidalForce>(&law))
       fastest_force_ = std::max(fastest_force_, swinging->angular_frequency);
+    fastest_force_ = std::max(fastest_force_, swing_of(scene, law));
   }
+  for (const Drive& drive : scene.drives)
+    fastest_force_ =
+        std::max(fastest_force_, swing_of(Formula(drive.speed, kTimeVariable), std::array<Jet, 1>{}));
 }
 
 void Contacts::count(ContactEvent event, double time, std::int64_t times) {
@@ -230,6 +278,8 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
     const Row<double>& row = p.response.rows[i];
     p.problem.rate.push_back(rate_along(row, free) + row.bias_acceleration);
   }
+  for (std::size_t b = 0; b < brakes.size(); ++b)
+    p.problem.rate[p.problem.size() - brakes.size() + b] -= stops_.gain_of_speed(brakes[b], now);
   for (std::size_t q = 0; q < p.touches.size(); ++q) {
     const ContactCandidate& touch = touches[p.touches[q]];
     if (std::abs(touch.slip) <= touch.quiet) continue;

@@ -41,8 +41,8 @@ void Stops::find(double time, std::span<const double> y, const TouchFinder& find
 }
 
 /// Returns the speed that a motor lacks.
-double Stops::lacking(std::size_t k, std::span<const Twist<double>> twists) const {
-  return stop(k).speed - rate_along(rows_[k], twists);
+double Stops::lacking(std::size_t k, double time, std::span<const Twist<double>> twists) const {
+  return stop(k).speed_at(time).value - rate_along(rows_[k], twists);
 }
 
 std::vector<Brake> Stops::push(double time, std::span<const double> y, std::span<const BodyState> states,
@@ -59,8 +59,8 @@ std::vector<Brake> Stops::push(double time, std::span<const double> y, std::span
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     modes_[k] = Mode::Free;
     if (stop(k).role != RowRole::Motor) continue;
-    const double slow = lacking(k, twists_);
-    if (std::abs(slow) <= 8 * kQuiet * std::max(speed_, std::abs(stop(k).speed))) {
+    const double slow = lacking(k, time, twists_);
+    if (std::abs(slow) <= 8 * kQuiet * std::max(speed_, std::abs(stop(k).speed_at(time).value))) {
       brakes.push_back({k, rows_[k], stop(k).max_force});
     } else {
       modes_[k] = slow > 0 ? Mode::Forward : Mode::Backward;
@@ -108,7 +108,7 @@ void Stops::evaluate(double time, std::span<const double> y, std::span<double> v
     } else if (limit) {
       values[k] = rows[k].residual;
     } else {
-      const double slow = stop(k).speed - rate_along(rows[k], equations_.twists());
+      const double slow = stop(k).speed_at(time).value - rate_along(rows[k], equations_.twists());
       values[k] = modes_[k] == Mode::Forward ? slow : -slow;
     }
   }

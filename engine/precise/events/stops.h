@@ -33,6 +33,11 @@ class Stops {
   std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
                           std::vector<ContactCandidate>& touches);
 
+  /// Returns how fast the speed of a motor rises, m/s^2 or rad/s^2: not at all without a drive.
+  double gain_of_speed(const Brake& brake, double time) const {
+    return stop(brake.stop).speed_at(time).first;
+  }
+
   /// Set the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now on;
   /// `force` is the largest of their forces.
   void hold(std::size_t limit);
@@ -78,7 +83,7 @@ class Stops {
                                    EventFreeIntegrator& smooth, double until);
   double safe_step(std::size_t limit, const Approach& now, const StepMotionBounds& paths, double time,
                    double until) const;
-  double lacking(std::size_t motor, std::span<const Twist<double>> twists) const;
+  double lacking(std::size_t motor, double time, std::span<const Twist<double>> twists) const;
 
   EquationsOfMotion& equations_;
   double length_, speed_;  // the scene's

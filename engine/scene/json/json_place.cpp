@@ -27,17 +27,21 @@ std::string entry_subject(const Node& list, const Node& item) {
   if (list.key == "forces")
     return force_subject(index, string_member(item, "type"),
                          string_member(item, item.find("body_a") != nullptr ? "body_a" : "body"));
+  if (list.key == "drives") return drive_subject(index);
   return "";
 }
 
 /// Returns true if errors name the whole list, not its entry: a position, not its x.
 bool is_vector(const Node& list) {
   return list.kind == Kind::Array && list.key != "bodies" && list.key != "joints" && list.key != "forces" &&
-         list.key != "shapes" && list.key != "points";
+         list.key != "drives" && list.key != "shapes" && list.key != "points";
 }
 
 const char* list_key(Place::List list) {
-  return list == Place::List::Bodies ? "bodies" : list == Place::List::Joints ? "joints" : "forces";
+  return list == Place::List::Bodies   ? "bodies"
+         : list == Place::List::Joints ? "joints"
+         : list == Place::List::Forces ? "forces"
+                                       : "drives";
 }
 
 /// Removes the first name or index from `field` and returns it: "shapes[1].radius" is shapes, 1, radius.

@@ -1,7 +1,9 @@
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
@@ -134,11 +136,38 @@ Shape read_shape(const View& view) {
   return shape;
 }
 
+/// Reads a formula: text, or a number in its place.
+std::string read_formula(const View& view) {
+  if (view.node().kind == json::Kind::Number) {
+    const double value = json::number(view);
+    if (!(std::abs(value) <= kLargest))
+      view.fail(Error::Kind::Value, "must be at most " + shortest(kLargest) + " in magnitude");
+    return shortest(value);
+  }
+  std::string text = json::string(view);
+  if (text.empty()) view.fail(Error::Kind::Syntax, "is no formula: it is empty");
+  return text;
+}
+
+PrescribedMotion read_motion(const View& view) {
+  const Fields fields(view, "a motion", {"x", "y", "angle"});
+  PrescribedMotion motion;
+  if (fields.has("x")) motion.x = read_formula(fields.required("x"));
+  if (fields.has("y")) motion.y = read_formula(fields.required("y"));
+  if (fields.has("angle")) motion.angle = read_formula(fields.required("angle"));
+  return motion;
+}
+
+Drive read_drive(const View& view) {
+  const Fields fields(view, "a drive", {"joint", "speed"});
+  return {json::string(fields.required("joint")), read_formula(fields.required("speed"))};
+}
+
 Body read_body(const View& view) {
-  const Fields fields(
-      view, "a body",
-      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
-       "fixed_rotation", "lock_x", "lock_y", "gravity_scale", "linear_damping", "angular_damping", "shapes"});
+  const Fields fields(view, "a body",
+                      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
+                       "fixed_rotation", "lock_x", "lock_y", "gravity_scale", "linear_damping",
+                       "angular_damping", "motion", "shapes"});
   Body body{.name = json::string(fields.required("name"))};
   fields.read("type", body.type, kBodyTypeNames);
   fields.read("position", body.position);
@@ -153,6 +182,7 @@ Body read_body(const View& view) {
   fields.read("gravity_scale", body.gravity_scale);
   fields.read("linear_damping", body.linear_damping);
   fields.read("angular_damping", body.angular_damping);
+  if (fields.has("motion")) body.motion = read_motion(fields.required("motion"));
   fields.each("shapes", [&](const View& shape) { body.shapes.push_back(read_shape(shape)); });
   if (body.type == BodyType::Dynamic && !fields.has("mass"))
     body.mass = mass_by_density(body).value_or(body.mass);
@@ -219,6 +249,29 @@ SinusoidalForce read_sinusoidal_force(const Fields& fields) {
   return law;
 }
 
+FormulaForce read_formula_force(const Fields& fields) {
+  FormulaForce law{.body = json::string(fields.required("body"))};
+  if (fields.has("force")) {
+    const View force = fields.required("force");
+    if (force.node().kind != json::Kind::Array || force.node().items.size() != 2)
+      force.fail(Error::Kind::Syntax, "must be two formulas [x, y]");
+    law.x = read_formula(View(force.node().items[0], force));
+    law.y = read_formula(View(force.node().items[1], force));
+  }
+  if (fields.has("torque")) law.torque = read_formula(fields.required("torque"));
+  fields.read("point", law.point);
+  return law;
+}
+
+FormulaSpring read_formula_spring(const Fields& fields) {
+  FormulaSpring law{.body_a = json::string(fields.required("body_a")),
+                    .body_b = json::string(fields.required("body_b"))};
+  fields.read("anchor_a", law.anchor_a);
+  fields.read("anchor_b", law.anchor_b);
+  law.tension = read_formula(fields.required("tension"));
+  return law;
+}
+
 ForceLaw read_force(const View& view) {
   const Fields::Keys common{"type", "body"}, drag{"coefficient"}, turning{"angular_coefficient"},
       timed{"start", "duration"};
@@ -227,8 +280,9 @@ ForceLaw read_force(const View& view) {
   const Fields::Keys spring{"rest_length", "stiffness", "damping"};
   const Fields::Keys attraction{"centre_body", "centre", "strength", "exponent"};
   const Fields::Keys wave{"amplitude", "angular_frequency", "phase"};
+  const Fields::Keys tension{"tension"};
   const Fields::Keys any =
-      common + drag + turning + timed + point + torque + ends + spring + attraction + wave;
+      common + drag + turning + timed + point + torque + ends + spring + attraction + wave + tension;
   switch (type_of(view, "a force", any, kForceNames)) {
     case 0:
       return read_linear_drag(Fields(view, "a linear_drag", common + drag + turning));
@@ -242,14 +296,20 @@ ForceLaw read_force(const View& view) {
       return read_spring(Fields(view, "a spring", Fields::Keys{"type"} + ends + spring));
     case 5:
       return read_attraction(Fields(view, "an attraction", common + attraction));
-    default:
+    case 6:
       return read_sinusoidal_force(Fields(view, "a sinusoidal_force", common + wave + Fields::Keys{"point"}));
+    case 7:
+      return read_formula_force(
+          Fields(view, "a formula_force", common + torque + Fields::Keys{"force", "point"}));
+    default:
+      return read_formula_spring(Fields(view, "a formula_spring", Fields::Keys{"type"} + ends + tension));
   }
 }
 
 Scene read_scene(const View& view) {
-  const Fields fields(view, "a scene",
-                      {"plumb_scene", "name", "gravity", "contact_rules", "bodies", "joints", "forces"});
+  const Fields fields(
+      view, "a scene",
+      {"plumb_scene", "name", "gravity", "contact_rules", "bodies", "joints", "forces", "drives"});
   read_version(fields);
   Scene scene;
   fields.read("name", scene.name);
@@ -258,6 +318,7 @@ Scene read_scene(const View& view) {
   fields.each("bodies", [&](const View& body) { scene.bodies.push_back(read_body(body)); });
   fields.each("joints", [&](const View& joint) { scene.joints.push_back(json::read_joint(joint)); });
   fields.each("forces", [&](const View& force) { scene.forces.push_back(read_force(force)); });
+  fields.each("drives", [&](const View& drive) { scene.drives.push_back(read_drive(drive)); });
   return scene;
 }
 

@@ -28,6 +28,9 @@ class Writer {
     list("bodies", scene.bodies, [this](const Body& body) { this->body(body); });
     list("joints", scene.joints, [this](const Joint& joint) { this->joint(joint); });
     list("forces", scene.forces, [this](const ForceLaw& force) { this->force(force); });
+    // Left out where there is none, as `motion` of a body is: scenes from before them keep their hashes.
+    if (!scene.drives.empty())
+      list("drives", scene.drives, [this](const Drive& drive) { this->drive(drive); });
     out_.end('}');
   }
 
@@ -89,7 +92,24 @@ class Writer {
     write("gravity_scale", body.gravity_scale);
     write("linear_damping", body.linear_damping);
     write("angular_damping", body.angular_damping);
+    if (!body.motion.empty()) motion(body.motion);
     list("shapes", body.shapes, [this](const Shape& shape) { this->shape(shape); });
+    out_.end('}');
+  }
+
+  void motion(const PrescribedMotion& motion) {
+    out_.key("motion");
+    out_.begin('{', Emitter::Layout::Inline);
+    if (!motion.x.empty()) write("x", motion.x);
+    if (!motion.y.empty()) write("y", motion.y);
+    if (!motion.angle.empty()) write("angle", motion.angle);
+    out_.end('}');
+  }
+
+  void drive(const Drive& drive) {
+    out_.begin('{');
+    write("joint", drive.joint);
+    write("speed", drive.speed);
     out_.end('}');
   }
 
@@ -239,6 +259,23 @@ class Writer {
     write("point", force.point);
     write("angular_frequency", force.angular_frequency);
     write("phase", force.phase);
+  }
+
+  void law(const FormulaForce& force) {
+    out_.key("force");
+    out_.begin('[', Emitter::Layout::Inline);
+    out_.string(force.x);
+    out_.string(force.y);
+    out_.end(']');
+    write("torque", force.torque);
+    write("point", force.point);
+  }
+  void law(const FormulaSpring& spring) {
+    write("body_a", spring.body_a);
+    write("body_b", spring.body_b);
+    write("anchor_a", spring.anchor_a);
+    write("anchor_b", spring.anchor_b);
+    write("tension", spring.tension);
   }
 
   /// JSON has no infinity: an infinite duration is left out.

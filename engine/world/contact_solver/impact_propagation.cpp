@@ -342,16 +342,6 @@ void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Rea
   }
 }
 
-template <class Real>
-void exchange_by_groups(BodyMotion<Real>* motion, Real fastest, int& looks, ImpactScratch<Real>& room) {
-  group_struck(motion, room);
-  const std::span<StruckPoint<Real>> struck(room.struck);
-  for (std::size_t first = 0, end = 0; first < struck.size(); first = end) {
-    while (end < struck.size() && struck[end].group == struck[first].group) ++end;
-    exchange(motion, struck.subspan(first, end - first), fastest, looks);
-  }
-}
-
 // Applies friction to a point after its impact. Returns its impulse along the tangent.
 template <class Real>
 Real rub(BodyMotion<Real>* motion, const StruckPoint<Real>& at) {
@@ -405,38 +395,36 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
   move_back(c.body_b, 1, at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
 }
 
-// A round in which joints take part.
+// The impacts of a group of struck points in a round, with the joints of their bodies.
 template <class Real>
 class JointedRound {
  public:
-  JointedRound(BodyMotion<Real>* motion, Rotation<Real>* rotation, ImpactScratch<Real>& room)
-      : motion_(motion), rotation_(rotation), room_(room), system_(room.system) {}
+  JointedRound(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::span<StruckPoint<Real>> struck,
+               ImpactScratch<Real>& room)
+      : motion_(motion), rotation_(rotation), struck_(struck), room_(room), system_(room.system) {}
 
   // Collects the bodies and rows. Returns false if no joint takes part, or if they are too many.
   bool collect() {
     if (room_.joints.empty()) return false;
-    for (const StruckPoint<Real>& at : room_.struck) mark(at, 1);
-    room_.links.clear(), room_.blocks.clear(), room_.sizes.clear(), system_.bodies.clear();
-    for (const ImpactJoint& joint : room_.joints)
-      if (takes_part(joint)) add_block(joint.a, joint.b, joint.rows);
-    joints_ = static_cast<int>(room_.blocks.size());
+    room_.links.clear(), room_.blocks.clear(), room_.sizes.clear(), room_.taking_part.clear();
+    system_.bodies.clear();
+    for (const StruckPoint<Real>& at : struck_) add_joints(at);
+    for (const StruckPoint<Real>& at : struck_) forget(at);
+    if (room_.taking_part.empty()) return false;
     const ContactConstraint<Real>* last = nullptr;
-    for (const StruckPoint<Real>& at : room_.struck) {
+    for (const StruckPoint<Real>& at : struck_) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
       if (&c != last) add_block(c.body_a, c.body_b, 0);
       ++room_.sizes.back();
       last = &c;
     }
-    const bool solves = joints_ > 0 && system_.order(room_.blocks, room_.sizes) <= kJointsCost;
-    if (!solves)
-      for (const StruckPoint<Real>& at : room_.struck) mark(at, 0);
-    return solves;
+    return system_.order(room_.blocks, room_.sizes) <= kJointsCost;
   }
 
   void resolve() {
     exchange();
     bool rubs = false;
-    for (const StruckPoint<Real>& at : room_.struck) rubs = (rub(motion_, at) != 0) || rubs;
+    for (const StruckPoint<Real>& at : struck_) rubs = (rub(motion_, at) != 0) || rubs;
     if (rubs) {
       add_joint_rows();
       solve();
@@ -450,18 +438,28 @@ class JointedRound {
             -time * (moving.angular_velocity - link.spin));
       room_.last[group] = std::max(room_.last[group], time);
     }
-    for (const StruckPoint<Real>& at : room_.struck) note_impact(at), mark(at, 0);
+    for (const StruckPoint<Real>& at : struck_) note_impact(at);
   }
 
  private:
-  void mark(const StruckPoint<Real>& at, char as) {
-    for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
-      if (has_mass(motion_[body])) room_.struck_now[group_of(room_, body)] = as;
+  // Adds the joints of a point's bodies, those of each group once.
+  void add_joints(const StruckPoint<Real>& at) {
+    for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b}) {
+      const int group = group_of(room_, body);
+      if (!has_mass(motion_[body]) || room_.struck_now[group]) continue;
+      room_.struck_now[group] = 1;
+      for (int i = room_.first_joint[group]; i != -1; i = room_.joints[i].next) {
+        const ImpactJoint& joint = room_.joints[i];
+        if (joint.rows == 0) continue;
+        room_.taking_part.push_back(i);
+        add_block(joint.a, joint.b, joint.rows);
+      }
+    }
   }
 
-  bool takes_part(const ImpactJoint& joint) const {
-    const int body = has_mass(motion_[joint.a]) ? joint.a : joint.b;
-    return joint.rows > 0 && room_.struck_now[group_of(room_, body)] != 0;
+  void forget(const StruckPoint<Real>& at) {
+    for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
+      room_.struck_now[group_of(room_, body)] = 0;
   }
 
   int link_at(int body) {
@@ -487,8 +485,8 @@ class JointedRound {
   void add_joint_rows() {
     system_.rows.clear();
     int block = 0;
-    for (const ImpactJoint& joint : room_.joints) {
-      if (!takes_part(joint)) continue;
+    for (const int part : room_.taking_part) {
+      const ImpactJoint& joint = room_.joints[part];
       const auto [link_a, link_b] = room_.blocks[block];
       const auto &a = room_.links[link_a], &b = room_.links[link_b];
       for (int i = joint.first_row; i < joint.first_row + joint.rows; ++i) {
@@ -503,9 +501,9 @@ class JointedRound {
   }
 
   void add_contact_rows() {
-    int block = joints_ - 1;
+    int block = static_cast<int>(room_.taking_part.size()) - 1;
     const ContactConstraint<Real>* last = nullptr;
-    for (const StruckPoint<Real>& at : room_.struck) {
+    for (const StruckPoint<Real>& at : struck_) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
       if (&c != last) ++block;
       last = &c;
@@ -538,11 +536,11 @@ class JointedRound {
     const std::size_t first = system_.rows.size();
     add_contact_rows();
     solve();
-    for (std::size_t i = 0; i < room_.struck.size(); ++i)
-      room_.struck[i].impulse = static_cast<Real>(system_.rows[first + i].impulse);
-    const Real scale = energy_scale<Real>(motion_, room_.struck);
+    for (std::size_t i = 0; i < struck_.size(); ++i)
+      struck_[i].impulse = static_cast<Real>(system_.rows[first + i].impulse);
+    const Real scale = energy_scale<Real>(motion_, struck_);
     if (scale == 1) return;
-    for (StruckPoint<Real>& at : room_.struck) at.impulse *= scale;
+    for (StruckPoint<Real>& at : struck_) at.impulse *= scale;
     for (const auto& link : room_.links) {
       BodyMotion<Real>& body = motion_[link.body];
       body.velocity = link.velocity + scale * (body.velocity - link.velocity);
@@ -552,10 +550,29 @@ class JointedRound {
 
   BodyMotion<Real>* motion_;
   Rotation<Real>* rotation_;
+  std::span<StruckPoint<Real>> struck_;
   ImpactScratch<Real>& room_;
   BoundedRows& system_;
-  int joints_ = 0;
 };
+
+// Resolves the impacts of a round, by groups that share no dynamic body. Each counts against `looks`.
+template <class Real>
+void resolve_round(BodyMotion<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
+                   ImpactScratch<Real>& room) {
+  group_struck(motion, room);
+  const std::span<StruckPoint<Real>> all(room.struck);
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    while (end < all.size() && all[end].group == all[first].group) ++end;
+    const std::span<StruckPoint<Real>> struck = all.subspan(first, end - first);
+    if (JointedRound<Real> jointed(motion, rotation, struck, room); jointed.collect()) {
+      jointed.resolve();
+      looks -= static_cast<int>(struck.size());
+    } else {
+      exchange(motion, struck, fastest, looks);
+      for (const StruckPoint<Real>& at : struck) finish_impact(motion, rotation, at, room);
+    }
+  }
+}
 
 // Returns true if a next impact comes after the last impacts of its bodies.
 template <class Real>
@@ -594,13 +611,7 @@ int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
     find_struck(motion, bounces, least, step.h, room);
     if (room.struck.empty()) break;
     if (!time_passes(room)) --at_one_time;
-    if (JointedRound<Real> round_with_joints(motion, rotation, room); round_with_joints.collect()) {
-      round_with_joints.resolve();
-      looks -= static_cast<int>(room.struck.size());
-    } else {
-      exchange_by_groups(motion, fastest, looks, room);
-      for (const StruckPoint<Real>& at : room.struck) finish_impact(motion, rotation, at, room);
-    }
+    resolve_round(motion, rotation, fastest, looks, room);
     for (const StruckPoint<Real>& at : room.struck) {
       for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
         if (is_dynamic(motion[body]))

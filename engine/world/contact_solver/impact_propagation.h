@@ -34,6 +34,7 @@ struct ImpactJoint {
   int a = 0, b = 0;             ///< bodies
   int slot = 0;                 ///< in the joint set
   int first_row = 0, rows = 0;  ///< in `ImpactScratch::rows`
+  int next = -1;                ///< joint of the same group, in `ImpactScratch::joints`
 };
 
 /// Scratch memory of `propagate_impacts`, kept to avoid allocations. A group is a set of bodies connected by
@@ -45,6 +46,7 @@ struct ImpactScratch {
   // Joints, filled by the caller; all empty where there are none.
   std::vector<int> group;  ///< by body
   std::vector<ImpactJoint> joints;
+  std::vector<int> first_joint;  ///< by group, in `joints`
   std::vector<BoundedRow> rows;  ///< between bodies of the world: equalities, or an impulse of at least 0
 
   // By group; valid for those of the present crowd.
@@ -66,12 +68,13 @@ struct ImpactScratch {
   std::vector<StruckPoint<Real>> struck, grouped;
   std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
 
-  // The bodies of a round with joints, and their rows.
+  // The joints and bodies of struck points in a round, and their rows.
   struct Link {
     int body = 0;
     Vec2<Real> velocity{};  ///< m/s, before the round
     Real spin = 0;          ///< rad/s
   };
+  std::vector<int> taking_part;  ///< in `joints`
   std::vector<Link> links;
   std::vector<int> link_of;  ///< by body
   std::vector<std::pair<int, int>> blocks;
@@ -92,8 +95,8 @@ bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<Restituti
 /// n.v. With lambda >= 0 the impulses of a round change its energy by the sum of lambda (n.v + (n.v)') / 2.
 /// Impulses of iterations that have not converged are scaled back until this is not positive, so no round
 /// gains energy. Friction follows, at most as much as stops the sliding. Impacts of a round that share no
-/// body are solved apart. A round examines only contacts of bodies that the last one has struck: the cost
-/// depends on the number of impacts, not on the size of the crowd.
+/// dynamic body, directly or by joints, are solved apart. A round examines only contacts of bodies that the
+/// last one has struck: the cost depends on the number of impacts, not on the size of the crowd.
 /// Joints pass impacts on at once: in each round the rows of a group's joints have impulses such that none of
 /// their rates changes, J M^-1 (J^T mu + N^T lambda) = 0. The impulses mu do no work.
 ///

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "engine/core/room.h"
+#include "engine/math/widest_register.h"
 #include "engine/world/contact_solver/contact_passes.h"
 #include "engine/world/contact_solver/lane_bodies.h"
 
@@ -46,6 +47,16 @@ struct Relax {
     relax_contact<Number>(pair, c, step);
   }
 };
+
+// Calls `act` with the blocks in use, if any.
+template <class Narrow, class Wide, class Act>
+[[gnu::always_inline]] inline void with_blocks(VectorWidth width, Narrow& blocks16, Wide& blocks32,
+                                               const Act& act) {
+  if constexpr (kWidestRegister >= 32)
+    if (width == VectorWidth::Bytes32) return act(blocks32);
+  if constexpr (kWidestRegister >= 16)
+    if (width == VectorWidth::Bytes16) act(blocks16);
+}
 
 // Non-dynamic bodies are only read: several contacts of a colour may share one.
 template <class Pass, class Real>
@@ -238,8 +249,9 @@ void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>
   graph_ = &graph, crew_ = &crew;
   width_ = graph.empty() ? VectorWidth::None : vector_width();
   if (width_ != VectorWidth::None && graph.size() < least_contacts<Real>(width_)) width_ = VectorWidth::None;
-  if (width_ == VectorWidth::Bytes16 && !gather(blocks16_, motion, apart)) width_ = VectorWidth::None;
-  if (width_ == VectorWidth::Bytes32 && !gather(blocks32_, motion, apart)) width_ = VectorWidth::None;
+  with_blocks(width_, blocks16_, blocks32_, [&](auto& blocks) {
+    if (!gather(blocks, motion, apart)) width_ = VectorWidth::None;
+  });
 }
 
 template <class Real>
@@ -287,22 +299,18 @@ template <class Pass>
     return;
   }
   const bool shares = crew_->shares();
-  const auto run_all = [&](auto& blocks) __attribute__((always_inline)) {
-    Run done;
-    for (const Run& to : runs_) {
-      if (shares) {
-        share_colour<Pass>(blocks, done, to, motion, step);
-      } else {
-        run_colour<Pass>(blocks, done, to, motion, step);
-      }
-      done = to;
-    }
-  };
-  if (width_ == VectorWidth::Bytes32) {
-    run_all(blocks32_);
-  } else {
-    run_all(blocks16_);
-  }
+  with_blocks(
+      width_, blocks16_, blocks32_, [&](auto& blocks) __attribute__((always_inline)) {
+        Run done;
+        for (const Run& to : runs_) {
+          if (shares) {
+            share_colour<Pass>(blocks, done, to, motion, step);
+          } else {
+            run_colour<Pass>(blocks, done, to, motion, step);
+          }
+          done = to;
+        }
+      });
 }
 
 template <class Real>
@@ -331,8 +339,7 @@ void SoftContacts<Real>::show_bounces(Blocks<kBytes>& blocks) {
 
 template <class Real>
 void SoftContacts<Real>::show_bounces() {
-  if (width_ == VectorWidth::Bytes16) show_bounces(blocks16_);
-  if (width_ == VectorWidth::Bytes32) show_bounces(blocks32_);
+  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { show_bounces(blocks); });
 }
 
 template <class Real>
@@ -346,19 +353,19 @@ void SoftContacts<Real>::take_bounces(Blocks<kBytes>& blocks, const BodyMotion<R
 
 template <class Real>
 void SoftContacts<Real>::take_bounces(const BodyMotion<Real>* motion) {
-  if (width_ == VectorWidth::Bytes16) take_bounces(blocks16_, motion);
-  if (width_ == VectorWidth::Bytes32) take_bounces(blocks32_, motion);
+  with_blocks(width_, blocks16_, blocks32_, [=, this](auto& blocks) { take_bounces(blocks, motion); });
 }
 
 template <class Real>
 void SoftContacts<Real>::finish() {
-  const auto scatter = [this](auto& blocks, auto loops) {
-    crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
-      loops.scatter(blocks.list.data() + first, blocks.list.data() + last);
-    });
+  const auto scatter = []<class Lane>(ContactBlock<Lane>* first, const ContactBlock<Lane>* last) {
+    Loops<Lane, Real>::scatter(first, last);
   };
-  if (width_ == VectorWidth::Bytes16) scatter(blocks16_, Loops<Number<16>, Real>());
-  if (width_ == VectorWidth::Bytes32) scatter(blocks32_, Loops<Number<32>, Real>());
+  with_blocks(width_, blocks16_, blocks32_, [&](auto& blocks) {
+    crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+      scatter(blocks.list.data() + first, blocks.list.data() + last);
+    });
+  });
 }
 
 template class SoftContacts<float>;

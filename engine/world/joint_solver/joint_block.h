@@ -37,10 +37,9 @@ struct JointBlock {
     for (int i = 0; i < N; ++i) v.apply(row[i], impulse[i]);
   }
 
-  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const JointStep<Scalar<Real>>& step,
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
                                     JointPass pass, Real share) {
-    const bool soft = pass == kSolve;
-    const Softness<Scalar<Real>> s = soft ? step.softness : Softness<Scalar<Real>>{};
+    const Softness<Scalar<Real>> s = pass == kSolve ? soft : Softness<Scalar<Real>>{};
     Real x[N];
     for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + share * s.bias_rate * row[i].residual;
     for (int i = 1; i < N; ++i)

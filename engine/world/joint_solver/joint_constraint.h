@@ -126,7 +126,11 @@ struct JointConstraint {
     kind.evaluate(at, rows);
     if constexpr (kHasRows) arm_b = rows.arm_b;
     if (time != JointTime::Between) follow(now, rows, time == JointTime::StepStarts, step.h);
-    evaluate_coordinates(at, rows, v, step, {share, alone});
+    if constexpr (kIsLanes<Real>) {
+      evaluate_coordinates(at, rows, v, step, {share, alone});
+    } else {
+      evaluate_single(at, rows, v, step, {share, alone});
+    }
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
@@ -170,6 +174,13 @@ struct JointConstraint {
       if (point_beside_rigid())
         return point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
     if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, part);
+  }
+
+  /// Does the same for a joint that is alone. Compiled once, and called: the larger part of a joint's code.
+  [[gnu::noinline]] void evaluate_single(const JointPose<Real>& at, const JointRows<Real>& rows,
+                                         const JointVelocities<Real>& v, const Step& step,
+                                         JointShare<Real> part) {
+    evaluate_coordinates(at, rows, v, step, part);
   }
 
   // Springs beside rigid rows of the joint refer to their effective mass given these: see
@@ -251,19 +262,23 @@ struct JointConstraint {
   /// Solves all rows once. Rigid rows beside a spring are solved before and after it: the spring then sees
   /// the velocity that they leave, and its response includes them. Before it they hold exactly, as that
   /// response presumes: softly held they would let go of a part of their load, for which stiff springs
-  /// overcompensate, more from substep to substep.
+  /// overcompensate, more from substep to substep. After it they hold exactly too, if the joint is alone: the
+  /// part that they let go would turn a body whose inertia is small about its centre, not about the joint.
   [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
                                                 Real part) {
-    if (turn_beside_rigid()) solve_point(v, step, kRelax, part);
-    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, step, which, part);
+    Softness<Scalar<Real>> soft = step.softness;
+    if (turn_beside_rigid()) solve_point(v, soft, kRelax, part);
+    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, soft, which, part);
     if (axial_beside_rigid()) {
       for (int i = 1; i < kAxial; ++i) axial[i].solve(v, kRelax);
-      solve_block(v, step, kRelax, part);
+      solve_block(v, soft, kRelax, part);
     }
+    if (alone && (turn_beside_rigid() || axial_beside_rigid()))
+      soft = {.bias_rate = soft.bias_rate, .mass_scale = 1, .impulse_scale = 0};
     solve_turn(v, which);
     for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
-    solve_block(v, step, which, part);
-    if (!point_beside_rigid()) solve_point(v, step, which, part);
+    solve_block(v, soft, which, part);
+    if (!point_beside_rigid()) solve_point(v, soft, which, part);
   }
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Step& step) {
     solve_coordinates(v, step, kSolve, share);
@@ -404,13 +419,13 @@ struct JointConstraint {
   [[gnu::always_inline]] void solve_turn(JointVelocities<Real>& v, JointPass which) {
     if constexpr (Rows::kTurn) turn.solve(v, which);
   }
-  [[gnu::always_inline]] void solve_block(JointVelocities<Real>& v, const Step& step, JointPass which,
-                                          Real part) {
-    if constexpr (kBlock > 0) block.solve(v, step, which, part);
+  [[gnu::always_inline]] void solve_block(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
+                                          JointPass which, Real part) {
+    if constexpr (kBlock > 0) block.solve(v, soft, which, part);
   }
-  [[gnu::always_inline]] void solve_point(JointVelocities<Real>& v, const Step& step, JointPass which,
-                                          Real part) {
-    if constexpr (Rows::kPoint) point.solve(v, step, which, part);
+  [[gnu::always_inline]] void solve_point(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
+                                          JointPass which, Real part) {
+    if constexpr (Rows::kPoint) point.solve(v, soft, which, part);
   }
 
   Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {

@@ -145,7 +145,8 @@ template <class Joint>
 void JointBlocks<Joint>::sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
                               const std::vector<char>& apart) {
   ensure_room(alone_, alone_.size() + joints.size());
-  if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, apart);
+  if constexpr (kWide)
+    if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, apart);
   if constexpr (kNarrow)
     if (width_ == VectorWidth::Bytes16) return sort_into<16>(joints, motion, apart);
   for (Joint& joint : joints) alone_.push_back(&joint);
@@ -183,8 +184,10 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<
         return add_block<16>(blocks16_, narrow_++, from.joint, from.count, from.kind);
       }
     }
-    append(places_, count_ - narrow_);
-    add_block<32>(blocks32_, count_ - narrow_, from.joint, from.count, from.kind);
+    if constexpr (kWide) {
+      append(places_, count_ - narrow_);
+      add_block<32>(blocks32_, count_ - narrow_, from.joint, from.count, from.kind);
+    }
   };
   for (Joint& joint : joints) {
     if constexpr (Joint::kPlainHinge)
@@ -219,24 +222,25 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<
 template <class Joint>
 template <class Run>
 [[gnu::always_inline]] inline void JointBlocks<Joint>::for_each(int first, int last, const Run& run) {
-  if (width_ == VectorWidth::Bytes32) {
-    Compiled<32>::run([&]() __attribute__((always_inline)) {
-      for (int i = first; i < last; ++i) {
-        const int place = places_[i];
-        if constexpr (kNarrow) {
-          if (place < 0) {
-            run(blocks16_[-1 - place]);
-            continue;
+  if constexpr (kWide) {
+    if (width_ == VectorWidth::Bytes32)
+      return Compiled<32>::run([&]() __attribute__((always_inline)) {
+        for (int i = first; i < last; ++i) {
+          const int place = places_[i];
+          if constexpr (kNarrow) {
+            if (place < 0) {
+              run(blocks16_[-1 - place]);
+              continue;
+            }
           }
+          run(blocks32_[place]);
         }
-        run(blocks32_[place]);
-      }
-    });
-  } else if constexpr (kNarrow) {
+      });
+  }
+  if constexpr (kNarrow)
     Compiled<16>::run([&]() __attribute__((always_inline)) {
       for (int i = first; i < last; ++i) run(blocks16_[-1 - places_[i]]);
     });
-  }
 }
 
 template <class Joint>
@@ -258,17 +262,21 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         block.joint.share = 1;
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
-        block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
-        store_results(block);
-        bool all = true;
-        for (int i = 0; i < block.kLanes; ++i) {
-          block.from[i]->share = share(data, *block.from[i]);
-          all = all && block.from[i]->share == 1;
+        // Twice if they are under-relaxed: their share follows from their rows, and their masses from it. A
+        // loop, so that it is compiled once.
+        for (bool has_share = false;; has_share = true) {
+          block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
+          if (has_share) return;
+          store_results(block);
+          bool all = true;
+          for (int i = 0; i < block.kLanes; ++i) {
+            block.from[i]->share = share(data, *block.from[i]);
+            all = all && block.from[i]->share == 1;
+          }
+          if (all) return;
+          block.joint.share =
+              Number::of([&](int i) __attribute__((always_inline)) { return block.from[i]->share; });
         }
-        if (all) return;
-        block.joint.share =
-            Number::of([&](int i) __attribute__((always_inline)) { return block.from[i]->share; });
-        block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
       });
 }
 

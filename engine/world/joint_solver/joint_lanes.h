@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/math/vector_width.h"
+#include "engine/math/widest_register.h"
 #include "engine/world/contact_solver/lane_bodies.h"
 #include "engine/world/joint_solver/joint_lists.h"
 
@@ -27,6 +28,13 @@ struct LanesOfJoints {
   Joint* from[kLanes];
   typename JointLanes<Joint, Number>::Type joint;
 };
+
+/// Registers that joints of a precision have side by side on this target. A narrow one has two doubles:
+/// moving them there costs more than it saves.
+template <class Real>
+inline constexpr bool kNarrowLanes = kWidestRegister >= 16 && sizeof(Real) == 4;
+template <class Real>
+inline constexpr bool kWideLanes = kWidestRegister >= 32;
 
 /// The passes over joints: apply the last impulses; solve with a bias; evaluate and solve without.
 enum class JointSweep { WarmStart, Solve, Relax };
@@ -54,6 +62,8 @@ class JointBlocks {
   /// Returns how many there are now.
   JointCounts counts() const { return {count_, static_cast<int>(alone_.size())}; }
   Joint& alone(int place) const { return *alone_[place]; }
+  /// Returns their places in memory, from `place` on.
+  Joint* const* alone_from(int place) const { return alone_.data() + place; }
 
   /// Fills blocks and evaluates their joints. `share(joint)` returns the under-relaxation factor of a joint
   /// that was evaluated.
@@ -83,8 +93,7 @@ class JointBlocks {
   void finish(int first, int last, const SolverBodies<Real>& bodies);
 
  private:
-  /// A narrow register has two doubles: moving them there costs more than it saves.
-  static constexpr bool kNarrow = sizeof(Real) == 4;
+  static constexpr bool kNarrow = kNarrowLanes<Real>, kWide = kWideLanes<Real>;
   /// Numbers in a register, or in two: at least four, as the records have that are moved there.
   template <int kBytes>
   using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;

@@ -48,8 +48,10 @@ inline constexpr int kJointsOfTask = 16, kBlocksOfTask = 8;
 template <class Real, template <class> class... Kinds>
 using BlocksOfKinds = std::tuple<JointBlocks<JointConstraint<Real, Kinds>>...>;
 template <class Real>
-using JointLaneStore =
-    BlocksOfKinds<Real, HingeRows, DistanceRows, RevoluteRows, PrismaticRows, WeldRows, WheelRows>;
+using JointLaneStore = std::conditional_t<
+    kNarrowLanes<Real> || kWideLanes<Real>,
+    BlocksOfKinds<Real, HingeRows, DistanceRows, RevoluteRows, PrismaticRows, WeldRows, WheelRows>,
+    std::tuple<>>;
 template <class Constraint, class... Blocks>
 constexpr bool has_blocks(const std::tuple<Blocks...>*) {
   return (std::is_same_v<JointBlocks<Constraint>, Blocks> || ...);
@@ -58,38 +60,39 @@ template <class Constraint>
 inline constexpr bool kSideBySide =
     has_blocks<Constraint>(static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
 
-/// Calls `visit(data, first, last)` for ranges of joints, shared by a crew. Not a template, which would be
-/// compiled for each form and pass, and leave the compiler less room to inline the joints themselves.
-void share_joints(Crew& crew, int count, int grain, void (*visit)(void*, int, int), void* data);
+/// Functions that are told what to visit by an address: compiled once, not for each form and pass.
+using VisitRange = void (*)(const void* it, int first, int last);
+using VisitCounts = void (*)(const void* it, JointCounts first, JointCounts last);
+void share_range(int count, int grain, Crew* crew, VisitRange visit, const void* it);
+void share_run(const JointRun& run, int count, Crew* crew, VisitRange visit, const void* it);
+void share_blocks(const JointRun& run, Crew* crew, VisitCounts visit, const void* it);
+
+/// Calls `visit(first, last)` for ranges of joints or blocks of them, shared by a crew.
+template <class Visit>
+void share_range(int count, int grain, Crew* crew, const Visit& visit) {
+  const auto call = [](const void* it, int first, int last) {
+    (*static_cast<const Visit*>(it))(first, last);
+  };
+  share_range(count, grain, crew, call, &visit);
+}
 
 /// Calls `visit(first, last)` for ranges of a run's joints: in turn, or shared by a crew if they have a
 /// colour.
 template <class Visit>
-void share_run(JointRun run, int count, Crew* crew, Visit visit) {
-  const int grain = kJointsOfTask;
-  if (crew == nullptr || !crew->shares() || run.colour == kOverflowColour || count <= grain)
-    return visit(0, count);
-  const auto call = [](void* it, int first, int last) { (*static_cast<Visit*>(it))(first, last); };
-  share_joints(*crew, count, grain, call, &visit);
+void share_run(const JointRun& run, int count, Crew* crew, const Visit& visit) {
+  const auto call = [](const void* it, int first, int last) {
+    (*static_cast<const Visit*>(it))(first, last);
+  };
+  share_run(run, count, crew, call, &visit);
 }
 
 /// Calls `visit(first, last)` for ranges of a sorted run's blocks and of its joints that are alone.
 template <class Visit>
 void share_blocks(const JointRun& run, Crew* crew, const Visit& visit) {
-  const int of_blocks = (run.last.blocks - run.first.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
-            of_alone = (run.last.alone - run.first.alone + kJointsOfTask - 1) / kJointsOfTask;
-  if (crew == nullptr || !crew->shares() || of_blocks + of_alone < 2) return visit(run.first, run.last);
-  crew->blocks(of_blocks + of_alone, [&](int task) {
-    JointCounts first = run.first, last = run.first;
-    if (task < of_blocks) {
-      first.blocks += task * kBlocksOfTask;
-      last.blocks = std::min(first.blocks + kBlocksOfTask, run.last.blocks);
-    } else {
-      first.alone += (task - of_blocks) * kJointsOfTask;
-      last.alone = std::min(first.alone + kJointsOfTask, run.last.alone);
-    }
-    visit(first, last);
-  });
+  const auto call = [](const void* it, JointCounts first, JointCounts last) {
+    (*static_cast<const Visit*>(it))(first, last);
+  };
+  share_blocks(run, crew, call, &visit);
 }
 
 template <class Real>

@@ -74,10 +74,9 @@ struct RigidPoint {
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     v.apply(impulse, point.arm_a, point.arm_b);
   }
-  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const JointStep<Scalar<Real>>& step,
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
                                     JointPass pass, Real share) {
     const Vec2<Real> rate = v.at(point.arm_a, point.arm_b);
-    const Softness<Scalar<Real>>& soft = step.softness;
     const Vec2<Real> delta =
         pass == kRelax
             ? -(mass * rate)
@@ -146,7 +145,7 @@ struct SoftPoint {
     v.apply(impulse, point.arm_a, point.arm_b);
   }
 
-  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const JointStep<Real>&, JointPass pass, Real) {
+  [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Real>&, JointPass pass, Real) {
     const Vec2<Real> before = impulse;
     Vec2<Real> rate = v.at(point.arm_a, point.arm_b) + bias[pass];
     if (rule.role == RowRole::Spring) rate += compliance * before;

@@ -59,7 +59,7 @@ void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodie
   }
   for (int i = 0; i < Constraint::kAxial; ++i) rows.axial[i].residual -= h * v.along(rows.axial[i]);
   if constexpr (Kind<Real>::kPoint) rows.point.gap -= h * v.at(rows.point.arm_a, rows.point.arm_b);
-  joint.evaluate_coordinates(start, rows, v, step, {});
+  joint.evaluate_single(start, rows, v, step, {});
   joint.solve_coordinates(v, step, kSolve, Real(1));
   store_projected(v, before, a, b, rotation[joint.a], rotation[joint.b], h);
 }

@@ -51,52 +51,81 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
   });
 }
 
-/// Calls `f(joint)` for a range of a list. `f` is copied, so that no other pointer reaches it.
-template <class Joint, class F>
-[[gnu::noinline]] void for_range(Joint* joint, Joint* const end, F f) {
-  for (; joint != end; ++joint) f(*joint);
+/// Evaluates a joint that is alone. Compiled once for each form: its callers are many.
+template <class Joint, class Real>
+[[gnu::noinline]] void evaluate(Joint& joint, const SolverBodies<Real>& bodies,
+                                const JointVelocities<Real>& v, const JointStep<Real>& step, JointTime time) {
+  joint.evaluate(motion_of(bodies, joint.a, joint.b), v, step, time);
 }
 
-/// Solves a joint that is alone.
-template <JointSweep kPass, class Joint, class Real>
-[[gnu::always_inline]] inline void run_alone(Joint& joint, const SolverBodies<Real>& bodies,
-                                             const JointStep<Real>& step) {
-  if constexpr (Joint::kPlainHinge)
-    if (joint.held) return;
-  JointVelocities<Real> v = velocities_of(bodies, joint);
-  if constexpr (kPass == JointSweep::WarmStart) joint.warm_start(v);
-  if constexpr (kPass == JointSweep::Solve) joint.solve(v, step);
-  if constexpr (kPass == JointSweep::Relax) joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
-  v.store(bodies.motion[joint.a], bodies.motion[joint.b]);
-}
+/// Joints to solve in turn: those from `first` on, or those that `places` points to.
+template <class Joint>
+struct JointRange {
+  Joint* first = nullptr;
+  Joint* const* places = nullptr;
+  int count = 0;
 
-/// Solves the blocks of a run, and its joints that are alone.
-template <JointSweep kPass, class Joint, class Real>
-[[gnu::noinline]] void sweep_blocks(JointBlocks<Joint>& blocks, const JointRun& run, Crew* crew,
-                                    const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-  const auto visit = [&](JointCounts first, JointCounts last) {
-    // Those that are alone come first: blocks of the next colour, which load a body's velocity as one, would
-    // wait for what was just stored in pieces.
-    for (int i = first.alone; i < last.alone; ++i) run_alone<kPass>(blocks.alone(i), bodies, step);
-    if (first.blocks < last.blocks) blocks.sweep(kPass, first.blocks, last.blocks, bodies, step);
+  Joint& operator[](int i) const { return places != nullptr ? *places[i] : first[i]; }
+};
+
+/// Solves joints that are alone.
+template <class Joint, class Real>
+[[gnu::noinline]] void sweep_range(JointSweep pass, JointRange<Joint> joints, const SolverBodies<Real>& of,
+                                   const JointStep<Real>& settings) {
+  const SolverBodies<Real> bodies = of;  // copies, which no other pointer reaches
+  const JointStep<Real> step = settings;
+  const auto for_each = [&](const auto& run) __attribute__((always_inline)) {
+    for (int i = 0; i < joints.count; ++i) {
+      Joint& joint = joints[i];
+      if constexpr (Joint::kPlainHinge)
+        if (joint.held) continue;
+      JointVelocities<Real> v = velocities_of(bodies, joint);
+      run(joint, v);
+      v.store(bodies.motion[joint.a], bodies.motion[joint.b]);
+    }
   };
-  share_blocks(run, crew, visit);
+  using Velocities = JointVelocities<Real>;
+  switch (pass) {
+    case JointSweep::WarmStart:
+      return for_each([](const Joint& joint, Velocities& v)
+                          __attribute__((always_inline)) { joint.warm_start(v); });
+    case JointSweep::Solve:
+      return for_each([&](Joint & joint, Velocities & v)
+                          __attribute__((always_inline)) { joint.solve(v, step); });
+    case JointSweep::Relax:
+      return for_each([&](Joint & joint, Velocities & v) __attribute__((always_inline)) {
+        if constexpr (Joint::kPlainHinge) return joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
+        evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
+        joint.solve_coordinates(v, step, kRelax, joint.share);
+      });
+  }
 }
 
 /// Solves all active joints in the order of solving, colour by colour.
-template <JointSweep kPass, class Parts, class Real>
-[[gnu::always_inline]] inline void sweep(Parts& parts, Crew* crew, const SolverBodies<Real>& bodies,
-                                         const JointStep<Real>& step) {
+template <class Parts, class Real>
+void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& bodies,
+           const JointStep<Real>& step) {
   for (const JointRun& run : parts.runs) {
     parts.with(run.form, [&](auto& lists) {
       using One = typename std::decay_t<decltype(lists[0])>::value_type;
-      if constexpr (kSideBySide<One>)
-        if (run.sorted)
-          return sweep_blocks<kPass>(std::get<JointBlocks<One>>(parts.lanes), run, crew, bodies, step);
+      if constexpr (kSideBySide<One>) {
+        if (run.sorted) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(parts.lanes);
+          const auto visit = [&](JointCounts first, JointCounts last) {
+            // Those that are alone come first: blocks of the next colour, which load a body's velocity as
+            // one, would wait for what was just stored in pieces.
+            if (first.alone < last.alone)
+              sweep_range<One>(pass, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
+                               bodies, step);
+            if (first.blocks < last.blocks) blocks.sweep(pass, first.blocks, last.blocks, bodies, step);
+          };
+          return crew != nullptr && crew->shares() ? share_blocks(run, crew, visit)
+                                                   : visit(run.first, run.last);
+        }
+      }
       auto& list = lists[run.colour];
       share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-        for_range(list.data() + first, list.data() + last,
-                  [bodies, step](One& joint) { run_alone<kPass>(joint, bodies, step); });
+        sweep_range<One>(pass, {list.data() + first, nullptr, last - first}, bodies, step);
       });
     });
   }
@@ -363,13 +392,10 @@ void evaluate_first(const Parts& p, Joint& joint, const SolverBodies<Real>& bodi
                     const JointStep<Real>& step) {
   if constexpr (Joint::kPlainHinge)
     if (joint.held) return;
-  const auto evaluate = [&] {
-    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
-                   JointTime::StepStarts);
-  };
-  evaluate();
+  const JointVelocities<Real> v = velocities_of(bodies, joint);
+  evaluate(joint, bodies, v, step, JointTime::StepStarts);
   joint.share = share_of(p, joint, bodies);
-  if (joint.share < 1) evaluate();
+  if (joint.share < 1) evaluate(joint, bodies, v, step, JointTime::StepStarts);
 }
 
 }  // namespace
@@ -412,9 +438,10 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
   const auto evaluate = [&]<class Joint>(JointBlocks<Joint>& blocks) {
     const auto share = [&](const Joint& joint) { return share_of(p, joint, bodies); };
     const JointCounts counts = blocks.counts();
-    crew->ranges(counts.blocks, kBlocksOfTask,
-                 [&](int first, int last) { blocks.prepare(first, last, bodies, step, share); });
-    crew->ranges(counts.alone, kJointsOfTask, [&](int first, int last) {
+    if (counts.blocks + counts.alone == 0) return;
+    share_range(counts.blocks, kBlocksOfTask, crew,
+                [&](int first, int last) { blocks.prepare(first, last, bodies, step, share); });
+    share_range(counts.alone, kJointsOfTask, crew, [&](int first, int last) {
       for (int i = first; i < last; ++i) evaluate_first(p, blocks.alone(i), bodies, step);
     });
   };
@@ -422,27 +449,35 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
 }
 
 template <class Real>
+void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  parts_->for_each_active([&](auto& joint) {
+    plumb::evaluate(joint, bodies, velocities_of(bodies, joint), step, JointTime::Between);
+  });
+}
+
+template <class Real>
 void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
   const auto finish = [&](auto& blocks) {
-    crew->ranges(blocks.counts().blocks, kBlocksOfTask,
-                 [&](int first, int last) { blocks.finish(first, last, bodies); });
+    if (blocks.counts().blocks == 0) return;
+    share_range(blocks.counts().blocks, kBlocksOfTask, crew,
+                [&](int first, int last) { blocks.finish(first, last, bodies); });
   };
   std::apply([&](auto&... blocks) { (finish(blocks), ...); }, parts_->lanes);
 }
 
 template <class Real>
 void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep<JointSweep::WarmStart>(*parts_, crew, bodies, step);
+  sweep(*parts_, JointSweep::WarmStart, crew, bodies, step);
 }
 
 template <class Real>
 void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep<JointSweep::Solve>(*parts_, crew, bodies, step);
+  sweep(*parts_, JointSweep::Solve, crew, bodies, step);
 }
 
 template <class Real>
 void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep<JointSweep::Relax>(*parts_, crew, bodies, step);
+  sweep(*parts_, JointSweep::Relax, crew, bodies, step);
 }
 
 // ---- SlotMap

@@ -44,7 +44,7 @@ void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<R
   JointVelocities<Real> way(a, b);
   way.v_a = way.v_b = {}, way.w_a = way.w_b = 0;
   block.factorise(way);
-  block.solve(way, {.softness = {.bias_rate = 1}}, kSolve, Real(1));
+  block.solve(way, {.bias_rate = 1}, kSolve, Real(1));
   shift(a, rotation[joint.a], way.v_a, way.w_a);
   shift(b, rotation[joint.b], way.v_b, way.w_b);
 }
@@ -57,7 +57,6 @@ bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Ro
   using Hinge = JointConstraint<Real, RevoluteRows>;
   std::atomic<bool> any = false;
   auto& lists = std::get<kRevolute>(parts_->store);
-  auto& blocks = std::get<JointBlocks<Hinge>>(parts_->lanes);
   const auto project = [&](Hinge& joint) {
     const Real turn = plumb::project_angular_limits(joint, bodies.motion, slack);
     if (turn == 0) return;
@@ -66,13 +65,16 @@ bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Ro
   };
   for (const JointRun& run : parts_->runs) {
     if (run.form != kRevolute) continue;
-    if (run.sorted) {
-      share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
-        if (first.blocks < last.blocks)
-          blocks.beyond_limits(first.blocks, last.blocks, bodies.motion, slack, project);
-        for (int i = first.alone; i < last.alone; ++i) project(blocks.alone(i));
-      });
-      continue;
+    if constexpr (kSideBySide<Hinge>) {
+      if (run.sorted) {
+        auto& blocks = std::get<JointBlocks<Hinge>>(parts_->lanes);
+        share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+          if (first.blocks < last.blocks)
+            blocks.beyond_limits(first.blocks, last.blocks, bodies.motion, slack, project);
+          for (int i = first.alone; i < last.alone; ++i) project(blocks.alone(i));
+        });
+        continue;
+      }
     }
     auto& list = lists[run.colour];
     share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {

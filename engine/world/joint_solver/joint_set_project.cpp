@@ -5,14 +5,6 @@
 namespace plumb {
 
 template <class Real>
-void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
-  parts_->for_each_active([bodies, step](auto& joint) {
-    joint.evaluate(motion_of(bodies, joint.a, joint.b), velocities_of(bodies, joint), step,
-                   JointTime::Between);
-  });
-}
-
-template <class Real>
 void JointSet<Real>::begin_projection(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
   parts_->for_each_active(
       [bodies, step](auto& constraint) { plumb::begin_projection(constraint, bodies, step); });
@@ -26,7 +18,6 @@ void JointSet<Real>::project(const SolverBodies<Real>& bodies, Rotation<Real>* r
 }
 
 #define PLUMB_FOR(Real)                                                                              \
-  template void JointSet<Real>::evaluate(const SolverBodies<Real>&, const JointStep<Real>&);         \
   template void JointSet<Real>::begin_projection(const SolverBodies<Real>&, const JointStep<Real>&); \
   template void JointSet<Real>::project(const SolverBodies<Real>&, Rotation<Real>*, const JointStep<Real>&);
 PLUMB_FOR(float)

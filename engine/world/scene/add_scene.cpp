@@ -22,10 +22,11 @@ BodyDefinition definition_of(const Body& body) {
   BodyDefinition definition;
   definition.name = body.name;
   definition.type = body.type;
-  definition.position = body.position;
-  definition.angle = body.angle;
-  definition.velocity = body.velocity;
-  definition.angular_velocity = body.angular_velocity;
+  const BodyState start = initial_state(body);
+  definition.position = start.position;
+  definition.angle = start.angle;
+  definition.velocity = start.velocity;
+  definition.angular_velocity = start.angular_velocity;
   definition.lock_rotation = body.fixed_rotation;
   definition.gravity_scale = body.gravity_scale;
   definition.linear_damping = body.linear_damping;

@@ -54,6 +54,12 @@ void collect_joints(WorldData<Real>& w) {
     if (a && b) groups.join(joint.body_a, joint.body_b);
   });
   for (int body = 0; body < w.bodies.size(); ++body) room.group[body] = groups.find(body);
+  room.first_joint.assign(room.group.size(), -1);
+  for (int i = static_cast<int>(room.joints.size()) - 1; i >= 0; --i) {
+    ImpactJoint& joint = room.joints[i];
+    int& first = room.first_joint[room.group[w.is_dynamic(joint.a) ? joint.a : joint.b]];
+    joint.next = first, first = i;
+  }
 }
 
 // Fills in the rows of the joints that impacts reach: rigid rows and reached limits.

@@ -24,11 +24,14 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
-// Returns true if a close point neither separates nor is about to bounce.
+// Returns true if a close point neither separates nor is about to bounce. A rate that moves it by no more
+// than rounding in a step does not separate it: its sign may change within the step, and an impact that was
+// left to continuous collision before the step would be the solver's in it.
 template <class Real>
 bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
   const Real rate = rate_of(w, c, i);
-  return !(rate > 0) && !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
+  return !(dt * rate > rounding_between(w, c.body_a, c.body_b)) &&
+         !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
 }
 
 // Returns true if a dynamic body without joints moves so far in a step that continuous collision follows it.

@@ -23,7 +23,11 @@ void build(Draft& draft) {
   add({0, inside + wall / 2}, long_way, wall);
   add({-half - wall / 2, half}, wall, long_way);
   add({half + wall / 2, half}, wall, long_way);
-  draft.site = {.kind = Site::Kind::Enclosure, .width = inside, .height = inside, .friction = draft.friction};
+  draft.site = {.kind = Site::Kind::Enclosure,
+                .width = inside,
+                .height = inside,
+                .wall = wall,
+                .friction = draft.friction};
 }
 
 const Register r{{.name = "closed_box",

@@ -5,7 +5,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds bricks at rest, in a bond or a stack.
+// Builds bricks at rest, in a bond or a stack. In a bond every second row has half a brick at each end:
+// without, the bricks at the ends of the rows above would have their centres above an edge, and fall or not.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, width = s, height = random.pick({0.3, 0.5, 1.0}) * s;
@@ -16,11 +17,14 @@ void build(Draft& draft) {
   draft.density = 1;
   for (int i = 0; i < first; ++i)
     for (Shape& shape : draft.body(i).shapes) shape.friction = draft.friction, shape.restitution = 0;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns - (bond ? row % 2 : 0); ++column)
-      draft.box(
-          {(column + (bond && row % 2 == 1 ? 0.5 : 0) - 0.5 * (columns - 1)) * width, (row + 0.5) * height},
-          width, height);
+  for (int row = 0; row < rows; ++row) {
+    const bool shifted = bond && row % 2 == 1;
+    const double y = (row + 0.5) * height, end = 0.5 * columns * width - 0.25 * width;
+    if (shifted) draft.box({-end, y}, width / 2, height);
+    for (int column = 0; column < columns - (shifted ? 1 : 0); ++column)
+      draft.box({(column + (shifted ? 0.5 : 0) - 0.5 * (columns - 1)) * width, y}, width, height);
+    if (shifted) draft.box({end, y}, width / 2, height);
+  }
   draft.out.sleeping = draft.random.chance(0.2);
   draft.out.dt = std::min(draft.out.dt, 1.0 / 60), draft.out.substeps = std::max(draft.out.substeps, 4);
   draft.out.steps = static_cast<int>(8 / draft.out.dt);

@@ -26,7 +26,9 @@ struct PublishedLaw {
 };
 
 // A file each.
+std::vector<PublishedLaw> bouncing_ball();
 std::vector<PublishedLaw> column_collapse();
+std::vector<PublishedLaw> dominoes();
 std::vector<PublishedLaw> rocking_block();
 
 /// Returns a box that does not move.
@@ -43,7 +45,8 @@ struct PublishedFinding {
 };
 
 /// Runs every law on every engine.
-std::vector<PublishedFinding> examine_published(std::span<const reference::Backend* const> engines);
+std::vector<PublishedFinding> examine_published(std::span<const PublishedLaw> laws,
+                                                std::span<const reference::Backend* const> engines);
 
 std::string published_csv(std::span<const PublishedFinding> findings);
 std::string published_json(std::span<const PublishedFinding> findings);

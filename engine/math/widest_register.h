@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/math/lanes.h"
+
+namespace plumb {
+
+/// Bytes of the widest vector register that a processor of this target may have, 0 for none. Loops for wider
+/// ones are not compiled: AVX2 is of x86 alone, and they are half of the solver's code.
+#if !defined(PLUMB_VECTORS)
+inline constexpr int kWidestRegister = 0;
+#elif defined(__x86_64__) || defined(__i386__)
+inline constexpr int kWidestRegister = 32;
+#elif defined(__ARM_NEON) || defined(__wasm_simd128__)
+inline constexpr int kWidestRegister = 16;
+#else
+inline constexpr int kWidestRegister = 0;
+#endif
+
+}  // namespace plumb

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/math/jet.h"
+
+namespace plumb {
+
+/// A function that is given as text, such as "0.1*sin(50*t)": numbers, variables, `+ - * / ^`, parentheses,
+/// comparisons, `&& ||`, `a ? b : c`, `pi`, the functions
+///   sin cos tan asin acos atan atan2 sinh cosh tanh exp ln log10 sqrt abs sign min max hypot mod floor
+/// and table(x, x0, y0, x1, y1, ...), straight lines between the given numbers with ascending x0, x1, ...,
+/// constant beyond its ends. Angles are in rad. Values have the same bits on every platform, and derivatives
+/// follow from the rules of differentiation. Evaluation does not allocate.
+class Formula {
+ public:
+  /// Zero.
+  Formula() = default;
+
+  /// Parses `text`; the values of `variables` are given to `at` in the same order. Throws
+  /// std::invalid_argument, which says what is wrong.
+  Formula(std::string_view text, std::span<const std::string_view> variables);
+
+  double at(std::span<const double> variables) const;
+  /// Returns the value and its derivatives along the direction of the variables' derivatives.
+  Jet at(std::span<const Jet> variables) const;
+
+  /// Returns true if the value depends on this variable.
+  bool uses(std::size_t variable) const;
+
+  /// More than this many pending values are refused: "1+(2+(3+...".
+  static constexpr std::size_t kDeepest = 64;
+
+ private:
+  friend class FormulaParser;
+  enum class Code : std::uint8_t {
+    Number,
+    Variable,
+    Negate,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Less,
+    Greater,
+    AtMost,
+    AtLeast,
+    Equal,
+    Different,
+    And,
+    Or,
+    Choose,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Log10,
+    Sqrt,
+    Abs,
+    Sign,
+    Min,
+    Max,
+    Hypot,
+    Mod,
+    Floor,
+    Table,
+  };
+  struct Operation {
+    Code code = Code::Number;
+    std::uint32_t index = 0;  // of a variable or table
+    double number = 0;
+  };
+  struct Point {
+    double x = 0, y = 0;
+  };
+
+  template <class Value>
+  Value evaluate(std::span<const Value> variables) const;
+
+  std::vector<Operation> operations_{{}};  // in reverse Polish notation
+  std::vector<std::vector<Point>> tables_;
+};
+
+}  // namespace plumb

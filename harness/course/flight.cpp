@@ -1,0 +1,142 @@
+#include "harness/course/flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace plumb::course {
+namespace {
+
+constexpr std::size_t kFewest = 6;  // steps from which a pattern is read
+
+// Returns the radius of a circle around the body's centre that holds its shape.
+double reach(const Body& body) {
+  if (const auto* circle = std::get_if<Circle>(&body.shapes.front().geometry)) return circle->radius;
+  const auto* box = std::get_if<Box>(&body.shapes.front().geometry);
+  return box == nullptr ? 0 : std::hypot(box->width, box->height) / 2;
+}
+
+// Returns the distance of a point from the body's shape.
+double distance(const Body& body, const BodyState& state, Vec2d point) {
+  const Vec2d way = point - state.position;
+  const auto* box = std::get_if<Box>(&body.shapes.front().geometry);
+  if (box == nullptr) return std::hypot(way.x, way.y) - reach(body);
+  const double c = std::cos(state.angle), s = std::sin(state.angle);
+  const double x = std::abs(c * way.x + s * way.y) - box->width / 2,
+               y = std::abs(c * way.y - s * way.x) - box->height / 2;
+  return std::hypot(std::max(x, 0.0), std::max(y, 0.0));
+}
+
+// Returns the number of first states in which the body is farther from all others than it moves in two steps.
+std::size_t length_of_flight(const Recorded& run, std::size_t b) {
+  const auto& states = run.trace.states;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    double fastest = 0;
+    for (const BodyState& s : states[k]) fastest = std::max(fastest, std::hypot(s.velocity.x, s.velocity.y));
+    for (std::size_t o = 0; o < run.scene.bodies.size(); ++o) {
+      const double gap = distance(run.scene.bodies[o], states[k][o], states[k][b].position);
+      if (o != b && gap < reach(run.scene.bodies[b]) + 0.02 + 4 * fastest * run.dt) return k;
+    }
+  }
+  return states.size();
+}
+
+// Returns the ratio of each value to the one before, if it is the same for all and not 1.
+std::optional<double> constant_ratio(std::span<const double> values) {
+  if (values.size() < kFewest || std::abs(values[0]) < 1e-9) return std::nullopt;
+  const double ratio = values[1] / values[0];
+  if (!(ratio > 0) || std::abs(ratio - 1) < 1e-6) return std::nullopt;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (std::abs(values[k] - ratio * values[k - 1]) > 1e-5 * std::abs(values[0])) return std::nullopt;
+  return ratio;
+}
+
+// Returns the speed that the last steps keep, although gravity goes on and sped the body up before.
+std::optional<double> largest_speed(std::span<const Vec2d> v, Vec2d gain) {
+  if (v.size() < 2 * kFewest || (gain.x == 0 && gain.y == 0)) return std::nullopt;
+  const auto speed = [&](std::size_t k) { return std::hypot(v[k].x, v[k].y); };
+  const double last = speed(v.size() - 1);
+  const double step = std::hypot(gain.x, gain.y);
+  for (std::size_t k = v.size() - kFewest; k < v.size(); ++k)
+    if (std::abs(speed(k) - last) > 1e-6 * step) return std::nullopt;
+  const bool fell = std::abs(v[1].x - v[0].x - gain.x) + std::abs(v[1].y - v[0].y - gain.y) < 1e-6 * step;
+  return fell && last > speed(0) + step ? std::optional(last) : std::nullopt;
+}
+
+bool whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
+
+// Returns the number of decimals to which all values are rounded. Their changes are then within a unit of the
+// right ones, `changes` up to `slack`, but not equal to them: a wrong change may have few decimals as well.
+std::optional<int> decimals(std::span<const double> values, std::span<const double> changes, double slack) {
+  if (values.size() < 2 * kFewest || values.front() == values.back()) return std::nullopt;
+  double unit = 10;
+  for (int digits = 1; digits <= 4; ++digits, unit *= 10) {
+    if (!std::all_of(values.begin(), values.end(), [&](double v) { return whole(v * unit); })) continue;
+    bool exact = true;
+    for (std::size_t k = 1; k < values.size(); ++k) {
+      exact = exact && whole(changes[k] * unit);
+      if (std::abs(values[k] - values[k - 1] - changes[k]) > 1.01 / unit + slack) return std::nullopt;
+    }
+    return exact ? std::nullopt : std::optional(digits);
+  }
+  return std::nullopt;
+}
+
+std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
+  const std::size_t n = length_of_flight(run, b);
+  std::vector<Vec2d> v;
+  for (std::size_t k = 0; k < n; ++k) v.push_back(run.trace.states[k][b].velocity);
+  const Vec2d gain = run.dt * run.scene.gravity;
+  for (double Vec2d::*axis : {&Vec2d::x, &Vec2d::y}) {
+    std::vector<double> speeds, places, gains, moves;
+    for (std::size_t k = 0; k < n; ++k) {
+      speeds.push_back(v[k].*axis);
+      if (k == 0) continue;
+      places.push_back(run.trace.states[k][b].position.*axis);
+      gains.push_back(v[k].*axis - v[k - 1].*axis);
+      moves.push_back(v[k].*axis * run.dt);
+    }
+    const std::vector<double> due(speeds.size(), gain.*axis);
+    const double slack = std::abs(gain.*axis) * run.dt;  // of a method that moves with the old velocity
+    if (const auto kept = constant_ratio(gain.*axis == 0 ? speeds : gains))
+      return Seen{"damping",
+                  fmt::format("Each step multiplies the velocity by {:.6g} in free flight: nothing "
+                              "here slows the ball, so leave that out.",
+                              *kept)};
+    if (const auto digits = decimals(places, moves, slack))
+      return Seen{
+          "state_rounded",
+          fmt::format("Positions are rounded to {} decimals: keep them as they are from step to step, "
+                      "and write all their digits.",
+                      *digits)};
+    if (n > 1) {
+      const auto later = std::span(speeds).subspan(1);
+      if (const auto digits = decimals(later, due, 0))
+        return Seen{"state_rounded", fmt::format("Velocities are rounded to {} decimals: keep them as they "
+                                                 "are.",
+                                                 *digits)};
+    }
+  }
+  if (const auto most = largest_speed(v, gain))
+    return Seen{
+        "speed_limited",
+        fmt::format("The speed never exceeds {:.4g} m/s: nothing limits it here, so leave that out.", *most)};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Seen> seen_in_flight(const Recorded& run) {
+  if (!run.scene.forces.empty() || !run.scene.joints.empty()) return std::nullopt;
+  for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
+    if (run.scene.bodies[b].type != BodyType::Dynamic || run.scene.bodies[b].shapes.empty()) continue;
+    if (auto seen = seen_of(run, b)) return seen;
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,34 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/reality/published/published_law.h"
+
+// A ball of measured restitution is dropped: the height of its rebound. Sources: International Tennis
+// Federation, Rules of Tennis, appendix I (2.54 m, 1.35 to 1.47 m on a rigid floor); International Table
+// Tennis Federation, leaflet T3 (305 mm, 240 to 260 mm on a steel block). The restitution is that of the
+// middle of the band.
+namespace plumb::harness::reality {
+namespace {
+PublishedLaw ball(const char* name, const char* source, double radius, double drop, double low, double high) {
+  Scene scene{.name = std::string("bouncing_ball[") + name + "]"};
+  scene.gravity = {0, -9.81};
+  Body ball{.name = "ball", .position = {0, drop + radius}};  // heights are those of the ball's lowest point
+  ball.shapes = {{.geometry = Circle{radius}, .restitution = std::sqrt((low + high) / 2 / drop)}};
+  scene.bodies = {fixed_box("floor", {0, -0.5}, {20, 1}, 0), ball};
+  const auto rebound = [radius](std::span<const Sample> samples) {
+    double most = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i)  // from when it first rises
+      if (most > 0 || samples[i][1].position.y > samples[i - 1][1].position.y)
+        most = std::max(most, samples[i][1].position.y - radius);
+    return most;
+  };
+  const double fall = std::sqrt(2 * drop / 9.81);
+  return {scene.name, "height of the rebound, m", source, low, high, scene, 1.9 * fall, 1.0 / 240, rebound};
+}
+}  // namespace
+
+std::vector<PublishedLaw> bouncing_ball() {
+  return {ball("tennis", "ITF, Rules of Tennis, appendix I", 0.033, 2.54, 1.35, 1.47),
+          ball("table_tennis", "ITTF, leaflet T3", 0.02, 0.305, 0.24, 0.26)};
+}
+}  // namespace plumb::harness::reality

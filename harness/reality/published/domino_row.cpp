@@ -1,0 +1,105 @@
+#include "harness/reality/published/domino_row.h"
+
+#include <cmath>
+
+namespace plumb::harness::reality {
+namespace {
+
+/// Blocks behind the first that still move: each is slower than the one before it.
+constexpr int kBlocks = 100;
+/// Share of a block's equation in the sum below which it and those behind it are left out.
+constexpr double kLeast = 1e-9;
+constexpr int kSteps = 50;  // of the first block's turn between two impacts, of fourth order
+constexpr int kImpacts = 40;
+
+/// Equation of motion of the leaning blocks for the first one's angle: inertia * acceleration + bend * rate^2
+/// = torque, all over m h^2 or m g h.
+struct Motion {
+  double inertia = 0, bend = 0, torque = 0;
+};
+
+/// Lengths over the height, times over the root of the height over gravity.
+class Row {
+ public:
+  explicit Row(const DominoRow& row)
+      : thick_(row.thickness / row.height), pitch_(thick_ + row.gap / row.height), friction_(row.friction) {}
+
+  double first_angle_at_impact() const { return std::asin(pitch_ - thick_); }
+  double pitch() const { return pitch_; }
+
+  /// Sums over the blocks. Each leans with its upper edge on the back of the one before it, at the place
+  /// where the distance across that back is the thickness. The contact's force turns the block before with
+  /// the arm along - friction thickness, the block behind with -(cos + friction sin) of the angle between
+  /// them. Each block's equation is multiplied so that these forces cancel.
+  Motion motion(double angle) const {
+    const double own = (1 + thick_ * thick_) / 3;
+    Motion out;
+    double x = angle, rate = 1, bend = 0, share = 1;  // rate, bend: derivatives of x by the first angle
+    for (int i = 0; i < kBlocks && share > kLeast; ++i) {
+      out.inertia += share * own * rate;
+      out.bend += share * own * bend;
+      out.torque += share * (std::sin(x) - thick_ * std::cos(x)) / 2;
+      const double across = pitch_ * std::cos(x) - thick_;  // sine of the angle between the two
+      const double cosine = std::sqrt(1 - across * across);
+      const double along = cosine - pitch_ * std::sin(x);
+      const double arm = along - friction_ * thick_;
+      if (arm <= 0 || along <= 0) break;  // those behind lie still
+      share *= arm / (cosine + friction_ * across);
+      // y = x + asin(across)
+      const double across_1 = -pitch_ * std::sin(x) * rate;
+      const double across_2 = -pitch_ * (std::cos(x) * rate * rate + std::sin(x) * bend);
+      x += std::asin(across);
+      rate += across_1 / cosine;
+      bend += across_2 / cosine + across * across_1 * across_1 / (cosine * cosine * cosine);
+    }
+    return out;
+  }
+
+  /// Square of the rate at the next impact, from that after the last; `time` becomes that between them.
+  double turn(double square, double& time) const {
+    const double step = first_angle_at_impact() / kSteps;
+    const auto slope = [&](double angle, double w2) {
+      const Motion m = motion(angle);
+      return 2 * (m.torque - m.bend * w2) / m.inertia;
+    };
+    time = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double angle = i * step;
+      const double a = slope(angle, square), b = slope(angle + step / 2, square + step / 2 * a),
+                   c = slope(angle + step / 2, square + step / 2 * b),
+                   d = slope(angle + step, square + step * c);
+      const double next = square + step / 6 * (a + 2 * b + 2 * c + d);
+      if (!(next > 0)) return 0;
+      // Over a step the square is linear in the angle up to third order.
+      time += 2 * step / (std::sqrt(square) + std::sqrt(next));
+      square = next;
+    }
+    return square;
+  }
+
+  /// Share of the first block's rate that the next one has after it was struck: the impulses obey the same
+  /// sums, and all blocks but the new one move before.
+  double kept() const {
+    const double all = motion(0).inertia, own = (1 + thick_ * thick_) / 3;
+    return (all - own) / all;
+  }
+
+ private:
+  double thick_, pitch_, friction_;
+};
+
+}  // namespace
+
+double toppling_speed(const DominoRow& given) {
+  const Row row(given);
+  const double kept = row.kept();
+  double square = 1, time = 0;  // any push: its effect is gone after a few blocks
+  for (int i = 0; i < kImpacts; ++i) {
+    square = row.turn(square, time);
+    if (square == 0) return 0;
+    square *= kept * kept;
+  }
+  return row.pitch() / time * std::sqrt(given.gravity * given.height);
+}
+
+}  // namespace plumb::harness::reality
