@@ -246,6 +246,7 @@ struct JointedIsland {
         sizes(room),
         ties(room),
         impulses(room),
+        allowed(room),
         system(room) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
@@ -255,6 +256,7 @@ struct JointedIsland {
   std::pmr::vector<int> sizes;
   std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
   std::pmr::vector<double> impulses;    ///< N s, of the rows in this substep
+  std::pmr::vector<double> allowed;     ///< m or rad, gaps of the rows: joint_gaps.cpp
   BoundedRows system;
   int root = kNone;     ///< body that represents it
   int contact_row = 0;  ///< first row of a contact

@@ -17,8 +17,8 @@ namespace {
 // step.
 constexpr int kLoops = 64;
 
-// rad, opening that a step leaves: what a body makes at the joint when it turns so far. At 0.005 1 % of
-// random mechanisms open by more than 1 % of a link, at 0.007 3 %, at 0.015 12 %. At 0.005 propellers of long
+// Opening that a step leaves, as a share of the joint's link (joint_opening.h). At 0.005 1 % of random
+// mechanisms open by more than 1 % of a link, at 0.007 3 %, at 0.015 12 %. At 0.005 propellers of long
 // blades lose more than 2 % of their energy in 3 s of one substep a step, and ragdolls cost 4 % more.
 constexpr double kOpening = 0.007;
 // Rounds of closing.
@@ -46,17 +46,21 @@ enum class Of { Displacements, Velocities };
 template <class Real>
 class Mechanism {
  public:
-  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening)
-      : w_(w),
-        island_(island),
-        h_(h),
-        opening_(opening),
-        sag_(kSag * std::sqrt(length_squared(w.settings.gravity)) * h * h) {}
+  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening, double sag)
+      : w_(w), island_(island), h_(h), opening_(opening), sag_(sag) {}
+
+  // Returns true if the step has opened a joint. Costs much less than `collect`.
+  bool has_opened(int joint) {
+    start();
+    island_.joints.push_back(joint);
+    find_links(w_, island_);
+    return has_opened();
+  }
 
   // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops.
   bool collect(int joint) {
     std::vector<char>& marks = w_.scratch.open_joints;
-    island_.joints.clear(), island_.contacts.clear();
+    start();
     start_links(w_, island_);
     const auto add = [&](int slot) {
       if (marks[slot] == kCollected) return;
@@ -82,7 +86,7 @@ class Mechanism {
   }
 
   void close() {
-    if (!has_opened()) return;
+    if (!has_opened() || turns_back_) return;
     collect_contacts();
     if (order() > tuning::kJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
@@ -95,6 +99,8 @@ class Mechanism {
   }
 
  private:
+  void start() { island_.joints.clear(), island_.contacts.clear(); }
+
   // Adds the contacts of the mechanism's bodies. Bodies that they meet stay where they are.
   void collect_contacts() {
     for (std::size_t link = 0; link < tied_; ++link) {
@@ -125,7 +131,7 @@ class Mechanism {
 
   // Adds a joint's rows: rigid ones and limits, and motors, which are not to be turned.
   void make_joint_rows(Of of) {
-    island_.system.rows.clear();
+    island_.system.rows.clear(), island_.allowed.clear();
     std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
     for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
       rows.clear();
@@ -139,6 +145,7 @@ class Mechanism {
         row.linear_b = from.row.linear_b.template as<double>();
         row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
         row.block = block;
+        island_.allowed.push_back(allowed_gap(row, from.length));
         const double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
         from.role == RowRole::Limit ? add_one_sided(row, gap, of) : add_rigid(row, gap, of);
       }
@@ -195,47 +202,50 @@ class Mechanism {
     return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
   }
 
-  // Returns true if a row is open by more than a body makes at the joint when it turns by `opening_`, and by
-  // more than a load makes at rest. Limits of angles have a pass of their own.
-  bool is_open(const BoundedRow& row) const {
-    if (is_angular_limit(row)) return false;
-    const auto beyond = [&](const BoundedBody& body, Vec2d linear, double angular) {
-      if (!(body.inverse_inertia > 0)) return false;
+  // Returns the gap that a row may have: `opening_` of its link, as joint_opening.h defines it, and what a
+  // load makes at rest. `length`: of a joint that is a link itself, m.
+  double allowed_gap(const BoundedRow& row, double length) const {
+    const auto radius = [](const BoundedBody& body, Vec2d linear, double angular) {
+      if (!(body.inverse_inertia > 0)) return kUnbounded;
       const double mobility = std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear);
-      const double radius = std::sqrt(mobility / body.inverse_inertia + angular * angular);
-      return std::abs(row.gap) > opening_ * radius + sag_;
+      return std::sqrt(mobility / body.inverse_inertia + angular * angular);
     };
-    return beyond(island_.system.bodies[row.a], row.linear_a, row.angular_a) ||
-           beyond(island_.system.bodies[row.b], row.linear_b, row.angular_b);
+    const double shorter = std::min(radius(island_.system.bodies[row.a], row.linear_a, row.angular_a),
+                                    radius(island_.system.bodies[row.b], row.linear_b, row.angular_b));
+    return opening_ * std::max(shorter, length) + sag_;
+  }
+  // Returns true if a joint's row is open by more than it may. Limits of angles have a pass of their own.
+  bool is_open(std::size_t i) const {
+    const BoundedRow& row = island_.system.rows[i];
+    return !is_angular_limit(row) && std::abs(row.gap) > island_.allowed[i];
   }
   bool is_open() const {
-    return std::any_of(island_.system.rows.begin(), island_.system.rows.end(),
-                       [&](const BoundedRow& row) { return is_open(row); });
+    for (std::size_t i = 0; i < island_.allowed.size(); ++i)
+      if (is_open(i)) return true;
+    return false;
   }
 
   static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && row.linear_b == Vec2d{}; }
 
-  // Returns true if the step has opened a row. What was open before and closes by itself is left to the
-  // solver, and so are joints that were created beyond limits of their angle, while they turn back. Leaves
-  // the rows at the present poses if it returns true.
+  // Returns true if the step has opened a row: what was open before and closes by itself is left to the
+  // solver. So are joints that were created beyond limits of their angle while they turn back, which
+  // `turns_back_` tells. Leaves the rows at the present poses.
   bool has_opened() {
     note_poses(w_, island_);
     for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
     make_joint_rows(Of::Displacements);
     std::pmr::vector<double>& before = island_.impulses;
     before.clear();
-    bool turns_back = false;
+    turns_back_ = false;
     for (const BoundedRow& row : island_.system.rows) {
       before.push_back(std::abs(row.gap));
-      turns_back = turns_back || (is_angular_limit(row) && row.gap < -2 * tuning::kLimitSlack);
+      turns_back_ = turns_back_ || (is_angular_limit(row) && row.gap < -2 * tuning::kLimitSlack);
     }
     for (const JointedLink& link : island_.links) shift(w_, link.body, link.moved, link.turned);
-    if (turns_back) return false;
     make_joint_rows(Of::Displacements);
     assert(before.size() == island_.system.rows.size());
     for (std::size_t i = 0; i < before.size(); ++i) {
-      const BoundedRow& row = island_.system.rows[i];
-      if (is_open(row) && std::abs(row.gap) > before[i]) return true;
+      if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i]) return true;
     }
     return false;
   }
@@ -284,6 +294,7 @@ class Mechanism {
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
   const double h_, opening_, sag_;
+  bool turns_back_ = false;
   std::size_t tied_ = 0;  // links that joints tie; behind them are those that they touch
 };
 
@@ -303,11 +314,13 @@ void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   std::vector<char>& marks = w.scratch.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kClosed);
   const double opening = kOpening * std::max(kSubsteps / static_cast<double>(substeps), 1.0);
-  if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(opening), marks, &w.crew)) return;
-  Mechanism<Real> mechanism(w, w.scratch.opened, h, opening);
+  const double sag = kSag * std::sqrt(length_squared(w.settings.gravity)) * h * h;
+  const AllowedGap<Real> allowed{static_cast<Real>(opening), static_cast<Real>(sag)};
+  if (!w.joint_set.find_open(w.solver_bodies(), allowed, marks, &w.crew)) return;
+  Mechanism<Real> mechanism(w, w.scratch.opened, h, opening, sag);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
     if (marks[joint] != kOpen || is_net(w, joint)) continue;
-    if (mechanism.collect(joint)) mechanism.close();
+    if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();
   }
 }
 

@@ -4,47 +4,53 @@
 
 namespace plumb {
 
-/// Compares how far rigid rows and limits of a joint are open with the way that a body makes at the joint
-/// when it turns by `share`, rad: that is `share` times its radius of gyration about the joint. For angles it
-/// is `share` itself. With Lanes, of several joints side by side.
+/// Compares how far rigid rows and limits of a joint are open with its link: the radius of gyration about the
+/// joint of the body for which it is shorter, or the length of a joint that is a link itself (rod, rope), if
+/// that is longer. For angles the link is 1. With Lanes, of several joints side by side.
 template <class Number>
 struct JointOpening {
   const PairMobility<Number> p{};
-  Scalar<Number> share = 0;
-  Number most = -1;  ///< positive if a row is open by more than that
+  const AllowedGap<Scalar<Number>> allowed{};
+  Number most = -1;  ///< positive if a row is open by more than is allowed
 
-  [[gnu::always_inline]] void add(Number error_squared, Number linear_a, Number angular_a, Number linear_b,
-                                  Number angular_b) {
-    using std::max;
-    const Number least = share * share;
-    most = max(most, error_squared * p.i_a - least * (p.m_a * linear_a + p.i_a * angular_a));
-    most = max(most, error_squared * p.i_b - least * (p.m_b * linear_b + p.i_b * angular_b));
+  [[gnu::always_inline]] void add(Number error, Number length, Number linear_a, Number angular_a,
+                                  Number linear_b, Number angular_b) {
+    using std::max, std::min;
+    const Number beyond = max(error - Number(allowed.sag), Number(0)), squared = beyond * beyond;
+    const Number least = allowed.share * allowed.share;
+    const Number of_bodies = max(squared * p.i_a - least * (p.m_a * linear_a + p.i_a * angular_a),
+                                 squared * p.i_b - least * (p.m_b * linear_b + p.i_b * angular_b));
+    most = max(most, min(of_bodies, squared - least * (length * length)));
   }
-  [[gnu::always_inline]] void rigid(const JointRow<Number>& row, Number error) {
-    add(error * error, length_squared(row.linear_a), row.angular_a * row.angular_a,
+  [[gnu::always_inline]] void rigid(const JointRow<Number>& row, Number error, Number length = 0) {
+    using std::max;
+    add(max(error, -error), length, length_squared(row.linear_a), row.angular_a * row.angular_a,
         length_squared(row.linear_b), row.angular_b * row.angular_b);
   }
   [[gnu::always_inline]] void rigid(const AnchorPoint<Number>& point) {
-    add(length_squared(point.gap), 1, length_squared(point.arm_a), 1, length_squared(point.arm_b));
+    using std::sqrt;
+    add(sqrt(length_squared(point.gap)), 0, 1, length_squared(point.arm_a), 1, length_squared(point.arm_b));
   }
 };
 
-/// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than
-/// `share` allows when it was last evaluated. It reads what the evaluation has left, so that a look at all
+/// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than is
+/// allowed when it was last evaluated. It reads what the evaluation has left, so that a look at all
 /// joints costs little. Limits of angles have a pass of their own (`project_angular_limits`).
 template <class Number, template <class> class Kind>
 [[gnu::always_inline]] inline Number joint_opening(const JointConstraint<Number, Kind>& joint,
-                                                   const PairMobility<Number>& p, Scalar<Number> share) {
+                                                   const PairMobility<Number>& p,
+                                                   const AllowedGap<Scalar<Number>>& allowed) {
   using Constraint = JointConstraint<Number, Kind>;
   using std::min;
-  JointOpening<Number> opening{p, share};
+  JointOpening<Number> opening{p, allowed};
   for (int k = 0; k < Constraint::kAxial; ++k) {
     const auto& coordinate = joint.axial[k];
     for (int i = 0; i < coordinate.count; ++i) {
       const SolverRule<Number>& rule = coordinate.rule[i];
       const Number error = rule.sign * (coordinate.row.residual - rule.origin);
-      if (rule.role == RowRole::Rigid) opening.rigid(coordinate.row, error);
-      if (rule.role == RowRole::Limit) opening.rigid(coordinate.row, min(error, Number(0)));
+      const Number length = Kind<Number>::kLength ? rule.origin : Number(0);
+      if (rule.role == RowRole::Rigid) opening.rigid(coordinate.row, error, length);
+      if (rule.role == RowRole::Limit) opening.rigid(coordinate.row, min(error, Number(0)), length);
     }
   }
   if constexpr (Constraint::kBlock > 0)
