@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "engine/math/small_turn.h"
-#include "engine/world/integration/free_motion.h"
 #include "engine/world/world_data.h"
 
 /// Bodies of an island with joints.
@@ -65,44 +64,6 @@ void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
   for (JointedLink& link : island.links) {
     const BodyMotion<Real>& motion = w.motion[link.body];
     link.moved = motion.moved.template as<double>(), link.turned = motion.turned;
-  }
-}
-
-/// Pays for the energy that shifts of an island's bodies have given them since `note_poses`, so that closing
-/// gaps adds none: first with the bodies' motion along the shift, then with what their fall `way(link)`, m,
-/// has lost before, since that is what a mechanism that sags falls by. The part of the shift that neither
-/// pays for is taken back. `velocity(link)` and `spin(link)` are references; `count`: links that moved.
-template <class Real, class Way, class Velocity, class Spin>
-void pay_for_lift(WorldData<Real>& w, JointedIsland<Real>& island, std::size_t count, const Way& way,
-                  const Velocity& velocity, const Spin& spin) {
-  double lift = 0, fall = 0, along = 0, own = 0;
-  const auto shifted = [&](const JointedLink& link) {
-    const BodyMotion<Real>& motion = w.motion[link.body];
-    return BoundedRows::Shift{motion.moved.template as<double>() - link.moved,
-                              double(motion.turned) - link.turned};
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    JointedLink& link = island.links[i];
-    if (!w.is_dynamic(link.body)) continue;
-    const double mass = w.bodies[link.body].mass, i_inverse = w.motion[link.body].inverse_inertia;
-    const double inertia = i_inverse > 0 ? 1 / i_inverse : 0;
-    const BoundedRows::Shift d = shifted(link);
-    const Vec2d weight = mass * free_acceleration(w, link.body);
-    lift -= dot(weight, d.way), fall += dot(weight, way(link));
-    along += mass * dot(d.way, velocity(link)) + inertia * d.turn * spin(link);
-    own += mass * length_squared(d.way) + inertia * d.turn * d.turn;
-  }
-  if (!(lift > 0) || !(own > 0)) return;
-  // Taking `part` of the shift from the velocities takes part (along - part own / 2) of their energy.
-  const double most = 0.5 * along * along / own, paid = std::min(lift, most);
-  const double part = (along - std::copysign(std::sqrt(2 * own * (most - paid)), along)) / own;
-  const double kept = std::min((paid + std::max(fall, 0.0)) / lift, 1.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    JointedLink& link = island.links[i];
-    if (!w.is_dynamic(link.body)) continue;
-    const BoundedRows::Shift d = shifted(link);
-    velocity(link) -= part * d.way, spin(link) -= part * d.turn;
-    if (kept < 1) shift(w, link.body, (kept - 1) * d.way, (kept - 1) * d.turn);
   }
 }
 

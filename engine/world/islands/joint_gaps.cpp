@@ -57,14 +57,17 @@ class Mechanism {
     return has_opened();
   }
 
-  // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops.
+  // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops, or if
+  // one was beyond limits of its angle when the step began: it is left to turn back.
   bool collect(int joint) {
     std::vector<char>& marks = w_.scratch.open_joints;
     start();
     start_links(w_, island_);
+    bool turns_back = false;
     const auto add = [&](int slot) {
       if (marks[slot] == kCollected) return;
       marks[slot] = kCollected;
+      turns_back = turns_back || w_.joint_set.began_beyond_limits(slot, Real(2 * tuning::kLimitSlack));
       island_.joints.push_back(slot);
     };
     add(joint);
@@ -82,11 +85,11 @@ class Mechanism {
       }
     }
     tied_ = island_.links.size();
-    return static_cast<int>(island_.joints.size() - tied_) <= kLoops;
+    return !turns_back && static_cast<int>(island_.joints.size() - tied_) <= kLoops;
   }
 
   void close() {
-    if (!has_opened() || turns_back_) return;
+    make_joint_rows(Of::Displacements);
     collect_contacts();
     if (order() > tuning::kJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
@@ -228,25 +231,19 @@ class Mechanism {
   static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && row.linear_b == Vec2d{}; }
 
   // Returns true if the step has opened a row: what was open before and closes by itself is left to the
-  // solver. So are joints that were created beyond limits of their angle while they turn back, which
-  // `turns_back_` tells. Leaves the rows at the present poses.
+  // solver.
   bool has_opened() {
     note_poses(w_, island_);
     for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
     make_joint_rows(Of::Displacements);
     std::pmr::vector<double>& before = island_.impulses;
     before.clear();
-    turns_back_ = false;
-    for (const BoundedRow& row : island_.system.rows) {
-      before.push_back(std::abs(row.gap));
-      turns_back_ = turns_back_ || (is_angular_limit(row) && row.gap < -2 * tuning::kLimitSlack);
-    }
+    for (const BoundedRow& row : island_.system.rows) before.push_back(std::abs(row.gap));
     for (const JointedLink& link : island_.links) shift(w_, link.body, link.moved, link.turned);
     make_joint_rows(Of::Displacements);
     assert(before.size() == island_.system.rows.size());
-    for (std::size_t i = 0; i < before.size(); ++i) {
+    for (std::size_t i = 0; i < before.size(); ++i)
       if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i]) return true;
-    }
     return false;
   }
 
@@ -294,7 +291,6 @@ class Mechanism {
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
   const double h_, opening_, sag_;
-  bool turns_back_ = false;
   std::size_t tied_ = 0;  // links that joints tie; behind them are those that they touch
 };
 

@@ -273,14 +273,7 @@ void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
   for (std::size_t i = 0; i < system.rows.size(); ++i)
     system.rows[i].gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
   system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
-  note_poses(w, island);
   shift_links(w, island, tuning::kLinkTurn);
-  const double h = step.h;
-  pay_for_lift(
-      w, island, island.links.size(),
-      [&](const JointedLink& link) { return direct ? h * link.way : link.moved; },
-      [](JointedLink& link) -> Vec2d& { return link.velocity; },
-      [](JointedLink& link) -> double& { return link.spin; });
 }
 
 }  // namespace

@@ -6,36 +6,35 @@ namespace plumb {
 
 /// Compares how far rigid rows and limits of a joint are open with its link: the radius of gyration about the
 /// joint of the body for which it is shorter, or the length of a joint that is a link itself (rod, rope), if
-/// that is longer. For angles the link is 1. With Lanes, of several joints side by side.
+/// that is longer. For angles the link is 1. Takes no root: the sag is added in quadrature, which is less.
+/// With Lanes, of several joints side by side.
 template <class Number>
 struct JointOpening {
   const PairMobility<Number> p{};
   const AllowedGap<Scalar<Number>> allowed{};
   Number most = -1;  ///< positive if a row is open by more than is allowed
 
-  [[gnu::always_inline]] void add(Number error, Number length, Number linear_a, Number angular_a,
+  [[gnu::always_inline]] void add(Number error_squared, Number length, Number linear_a, Number angular_a,
                                   Number linear_b, Number angular_b) {
     using std::max, std::min;
-    const Number beyond = max(error - Number(allowed.sag), Number(0)), squared = beyond * beyond;
+    const Number squared = error_squared - Number(allowed.sag * allowed.sag);
     const Number least = allowed.share * allowed.share;
     const Number of_bodies = max(squared * p.i_a - least * (p.m_a * linear_a + p.i_a * angular_a),
                                  squared * p.i_b - least * (p.m_b * linear_b + p.i_b * angular_b));
     most = max(most, min(of_bodies, squared - least * (length * length)));
   }
   [[gnu::always_inline]] void rigid(const JointRow<Number>& row, Number error, Number length = 0) {
-    using std::max;
-    add(max(error, -error), length, length_squared(row.linear_a), row.angular_a * row.angular_a,
+    add(error * error, length, length_squared(row.linear_a), row.angular_a * row.angular_a,
         length_squared(row.linear_b), row.angular_b * row.angular_b);
   }
   [[gnu::always_inline]] void rigid(const AnchorPoint<Number>& point) {
-    using std::sqrt;
-    add(sqrt(length_squared(point.gap)), 0, 1, length_squared(point.arm_a), 1, length_squared(point.arm_b));
+    add(length_squared(point.gap), 0, 1, length_squared(point.arm_a), 1, length_squared(point.arm_b));
   }
 };
 
 /// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than is
-/// allowed when it was last evaluated. It reads what the evaluation has left, so that a look at all
-/// joints costs little. Limits of angles have a pass of their own (`project_angular_limits`).
+/// allowed when it was last evaluated. It reads what the evaluation has left, so that a look at all joints
+/// costs little. Limits of angles have a pass of their own (`project_angular_limits`).
 template <class Number, template <class> class Kind>
 [[gnu::always_inline]] inline Number joint_opening(const JointConstraint<Number, Kind>& joint,
                                                    const PairMobility<Number>& p,

@@ -147,8 +147,13 @@ class JointSet {
   bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
                               Real most, Crew* crew = nullptr);
 
+  /// Returns true if the joint's angle was beyond a limit by more than `slack`, rad, at the start of the
+  /// step.
+  bool began_beyond_limits(int joint, Real slack) const;
+
   /// Sets `open[slot]` (of `slots()` items) for joints of which a rigid row, or a limit along an axis, was
-  /// open after the last `relax` by more than `allowed` (joint_opening.h); returns true if there are any.
+  /// open after the last `relax` by more than `allowed` (joint_opening.h), and for some that were open by a
+  /// little less; returns true if there are any.
   /// Call before `finish`. Does not allocate.
   bool find_open(const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed, std::vector<char>& open,
                  Crew* crew = nullptr);
