@@ -251,14 +251,15 @@ TYPED_TEST(Mechanisms, AShockOpensNoChain) {
   }
 }
 
-// A gap counts as a share of the rod, however small the bob: the rod of a fast pendulum is 0.14 % too long at the
-// rate at which iterations balance the pull. Closing this in each step takes 13 % of m g l in 4 s from a bob of
-// 2 cm; iterations alone are off by 0.7 %.
+// A gap counts as a share of the rod, however small the bob: the rod of a fast pendulum is 0.14 % too long at
+// the rate at which iterations balance the pull. Closing this in each step takes 13 % of m g l in 4 s from a
+// bob of 2 cm; iterations alone are off by 0.7 %.
 TYPED_TEST(Mechanisms, AFastPendulumOnARodKeepsItsEnergy) {
   for (const double radius : {0.2, 0.02}) {
     Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
     const BodyId ground = m.world.create_body({.type = BodyType::Static});
-    m.bodies = {m.world.create_body({.position = {0.1736481777, 0.9848077530}}, {.geometry = Circle{radius}})};
+    m.bodies = {
+        m.world.create_body({.position = {0.1736481777, 0.9848077530}}, {.geometry = Circle{radius}})};
     m.joints = {m.world.create_joint(ground, m.bodies[0], {.kind = DistanceDefinition{.length = 1}})};
     const double start = m.energy(), unit = m.world.mass(m.bodies[0]) * 9.81;
     for (int i = 0; i < 240; ++i) m.world.step();

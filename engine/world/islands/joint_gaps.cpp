@@ -49,11 +49,19 @@ class Mechanism {
   Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening, double sag)
       : w_(w), island_(island), h_(h), opening_(opening), sag_(sag) {}
 
+  // Returns true if the step has opened a joint. Costs much less than `collect`.
+  bool has_opened(int joint) {
+    start();
+    island_.joints.push_back(joint);
+    find_links(w_, island_);
+    return has_opened();
+  }
+
   // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops, or if
   // one was beyond limits of its angle when the step began: it is left to turn back.
   bool collect(int joint) {
     std::vector<char>& marks = w_.scratch.open_joints;
-    island_.joints.clear(), island_.contacts.clear();
+    start();
     start_links(w_, island_);
     bool turns_back = false;
     const auto add = [&](int slot) {
@@ -81,7 +89,7 @@ class Mechanism {
   }
 
   void close() {
-    if (!has_opened()) return;
+    make_joint_rows(Of::Displacements);
     collect_contacts();
     if (order() > tuning::kJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
@@ -94,6 +102,8 @@ class Mechanism {
   }
 
  private:
+  void start() { island_.joints.clear(), island_.contacts.clear(); }
+
   // Adds the contacts of the mechanism's bodies. Bodies that they meet stay where they are.
   void collect_contacts() {
     for (std::size_t link = 0; link < tied_; ++link) {
@@ -221,7 +231,7 @@ class Mechanism {
   static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && row.linear_b == Vec2d{}; }
 
   // Returns true if the step has opened a row: what was open before and closes by itself is left to the
-  // solver. Leaves the rows at the present poses if it returns true.
+  // solver.
   bool has_opened() {
     note_poses(w_, island_);
     for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
@@ -306,7 +316,7 @@ void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   Mechanism<Real> mechanism(w, w.scratch.opened, h, opening, sag);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
     if (marks[joint] != kOpen || is_net(w, joint)) continue;
-    if (mechanism.collect(joint)) mechanism.close();
+    if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();
   }
 }
 
