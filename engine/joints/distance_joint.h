@@ -10,6 +10,7 @@ namespace plumb {
 template <class Real>
 struct DistanceRows : JointTraits<0, 1> {
   using Definition = DistanceDefinition;
+  static constexpr bool kLength = true;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
 

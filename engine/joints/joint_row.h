@@ -161,6 +161,7 @@ template <int kBlockRows, int kAxialRows>
 struct JointTraits {
   static constexpr int kBlock = kBlockRows;  ///< rigid rows that are solved together
   static constexpr int kAxial = kAxialRows;  ///< coordinates with rules of their own
+  static constexpr bool kLength = false;     ///< axial coordinates are lengths of a rod or rope
   static constexpr bool kPoint = false;      ///< anchors that coincide
   static constexpr bool kSoft = false;       ///< ... by a rule that may yield
   static constexpr bool kTurn = false;       ///< rules for the angle

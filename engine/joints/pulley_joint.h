@@ -11,6 +11,7 @@ template <class Real>
 struct PulleyRows : JointTraits<0, 1> {
   using Definition = PulleyDefinition;
   static constexpr bool kGrounded = true;
+  static constexpr bool kLength = true;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
   Vec2d ground_a{}, ground_b{};       ///< m, in the world

@@ -246,6 +246,7 @@ struct JointedIsland {
         sizes(room),
         ties(room),
         impulses(room),
+        allowed(room),
         system(room) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
@@ -255,6 +256,7 @@ struct JointedIsland {
   std::pmr::vector<int> sizes;
   std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
   std::pmr::vector<double> impulses;    ///< N s, of the rows in this substep
+  std::pmr::vector<double> allowed;     ///< m or rad, gaps of the rows: joint_gaps.cpp
   BoundedRows system;
   int root = kNone;     ///< body that represents it
   int contact_row = 0;  ///< first row of a contact
@@ -316,8 +318,10 @@ struct Scratch {
   int direct_count = 0;
   std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use
   int jointed_count = 0;
-  bool islands_known = false;   ///< `island_of` and `island_size` are up to date
-  bool islands_chosen = false;  ///< one of them at least is solved directly
+  std::vector<char> open_joints;      ///< by slot of the joint: joint_gaps.cpp
+  JointedIsland<Real> opened{&room};  ///< a mechanism whose gaps are being closed
+  bool islands_known = false;         ///< `island_of` and `island_size` are up to date
+  bool islands_chosen = false;        ///< one of them at least is solved directly
   HingeTrees<Real> trees;
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same

@@ -193,6 +193,8 @@ FEATURES = [
             "(!alike || w.settings.solver == Solver::Direct)", "!alike", "world/direct_solver"),
     feature("Jointed islands of unlike masses", WORLD + "islands/direct_islands.cpp",
             "(!alike || w.settings.solver == Solver::Direct)", "w.settings.solver == Solver::Direct", "world/mechanisms"),
+    feature("Closing of joints that a shock has opened", WORLD + "solvers/soft_step.cpp",
+            "close_joint_gaps(w, h, substeps);", "(void)0;", "world/mechanisms"),
 
     # Ground rules.
     feature("Scenes are one way in", WORLD + "scene/add_scene.cpp", ".break_force = j.break_force,", ".break_force = 0,",

@@ -203,12 +203,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 13993875830294740927ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 11144590733535937275ull},
-      {Precision::Double, Solver::Direct, 0.5, 8606984493227718183ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 12422583437839966099ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 12586815235080603053ull},
-      {Precision::Float, Solver::Direct, 0.5, 5071176448624468429ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 312294620071503275ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 13576735152262376006ull},
+      {Precision::Double, Solver::Direct, 0.5, 2694779110868159153ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 17017913890267584398ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 10982186220095079918ull},
+      {Precision::Float, Solver::Direct, 0.5, 880443959705619344ull},
   };
   for (const auto& row : table) {
     Simulation world =

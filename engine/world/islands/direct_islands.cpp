@@ -65,6 +65,9 @@ void choose_jointed(WorldData<Real>& w) {
     const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     s.island_size[body] = small && (!alike || w.settings.solver == Solver::Direct) ? kJointed : kSwept;
   }
+  // From here on: joints less bodies.
+  for (const int body : w.awake)
+    if (w.is_dynamic(body)) --s.island_joints[s.island_of[body]];
 }
 
 // Includes towers and other slender heaps, however high: with few loops and few contacts on any body the

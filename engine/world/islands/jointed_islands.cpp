@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/math/small_turn.h"
 #include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/integration/free_motion.h"
+#include "engine/world/islands/island_links.h"
 #include "engine/world/state/constants.h"
 
 namespace plumb {
@@ -14,44 +14,21 @@ namespace {
 
 enum class Stage { Hold, Close, Relax };
 
-template <class Real>
-int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
-  int& place = w.scratch.link_of[body];
-  if (place < static_cast<int>(island.links.size()) && island.links[place].body == body) return place;
-  place = static_cast<int>(island.links.size());
-  const BodyMotion<Real>& motion = w.motion[body];
-  const BodyRecord<Real>& record = w.bodies[body];
-  const double inverse_mass = motion.inverse_mass;
-  island.links.push_back({body});
-  island.system.bodies.push_back(
-      {.inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
-       .inverse_inertia = motion.inverse_inertia});
-  return place;
-}
-
 // Typical number of a contact's rows, to estimate the cost of the factorisation.
 constexpr int kContactRows = 3;
 
 template <class Real>
 double order(WorldData<Real>& w, JointedIsland<Real>& island) {
-  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.sizes.clear();
-  w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
+  find_links(w, island);
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
   for (const int joint : island.joints) {
-    const auto [a, b] = w.joint_set.bodies(joint);
-    const int link_a = link_at(w, island, a);
-    island.blocks.emplace_back(link_a, link_at(w, island, b));
     rows.clear();
     w.joint_set.solver_rows(joint, w.solver_bodies(), rows);
     const auto limits =
         std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.role == RowRole::Limit; });
     island.sizes.push_back(static_cast<int>(rows.size() - limits + (limits > 0 ? 1 : 0)));
   }
-  for (const ContactConstraint<Real>* c : island.contacts) {
-    const int link_a = link_at(w, island, c->body_a);
-    island.blocks.emplace_back(link_a, link_at(w, island, c->body_b));
-    island.sizes.push_back(kContactRows);
-  }
+  island.sizes.insert(island.sizes.end(), island.contacts.size(), kContactRows);
   return island.system.order(island.blocks, island.sizes);
 }
 
@@ -286,15 +263,6 @@ void put_velocity(BodyMotion<Real>& motion, Vec2d velocity, double spin) {
   motion.angular_velocity = static_cast<Real>(spin);
 }
 
-template <class Real>
-void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
-  BodyMotion<Real>& motion = w.motion[body];
-  motion.moved += way.template as<Real>();
-  if (turn == 0) return;
-  motion.turned += static_cast<Real>(turn);
-  w.rotation[body] = turned_by(w.rotation[body], static_cast<Real>(turn));
-}
-
 // Moves bodies to close a fraction of the gaps.
 template <class Real>
 void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
@@ -305,13 +273,7 @@ void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
   for (std::size_t i = 0; i < system.rows.size(); ++i)
     system.rows[i].gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
   system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
-  double most = 0;
-  for (const BoundedRows::Shift& s : system.shifts) most = std::max(most, std::abs(s.turn));
-  const double share = most > tuning::kLinkTurn ? tuning::kLinkTurn / most : 1;
-  for (std::size_t i = 0; i < island.links.size(); ++i) {
-    if (!w.is_dynamic(island.links[i].body)) continue;
-    shift(w, island.links[i].body, share * system.shifts[i].way, share * system.shifts[i].turn);
-  }
+  shift_links(w, island, tuning::kLinkTurn);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "engine/core/room.h"
+#include "engine/world/joint_solver/joint_opening.h"
 
 namespace plumb {
 namespace {
@@ -327,6 +328,23 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* mo
           for (int i = 0; i < block.kLanes; ++i)
             if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
         }
+      });
+}
+
+template <class Joint>
+void JointBlocks<Joint>::open(int first, int last, const AllowedGap<Real>& allowed, Visit visit,
+                              const void* data) {
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
+        const Number opening = joint_opening(
+            block.joint,
+            {block.inverse_mass_a, block.inverse_inertia_a, block.inverse_mass_b, block.inverse_inertia_b},
+            allowed);
+        if (!any(opening > Number(0))) return;
+        Real value[Number::kLanes];
+        opening.store(value);
+        for (int i = 0; i < block.kLanes; ++i)
+          if (value[i] > 0) visit(data, *block.from[i]);
       });
 }
 

@@ -56,8 +56,16 @@ struct JointSolverRow {
   Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
   Real compliance = 0;          ///< in the unit of its mobility
   Real coupled_compliance = 0;  ///< the same, with the impulse of the previous row
+  Real length = 0;              ///< m, that its coordinate is to have, of a rod or rope
   Real* impulse =
       nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
+};
+
+/// How far a joint may be open: by `share` times its link and by `sag` more.
+template <class Real>
+struct AllowedGap {
+  Real share = 0;  ///< rad
+  Real sag = 0;    ///< m, or rad for angles
 };
 
 /// A plain revolute joint that the caller solves in the set's place.
@@ -138,6 +146,17 @@ class JointSet {
   /// Call between the motion and `relax`. Does not allocate.
   bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
                               Real most, Crew* crew = nullptr);
+
+  /// Returns true if the joint's angle was beyond a limit by more than `slack`, rad, at the start of the
+  /// step.
+  bool began_beyond_limits(int joint, Real slack) const;
+
+  /// Sets `open[slot]` (of `slots()` items) for joints of which a rigid row, or a limit along an axis, was
+  /// open after the last `relax` by more than `allowed` (joint_opening.h), and for some that were open by a
+  /// little less; returns true if there are any.
+  /// Call before `finish`. Does not allocate.
+  bool find_open(const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed, std::vector<char>& open,
+                 Crew* crew = nullptr);
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.

@@ -52,6 +52,17 @@ void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<R
 }  // namespace
 
 template <class Real>
+bool JointSet<Real>::began_beyond_limits(int joint, Real slack) const {
+  bool beyond = false;
+  parts_->at(joint, [&](const auto& constraint) {
+    using Constraint = std::decay_t<decltype(constraint)>;
+    if constexpr (Constraint::Rows::kTurn && Constraint::kAngle != AngleUse::None)
+      beyond = constraint.beyond_limits(0, slack) < 0;
+  });
+  return beyond;
+}
+
+template <class Real>
 bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
                                             Real slack, Real most, Crew* crew) {
   using Hinge = JointConstraint<Real, RevoluteRows>;
@@ -84,6 +95,8 @@ bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Ro
   return any.load(std::memory_order_relaxed);
 }
 
+template bool JointSet<float>::began_beyond_limits(int, float) const;
+template bool JointSet<double>::began_beyond_limits(int, double) const;
 template bool JointSet<float>::project_angular_limits(const SolverBodies<float>&, Rotation<float>*, float,
                                                       float, Crew*);
 template bool JointSet<double>::project_angular_limits(const SolverBodies<double>&, Rotation<double>*, double,

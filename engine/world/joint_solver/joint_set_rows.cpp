@@ -11,8 +11,10 @@ struct RowList {
   const JointVelocities<Real>& v;
 
   /// Appends a row. `mobility`: of a spring, the one that it refers to.
-  void add(JointRow<Real> row, SolverRule<Real>& rule, Real mobility) const {
+  /// `length`: true if its coordinate is one.
+  void add(JointRow<Real> row, SolverRule<Real>& rule, Real mobility, bool length) const {
     JointSolverRow<Real> out{.row = row, .role = rule.role, .speed = rule.speed, .most = rule.most};
+    if (length) out.length = rule.origin;
     out.row.residual = rule.sign * (row.residual - rule.origin);
     if (rule.sign < 0) {
       out.row.linear_a = -row.linear_a, out.row.linear_b = -row.linear_b;
@@ -25,8 +27,9 @@ struct RowList {
   }
 
   template <bool kAngular>
-  void add(const JointRow<Real>& row, JointCoordinate<Real, kAngular>& coordinate, Real mobility) const {
-    for (int i = 0; i < coordinate.count; ++i) add(row, coordinate.rule[i], mobility);
+  void add(const JointRow<Real>& row, JointCoordinate<Real, kAngular>& coordinate, Real mobility,
+           bool length = false) const {
+    for (int i = 0; i < coordinate.count; ++i) add(row, coordinate.rule[i], mobility, length);
   }
 
   void add_rigid(const JointRow<Real>& row, Real* impulse) const {
@@ -69,7 +72,8 @@ void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodi
   for (int i = 0; i < Constraint::kAxial; ++i)
     list.add(now.axial[i], joint.axial[i],
              i == 0 && joint.axial_beside_rigid() ? joint.axial_spring_mobility(v, at, now)
-                                                  : v.inverse_mass(now.axial[i], now.axial[i]));
+                                                  : v.inverse_mass(now.axial[i], now.axial[i]),
+             Kind<Real>::kLength);
   if constexpr (Constraint::kBlock > 0)
     for (int i = 0; i < Constraint::kBlock; ++i) list.add_rigid(now.block[i], &joint.block.impulse[i]);
   if constexpr (Kind<Real>::kPoint) {

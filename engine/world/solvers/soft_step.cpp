@@ -7,6 +7,7 @@
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
 #include "engine/world/islands/hinge_trees.h"
+#include "engine/world/islands/joint_gaps.h"
 #include "engine/world/islands/jointed_islands.h"
 #include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
@@ -168,6 +169,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     hold_again(std::span<Bounce>(w.scratch.bounces));
     contacts.warm_start = joints.warm_start = 1;
   }
+  if (jointed) close_joint_gaps(w, h, substeps);
   passes.finish();
   if (jointed) w.joint_set.finish(bodies, &w.crew);
   finish_direct_islands(w);

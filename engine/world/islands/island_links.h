@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/math/small_turn.h"
+#include "engine/world/world_data.h"
+
+/// Bodies of an island with joints.
+namespace plumb {
+
+/// Returns the index of a body among the island's links, where it is added if it is new.
+template <class Real>
+int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
+  int& place = w.scratch.link_of[body];
+  if (place < static_cast<int>(island.links.size()) && island.links[place].body == body) return place;
+  place = static_cast<int>(island.links.size());
+  const BodyMotion<Real>& motion = w.motion[body];
+  const BodyRecord<Real>& record = w.bodies[body];
+  const double inverse_mass = motion.inverse_mass;
+  island.links.push_back({body});
+  island.system.bodies.push_back(
+      {.inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
+       .inverse_inertia = motion.inverse_inertia});
+  return place;
+}
+
+/// Begins an island without links.
+template <class Real>
+void start_links(WorldData<Real>& w, JointedIsland<Real>& island) {
+  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.sizes.clear();
+  w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
+}
+
+/// Finds the bodies of an island's joints and contacts.
+template <class Real>
+void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
+  start_links(w, island);
+  const auto add = [&](int a, int b) {
+    const int link_a = link_at(w, island, a);
+    island.blocks.emplace_back(link_a, link_at(w, island, b));
+  };
+  for (const int joint : island.joints) {
+    const auto [a, b] = w.joint_set.bodies(joint);
+    add(a, b);
+  }
+  for (const ContactConstraint<Real>* c : island.contacts) add(c->body_a, c->body_b);
+}
+
+/// Moves and turns a body within a substep.
+template <class Real>
+void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
+  BodyMotion<Real>& motion = w.motion[body];
+  motion.moved += way.template as<Real>();
+  if (turn == 0) return;
+  motion.turned += static_cast<Real>(turn);
+  w.rotation[body] = turned_by(w.rotation[body], static_cast<Real>(turn));
+}
+
+/// Notes where the bodies of an island are before they are shifted.
+template <class Real>
+void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
+  for (JointedLink& link : island.links) {
+    const BodyMotion<Real>& motion = w.motion[link.body];
+    link.moved = motion.moved.template as<double>(), link.turned = motion.turned;
+  }
+}
+
+/// Moves the bodies of an island by the `shifts` of its system, all by the same fraction, such that none
+/// turns by more than `most`, rad, or moves by more than that share of its extent.
+template <class Real>
+void shift_links(WorldData<Real>& w, const JointedIsland<Real>& island, double most) {
+  double share = 1;
+  for (std::size_t i = 0; i < island.links.size(); ++i) {
+    const BoundedRows::Shift& s = island.system.shifts[i];
+    const double turn = std::abs(s.turn), way = length(s.way);
+    const double longest = most * double(w.extents[island.links[i].body]);
+    if (turn * share > most) share = most / turn;
+    if (longest > 0 && way * share > longest) share = longest / way;
+  }
+  for (std::size_t i = 0; i < island.links.size(); ++i) {
+    if (!w.is_dynamic(island.links[i].body)) continue;
+    const BoundedRows::Shift& s = island.system.shifts[i];
+    shift(w, island.links[i].body, share * s.way, share * s.turn);
+  }
+}
+
+}  // namespace plumb

@@ -1,0 +1,327 @@
+#include "engine/world/islands/joint_gaps.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "engine/world/islands/island_links.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
+
+namespace plumb {
+namespace {
+
+// Most loops of a mechanism that is closed: 8 x 8 bodies tied to their neighbours have 49. The cost grows
+// with the square of their number; a net of 30 x 30 is open in each step, and would cost as much again as its
+// step.
+constexpr int kLoops = 64;
+
+// Opening that a step leaves, as a share of the joint's link (joint_opening.h). At 0.007 5 % of random
+// mechanisms open by more than 1 % of their shortest link; at 0.015 four times as many as at 0.007. At 0.005
+// propellers of long blades lose more than 2 % of their energy in 3 s of one substep a step, and ragdolls
+// cost 4 % more.
+constexpr double kOpening = 0.007;
+// Rounds of closing.
+constexpr int kCloseRounds = 4;
+
+// Gap that a load makes at rest, in units of |gravity| h^2. Iterations carry a load by a gap that grows with
+// it: 0.4 for a body's own weight, from the frequency and damping of a joint's rows. So this is the weight of
+// ten bodies. At 0 ragdolls on a heap do not sleep, and brakes creep: what closing takes from the gap, the
+// load opens again.
+constexpr double kSag = 4;
+
+// Substeps from which joints open by no more than kOpening; with fewer they may open in proportion.
+// Closing in each step what each step of a sixtieth second opens would take spin from long blades.
+constexpr int kSubsteps = 4;
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+// Marks of a joint, by slot.
+enum : char { kClosed, kOpen, kCollected };
+
+// Rows of displacements, which close gaps, or of velocities, which keep them closed.
+enum class Of { Displacements, Velocities };
+
+// A mechanism whose gaps are being closed.
+template <class Real>
+class Mechanism {
+ public:
+  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening, double sag)
+      : w_(w), island_(island), h_(h), opening_(opening), sag_(sag) {}
+
+  // Returns true if the step has opened a joint. Costs much less than `collect`.
+  bool has_opened(int joint) {
+    start();
+    island_.joints.push_back(joint);
+    find_links(w_, island_);
+    return has_opened();
+  }
+
+  // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops, or if
+  // one was beyond limits of its angle when the step began: it is left to turn back.
+  bool collect(int joint) {
+    std::vector<char>& marks = w_.scratch.open_joints;
+    start();
+    start_links(w_, island_);
+    bool turns_back = false;
+    const auto add = [&](int slot) {
+      if (marks[slot] == kCollected) return;
+      marks[slot] = kCollected;
+      turns_back = turns_back || w_.joint_set.began_beyond_limits(slot, Real(2 * tuning::kLimitSlack));
+      island_.joints.push_back(slot);
+    };
+    add(joint);
+    for (std::size_t next = 0; next < island_.joints.size(); ++next) {
+      const auto [a, b] = w_.joint_set.bodies(island_.joints[next]);
+      const std::size_t known = island_.links.size();
+      const int link_a = link_at(w_, island_, a);
+      island_.blocks.emplace_back(link_a, link_at(w_, island_, b));
+      for (std::size_t link = known; link < island_.links.size(); ++link) {
+        const int body = island_.links[link].body;
+        if (!w_.is_dynamic(body)) continue;
+        for_each_edge(w_.joints, w_.bodies[body].first_joint, [&](int, const JointRecord& record) {
+          if (record.active) add(record.slot);
+        });
+      }
+    }
+    tied_ = island_.links.size();
+    return !turns_back && static_cast<int>(island_.joints.size() - tied_) <= kLoops;
+  }
+
+  void close() {
+    make_joint_rows(Of::Displacements);
+    collect_contacts();
+    if (order() > tuning::kJointedCost) return;
+    for (int round = 0; round < kCloseRounds; ++round) {
+      if (round > 0) make_joint_rows(Of::Displacements);
+      if (round > 0 && !is_open()) break;
+      make_contact_rows(Of::Displacements);
+      move();
+    }
+    hold();
+  }
+
+ private:
+  void start() { island_.joints.clear(), island_.contacts.clear(); }
+
+  // Adds the contacts of the mechanism's bodies. Bodies that they meet stay where they are.
+  void collect_contacts() {
+    for (std::size_t link = 0; link < tied_; ++link) {
+      const int body = island_.links[link].body;
+      if (!w_.is_dynamic(body)) continue;
+      for_each_edge(w_.contacts, w_.bodies[body].first_contact, [&](int edge, const ContactRecord& record) {
+        if (record.home != ContactHome::Graph) return;
+        const int other = (edge & 1) != 0 ? record.body_a : record.body_b;
+        const int place = link_at(w_, island_, other);
+        const bool tied = place < static_cast<int>(tied_);
+        if (tied && (edge & 1) != 0) return;  // seen from its other body
+        if (!tied) island_.system.bodies[place] = {};
+        island_.contacts.push_back(&constraint_of(w_, record));
+        const int own = static_cast<int>(link);
+        island_.blocks.emplace_back((edge & 1) != 0 ? place : own, (edge & 1) != 0 ? own : place);
+      });
+    }
+  }
+
+  // Finds the elimination order; returns the cost of eliminating in it.
+  double order() {
+    island_.sizes.assign(island_.blocks.size(), 0);
+    for (const BoundedRow& row : island_.system.rows) ++island_.sizes[row.block];
+    for (std::size_t i = 0; i < island_.contacts.size(); ++i)
+      island_.sizes[island_.joints.size() + i] = island_.contacts[i]->count;
+    return island_.system.order(island_.blocks, island_.sizes);
+  }
+
+  // Adds a joint's rows: rigid ones and limits, and motors, which are not to be turned.
+  void make_joint_rows(Of of) {
+    island_.system.rows.clear(), island_.allowed.clear();
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
+      rows.clear();
+      w_.joint_set.solver_rows(island_.joints[block], w_.solver_bodies(), rows);
+      const auto [link_a, link_b] = island_.blocks[block];
+      for (const JointSolverRow<Real>& from : rows) {
+        if (from.role == RowRole::Spring) continue;
+        if (from.role == RowRole::Motor && of == Of::Velocities) continue;
+        BoundedRow row{.a = link_a, .b = link_b};
+        row.linear_a = from.row.linear_a.template as<double>();
+        row.linear_b = from.row.linear_b.template as<double>();
+        row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+        row.block = block;
+        island_.allowed.push_back(allowed_gap(row, from.length));
+        const double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
+        from.role == RowRole::Limit ? add_one_sided(row, gap, of) : add_rigid(row, gap, of);
+      }
+    }
+  }
+
+  void make_contact_rows(Of of) {
+    int block = static_cast<int>(island_.joints.size());
+    for (const ContactConstraint<Real>* c : island_.contacts) {
+      const BodyMotion<Real>&a = w_.motion[c->body_a], &b = w_.motion[c->body_b];
+      const Vec2d n = c->normal.template as<double>();
+      const double closed = dot(n, (b.moved - a.moved).template as<double>());
+      for (int i = 0; i < c->count; ++i) {
+        BoundedRow row{.a = island_.blocks[block].first, .b = island_.blocks[block].second};
+        row.linear_a = -n, row.linear_b = n;
+        row.angular_a = -double(c->arm_a[i]), row.angular_b = c->arm_b[i];
+        row.block = block;
+        const double gap = double(c->separation[i]) + closed + double(c->arm_b[i]) * b.turned -
+                           double(c->arm_a[i]) * a.turned;
+        add_one_sided(row, std::max(gap, 0.0), of);
+      }
+      ++block;
+    }
+  }
+
+  void add_rigid(BoundedRow row, double gap, Of of) {
+    row.gap = gap;
+    row.wanted = of == Of::Displacements ? -gap : 0;
+    row.lower = -kUnbounded, row.upper = kUnbounded;
+    row.state = BoundedRow::kFree;
+    push(row, of);
+  }
+
+  // A gap may close. A velocity that closes one faster than the next substep allows may stay.
+  void add_one_sided(BoundedRow row, double gap, Of of) {
+    row.gap = std::min(gap, 0.0);
+    row.wanted = of == Of::Displacements ? -gap : std::min(-std::max(gap, 0.0) / h_, 0.0);
+    if (of == Of::Velocities) row.wanted = std::min(row.wanted, rate_of(row));
+    row.lower = 0, row.upper = kUnbounded;
+    row.state = row.gap < 0 ? BoundedRow::kFree : BoundedRow::kLower;
+    push(row, of);
+  }
+
+  void push(BoundedRow& row, Of of) {
+    if (of == Of::Displacements) row.softening = tuning::kCloseSoftness;
+    island_.system.rows.push_back(row);
+  }
+
+  double rate_of(const BoundedRow& row) const {
+    const auto along = [&](int link, Vec2d linear, double angular) {
+      const BodyMotion<Real>& motion = w_.motion[island_.links[link].body];
+      return dot(linear, motion.velocity.template as<double>()) + angular * double(motion.angular_velocity);
+    };
+    return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
+  }
+
+  // Returns the gap that a row may have: `opening_` of its link, as joint_opening.h defines it, and what a
+  // load makes at rest. `length`: of a joint that is a link itself, m.
+  double allowed_gap(const BoundedRow& row, double length) const {
+    const auto radius = [](const BoundedBody& body, Vec2d linear, double angular) {
+      if (!(body.inverse_inertia > 0)) return kUnbounded;
+      const double mobility = std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear);
+      return std::sqrt(mobility / body.inverse_inertia + angular * angular);
+    };
+    const double shorter = std::min(radius(island_.system.bodies[row.a], row.linear_a, row.angular_a),
+                                    radius(island_.system.bodies[row.b], row.linear_b, row.angular_b));
+    return opening_ * std::max(shorter, length) + sag_;
+  }
+  // Returns true if a joint's row is open by more than it may. Limits of angles have a pass of their own.
+  bool is_open(std::size_t i) const {
+    const BoundedRow& row = island_.system.rows[i];
+    return !is_angular_limit(row) && std::abs(row.gap) > island_.allowed[i];
+  }
+  bool is_open() const {
+    for (std::size_t i = 0; i < island_.allowed.size(); ++i)
+      if (is_open(i)) return true;
+    return false;
+  }
+
+  static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && row.linear_b == Vec2d{}; }
+
+  // Returns true if the step has opened a row: what was open before and closes by itself is left to the
+  // solver.
+  bool has_opened() {
+    note_poses(w_, island_);
+    for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
+    make_joint_rows(Of::Displacements);
+    std::pmr::vector<double>& before = island_.impulses;
+    before.clear();
+    for (const BoundedRow& row : island_.system.rows) before.push_back(std::abs(row.gap));
+    for (const JointedLink& link : island_.links) shift(w_, link.body, link.moved, link.turned);
+    make_joint_rows(Of::Displacements);
+    assert(before.size() == island_.system.rows.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i]) return true;
+    return false;
+  }
+
+  void move() {
+    BoundedRows& system = island_.system;
+    for (BoundedBody& body : system.bodies) body.velocity = {}, body.spin = 0;
+    system.solve();
+    system.shifts.clear();
+    for (const BoundedBody& body : system.bodies) system.shifts.push_back({body.velocity, body.spin});
+    shift_links(w_, island_, tuning::kLinkTurn);
+  }
+
+  // Takes from the velocities what opens the joints: a projection in the metric of the masses onto velocities
+  // that include rest, which adds no energy.
+  void hold() {
+    BoundedRows& system = island_.system;
+    make_joint_rows(Of::Velocities), make_contact_rows(Of::Velocities);
+    const auto energy = [&] {
+      double sum = 0;
+      for (const BoundedBody& body : system.bodies) sum += energy_of(body);
+      return sum;
+    };
+    for (std::size_t i = 0; i < island_.links.size(); ++i) {
+      const BodyMotion<Real>& motion = w_.motion[island_.links[i].body];
+      system.bodies[i].velocity = motion.velocity.template as<double>();
+      system.bodies[i].spin = motion.angular_velocity;
+    }
+    const double before = energy();
+    system.solve();
+    if (energy() > before) return;  // pushed by what moves beside it
+    for (std::size_t i = 0; i < tied_; ++i) {
+      BodyMotion<Real>& motion = w_.motion[island_.links[i].body];
+      if (!is_dynamic(motion)) continue;
+      motion.velocity = system.bodies[i].velocity.template as<Real>();
+      motion.angular_velocity = static_cast<Real>(system.bodies[i].spin);
+    }
+  }
+
+  static double energy_of(const BoundedBody& body) {
+    const Vec2d m = body.inverse_mass, v = body.velocity;
+    return (m.x > 0 ? v.x * v.x / m.x : 0) + (m.y > 0 ? v.y * v.y / m.y : 0) +
+           (body.inverse_inertia > 0 ? body.spin * body.spin / body.inverse_inertia : 0);
+  }
+
+  WorldData<Real>& w_;
+  JointedIsland<Real>& island_;
+  const double h_, opening_, sag_;
+  std::size_t tied_ = 0;  // links that joints tie; behind them are those that they touch
+};
+
+// Returns true if the island of a joint is known to have too many loops.
+template <class Real>
+bool is_net(const WorldData<Real>& w, int joint) {
+  if (!w.scratch.islands_known) return false;
+  const auto [a, b] = w.joint_set.bodies(joint);
+  return w.scratch.island_joints[w.scratch.island_of[w.is_dynamic(a) ? a : b]] > kLoops;
+}
+
+}  // namespace
+
+template <class Real>
+void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
+  if (!w.settings.direct_islands && w.settings.solver != Solver::Direct) return;
+  std::vector<char>& marks = w.scratch.open_joints;
+  marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kClosed);
+  const double opening = kOpening * std::max(kSubsteps / static_cast<double>(substeps), 1.0);
+  const double sag = kSag * std::sqrt(length_squared(w.settings.gravity)) * h * h;
+  const AllowedGap<Real> allowed{static_cast<Real>(opening), static_cast<Real>(sag)};
+  if (!w.joint_set.find_open(w.solver_bodies(), allowed, marks, &w.crew)) return;
+  Mechanism<Real> mechanism(w, w.scratch.opened, h, opening, sag);
+  for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
+    if (marks[joint] != kOpen || is_net(w, joint)) continue;
+    if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();
+  }
+}
+
+template void close_joint_gaps(WorldData<float>&, double, int);
+template void close_joint_gaps(WorldData<double>&, double, int);
+
+}  // namespace plumb

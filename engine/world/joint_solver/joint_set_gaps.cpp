@@ -1,0 +1,58 @@
+#include <atomic>
+
+#include "engine/world/joint_solver/joint_opening.h"
+#include "engine/world/joint_solver/joint_parts.h"
+
+namespace plumb {
+namespace {
+
+template <class Joint, class Real>
+bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed) {
+  if constexpr (Joint::kPlainHinge)
+    if (joint.held) return false;
+  const BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  return joint_opening(joint, {a.inverse_mass, a.inverse_inertia, b.inverse_mass, b.inverse_inertia},
+                       allowed) > 0;
+}
+
+}  // namespace
+
+template <class Real>
+bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed,
+                               std::vector<char>& open, Crew* crew) {
+  Parts& p = *parts_;
+  std::atomic<bool> any = false;
+  const auto mark = [&](const auto& joint) {
+    open[joint.joint] = 1;
+    any.store(true, std::memory_order_relaxed);
+  };
+  const auto look = [&](const auto& joint) {
+    if (is_open(joint, bodies, allowed)) mark(joint);
+  };
+  for (const JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      auto& list = lists[run.colour];
+      if constexpr (kSideBySide<One>) {
+        if (run.sorted) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+          return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, allowed, mark);
+            for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
+          });
+        }
+      }
+      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+        for (int i = first; i < last; ++i) look(list[i]);
+      });
+    });
+  }
+  return any.load(std::memory_order_relaxed);
+}
+
+template bool JointSet<float>::find_open(const SolverBodies<float>&, const AllowedGap<float>&,
+                                         std::vector<char>&, Crew*);
+template bool JointSet<double>::find_open(const SolverBodies<double>&, const AllowedGap<double>&,
+                                          std::vector<char>&, Crew*);
+
+}  // namespace plumb
