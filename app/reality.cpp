@@ -50,7 +50,8 @@ void write_files(const std::string& folder, const reality::Findings& findings) {
 int run_published(const std::vector<const reference::Backend*>& engines, const Options& options) {
   const std::string& format = options.format;
   harness::catch_interrupts();
-  const std::vector<reality::PublishedFinding> findings = reality::examine_published(reality::published_laws(), engines);
+  const std::vector<reality::PublishedFinding> findings =
+      reality::examine_published(reality::published_laws(), engines);
   if (!options.out.empty() && !harness::interrupted()) {
     make_folder(options.out);
     harness::write_whole((std::filesystem::path(options.out) / "published.json").string(),

@@ -339,9 +339,9 @@ Chapter constraints_and_ragdoll() {
                  {"stick_weighs_masses", "a stick moves the light end more", kSticks, stick_weighs_masses},
                  {"pendulum", "a pendulum keeps its period and its swing", kSticks, pendulum},
                  {"hinged_rod", "a rod on a hinge swings as a rod", kHinges, hinged_rod},
-                 {"chain_swings", "a chain swings like a rope", kChain, chain_swings},
-                 {"ragdoll_flies", "a ragdoll in the air falls as one", kRagdoll, ragdoll_flies},
-                 {"ragdoll_drops", "it lands, holds together and settles", kRagdoll, ragdoll_drops}}};
+                 {"chain_swings", "a chain swings like a rope", kChain, chain_swings, false},
+                 {"ragdoll_flies", "a ragdoll in the air falls as one", kRagdoll, ragdoll_flies, false},
+                 {"ragdoll_drops", "it lands, holds together and settles", kRagdoll, ragdoll_drops, false}}};
 }
 
 }  // namespace plumb::course

@@ -7,6 +7,7 @@
 
 #include "engine/scene/error.h"
 #include "harness/course/flight.h"
+#include "harness/course/prediction.h"
 #include "reference/process_backend.h"
 
 namespace plumb::course {
@@ -69,10 +70,12 @@ void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   }
 }
 
-Finding run(const Check& check, const Lab& lab, const std::vector<Recorded>& runs, int& timeouts) {
+Finding run(const Check& check, int chapter, const Lab& lab, const std::vector<Recorded>& runs,
+            int& timeouts) {
   try {
     Finding out = check.run(lab);
     if (out.verdict == Verdict::Fail) {
+      if (check.repeatable) name_by_motion(check, chapter, lab, runs, out);
       compare_with_second_run(check, lab, out);
       if (out.mistake != "runs_differ") look_at_flights(runs, out);
     }
@@ -114,7 +117,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       const Lab lab(engine, settings, &outcome.runs);
       outcome.finding = timeouts >= kPatience
                             ? broken(fmt::format("not tried: the engine has hung {} times", timeouts))
-                            : run(check, lab, outcome.runs, timeouts);
+                            : run(check, chapter.number, lab, outcome.runs, timeouts);
       if (!named.empty() && outcome.finding.mistake != named) outcome.finding.follows = named;
       if (named.empty()) named = outcome.finding.mistake;
       done(outcome);

@@ -17,6 +17,8 @@ struct Check {
   std::string title;  ///< the expected behaviour, in a line
   std::string wants;  ///< capability that the engine must declare in answer to "hello" (docs/protocol.md)
   Finding (*run)(const Lab& lab) = nullptr;
+  /// False if the motion depends on details in which right engines differ: many bodies that collide.
+  bool repeatable = true;
 };
 
 struct Chapter {

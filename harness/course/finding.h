@@ -14,6 +14,9 @@ struct Reading {
   bool good() const;
 };
 
+/// Returns a sentence about the first reading that is wrong, without a cause.
+std::string describe(const std::vector<Reading>& readings);
+
 enum class Verdict {
   Pass,
   Fail,

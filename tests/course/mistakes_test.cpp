@@ -6,7 +6,7 @@
 
 #include "harness/course/course.h"
 #include "harness/course/report.h"
-#include "tests/course/student/student.h"
+#include "harness/course/student/student.h"
 
 namespace plumb::course {
 namespace {
