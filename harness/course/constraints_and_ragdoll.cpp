@@ -49,6 +49,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
     Finding out;
     out.verdict = Verdict::Fail;
     out.mistake = "impulse_backwards";
+    out.observed = true;
     out.says =
         "The balls speed up within three steps: the stick's impulse has the wrong sign. It is -speed/(1/ma + "
         "1/mb) "
@@ -180,7 +181,7 @@ Finding pendulum(const Lab& lab) {
       .mistake_if(!period, "joint_ignored",
                   "It does not swing to and fro: the end named \"world\" is a fixed point, at anchor_a.")
       .otherwise_if(
-          high > 1.1 * amplitude, "correction_adds_energy",
+          high > 1.1 * amplitude, "swings_higher",
           "It swings higher each time: correcting positions must not add to velocities. Or is this explicit "
           "Euler?")
       .otherwise_if(high < lowest, "damped",

@@ -96,6 +96,7 @@ Finding Judgement::finding() const {
   }
   out.mistake = nearest->name;
   out.says = nearest->says;
+  out.observed = nearest->gives.empty();
   return out;
 }
 

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "engine/scene/error.h"
+#include "harness/course/flight.h"
 #include "harness/course/student/student.h"
 
 namespace plumb::course {
@@ -22,7 +23,8 @@ constexpr double kSamePath = 0.1;
 // A mistake that fits less well than another by this factor does not count beside it.
 constexpr double kClearly = 5;
 
-constexpr double kEqual = 0.01;  // paths nearer than this fit equally well
+// Paths nearer than this fit equally well: with contacts, and in free flight, where only rounding differs.
+constexpr double kEqual = 0.01, kRounding = 1e-6;
 
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
 
@@ -78,29 +80,77 @@ bool same_readings(const Finding& seen, const Finding& predicted) {
 struct Fit {
   const Predictable* mistake;
   double off;  // distance of the paths over that from the right ones
+  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
+  int verdicts = 0, readings = 0;
 };
 
-// Returns how well each mistake fits, the best first, one for each name.
-std::vector<Fit> fits(const std::vector<Predictable>& mistakes, const Check& check, int chapter,
-                      const Lab& lab, const std::vector<Recorded>& runs, const Finding& finding) {
-  std::vector<Fit> out;
-  const auto right = attempt(check, *make_student("", lab.scheme()), lab.plain_settings());
-  if (!right) return out;
-  for (const Predictable& mistake : mistakes) {
-    if (std::string_view(mistake.chapters).find(static_cast<char>('0' + chapter)) == std::string_view::npos)
-      continue;
-    for (const char* sweeps : {"", ", one sweep"}) {
-      const std::string planted = std::string(mistake.planted) + sweeps;
-      const auto wrong = attempt(check, *make_student(planted, lab.scheme()), lab.plain_settings());
-      if (!wrong || wrong->finding.verdict != Verdict::Fail || !same_readings(finding, wrong->finding))
+// Runs the checks of a chapter on the learner's engine, each at most once for each mistake.
+class Predictions {
+ public:
+  Predictions(const Lab& lab, const std::vector<Outcome>& chapter) : lab_(lab), chapter_(chapter) {}
+
+  const std::optional<Attempt>& of(const std::string& planted, std::size_t check) {
+    const auto [place, is_new] = attempts_.try_emplace({planted, check});
+    if (is_new)
+      place->second =
+          attempt(*chapter_[check].check, *make_student(planted, lab_.scheme()), lab_.plain_settings());
+    return place->second;
+  }
+
+  // Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
+  void refute(const std::string& planted, std::size_t check, Fit& fit) {
+    for (std::size_t i = 0; i < chapter_.size(); ++i) {
+      const Finding& seen = chapter_[i].finding;
+      if (i == check || !chapter_[i].check->repeatable || seen.verdict == Verdict::NotYet ||
+          seen.verdict == Verdict::Broken)
         continue;
-      const double way = distance(right->runs, wrong->runs), off = distance(runs, wrong->runs);
-      // If only velocities are wrong, readings decide alone.
-      const double share = way > 1e-9 ? off / way : 0;
-      if (std::isfinite(share) && share <= kSamePath) out.push_back({&mistake, share});
+      const auto& predicted = of(planted, i);
+      if (!predicted || predicted->finding.verdict != seen.verdict)
+        ++fit.verdicts;
+      else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
+        ++fit.readings;
     }
   }
-  std::stable_sort(out.begin(), out.end(), [](const Fit& a, const Fit& b) { return a.off < b.off; });
+
+ private:
+  const Lab& lab_;
+  const std::vector<Outcome>& chapter_;
+  std::map<std::pair<std::string, std::size_t>, std::optional<Attempt>> attempts_;
+};
+
+bool finite(const Finding& finding) {
+  return std::all_of(finding.readings.begin(), finding.readings.end(),
+                     [](const Reading& r) { return std::isfinite(r.measured); });
+}
+
+bool better(const Fit& a, const Fit& b) {
+  return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
+}
+
+// Returns the mistakes that fit, the best first, one for each name.
+std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
+                      const std::vector<Outcome>& chapter, std::size_t check) {
+  std::vector<Fit> out;
+  const Outcome& outcome = chapter[check];
+  const auto right = predictions.of("", check);
+  if (!right) return out;
+  const char digit = static_cast<char>('0' + outcome.chapter->number);
+  for (const Predictable& mistake : mistakes) {
+    if (std::string_view(mistake.chapters).find(digit) == std::string_view::npos) continue;
+    for (const char* sweeps : {"", ", one sweep"}) {
+      const std::string planted = std::string(mistake.planted) + sweeps;
+      const auto& wrong = predictions.of(planted, check);
+      if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
+      if (!same_readings(outcome.finding, wrong->finding)) continue;
+      const double way = distance(right->runs, wrong->runs), off = distance(outcome.runs, wrong->runs);
+      // If only velocities are wrong, readings decide alone.
+      const double share = way > 1e-9 ? off / way : 0;
+      if (!std::isfinite(share) || share > kSamePath) continue;
+      out.push_back({&mistake, share});
+      predictions.refute(planted, check, out.back());
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), better);
   std::vector<Fit> names;
   for (const Fit& fit : out)
     if (std::none_of(names.begin(), names.end(), [&](const Fit& other) {
@@ -110,21 +160,20 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, const Check& che
   return names;
 }
 
-}  // namespace
-
-void name_by_motion(const Check& check, int chapter, const Lab& lab, const std::vector<Recorded>& runs,
-                    Finding& finding) {
-  using reference::Scheme;
-  const Scheme scheme = lab.scheme();
-  if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
-      scheme != Scheme::VelocityVerlet)
-    return;
-  const std::vector<Predictable> mistakes = predictable_mistakes();
-  std::vector<Fit> found = fits(mistakes, check, chapter, lab, runs, finding);
-  if (!found.empty())
-    std::erase_if(found, [least = found.front().off](const Fit& fit) {
-      return fit.off > kClearly * std::max(least, kEqual);
+void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found, const Outcome& outcome,
+                Finding& finding) {
+  if (!found.empty()) {
+    const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
+    const Fit best = found.front();
+    const double most = kClearly * std::max(best.off, exact ? kRounding : kEqual);
+    std::erase_if(found, [&](const Fit& fit) {
+      return fit.verdicts > best.verdicts || fit.readings > best.readings || fit.off > most;
     });
+  }
+  // What was seen besides decides among several.
+  const auto seen = std::find_if(found.begin(), found.end(),
+                                 [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
+  if (finding.observed && seen != found.end()) return;
   if (found.size() == 1) {
     if (finding.mistake != found.front().mistake->name) finding.says = found.front().mistake->says;
     finding.mistake = found.front().mistake->name;
@@ -132,16 +181,33 @@ void name_by_motion(const Check& check, int chapter, const Lab& lab, const std::
   }
   if (found.size() > 1) {
     finding.mistake.clear();
-    finding.says = "Several mistakes give this motion, and this check does not tell them apart.";
+    finding.says = "Several mistakes give this motion, and the checks do not tell them apart.";
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.mistake->name, fit.mistake->says);
     return;
   }
-  const bool refuted = std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
-    return finding.mistake == mistake.name;
-  });
-  if (!refuted) return;
+  const bool known = std::any_of(mistakes.begin(), mistakes.end(),
+                                 [&](const Predictable& mistake) { return finding.mistake == mistake.name; });
+  if (!known || finding.observed) return;
   finding.mistake.clear();
   finding.says = describe(finding.readings);
+}
+
+}  // namespace
+
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter) {
+  using reference::Scheme;
+  const Scheme scheme = lab.scheme();
+  if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
+      scheme != Scheme::VelocityVerlet)
+    return;
+  const std::vector<Predictable> mistakes = predictable_mistakes();
+  Predictions predictions(lab, chapter);
+  for (std::size_t i = 0; i < chapter.size(); ++i) {
+    Finding& finding = chapter[i].finding;
+    if (finding.verdict != Verdict::Fail || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer)
+      continue;
+    name_check(mistakes, fits(mistakes, predictions, chapter, i), chapter[i], finding);
+  }
 }
 
 }  // namespace plumb::course

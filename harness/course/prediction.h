@@ -18,13 +18,13 @@ struct Predictable {
 /// Returns every mistake whose motion can be computed.
 std::vector<Predictable> predictable_mistakes();
 
-/// Names a mistake by its motion. Runs `check` on the learner's engine, once without a mistake and once with
-/// each that its chapter knows, by the method that `lab` declares. A mistake fits if the check's readings and
-/// the paths of all bodies are those of the engine under test, `runs`. If exactly one fits, `finding` gets
-/// its name. If several do, all are described and none is named; if none does, a name that `finding` has is
-/// taken back if its motion can be computed, for it has been refuted. Does nothing for methods that the
-/// learner's engine does not have.
-void name_by_motion(const Check& check, int chapter, const Lab& lab, const std::vector<Recorded>& runs,
-                    Finding& finding);
+/// Names mistakes by their motion, in the failed checks of a chapter. Runs each such check on the learner's
+/// engine, without a mistake and with each that the chapter knows, by the method that `lab` declares. A
+/// mistake fits a check if the readings and the paths of all bodies are those of the engine under test. Among
+/// several, those are refuted that fail other checks of the chapter than the engine does. If one is left, it
+/// gives the check its name. If several are, all are described and none is named. If none is, a name that
+/// stands for certain figures is taken back if the learner's engine can make that mistake: its motion is
+/// another. Does nothing for methods that the learner's engine does not have.
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter);
 
 }  // namespace plumb::course
