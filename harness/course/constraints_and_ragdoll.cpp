@@ -182,8 +182,8 @@ Finding pendulum(const Lab& lab) {
                   "It does not swing to and fro: the end named \"world\" is a fixed point, at anchor_a.")
       .otherwise_if(
           high > 1.1 * amplitude, "swings_higher",
-          "It swings higher each time: correcting positions must not add to velocities. Or is this explicit "
-          "Euler?")
+          "It swings higher each time: something adds energy. A joint's impulse only stops the change of "
+          "length, and a correction of positions leaves velocities as they are.")
       .otherwise_if(high < lowest, "damped",
                     "It swings lower each time: correct along the string only, and by a share of the error.")
       .mistake("weight_not_divided", {due / std::sqrt(3.0), kAny, kAny},

@@ -77,6 +77,17 @@ bool same_readings(const Finding& seen, const Finding& predicted) {
   return judgement.finding().mistake == "this";
 }
 
+// Returns true if a static body has a velocity or leaves its place.
+bool static_moves(const std::vector<Recorded>& runs) {
+  for (const Recorded& run : runs)
+    for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
+      for (const auto& states : run.trace.states)
+        if (run.scene.bodies[b].type == BodyType::Static &&
+            (states[b].velocity != Vec2d{} || states[b].position != run.scene.bodies[b].position))
+          return true;
+  return false;
+}
+
 struct Fit {
   const Predictable* mistake;
   double off;  // distance of the paths over that from the right ones
@@ -142,6 +153,7 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
       const auto& wrong = predictions.of(planted, check);
       if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
+      if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
       const double way = distance(right->runs, wrong->runs), off = distance(outcome.runs, wrong->runs);
       // If only velocities are wrong, readings decide alone.
       const double share = way > 1e-9 ? off / way : 0;
@@ -166,14 +178,24 @@ void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found
     const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
     const Fit best = found.front();
     const double most = kClearly * std::max(best.off, exact ? kRounding : kEqual);
+    // The other checks refute a mistake unless its motion here fits clearly better than that of the best.
+    const double least = best.off / kClearly;
     std::erase_if(found, [&](const Fit& fit) {
-      return fit.verdicts > best.verdicts || fit.readings > best.readings || fit.off > most;
+      const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
+      return fit.off > most || (worse && (fit.off >= least || best.off <= (exact ? kRounding : kEqual)));
     });
   }
-  // What was seen besides decides among several.
-  const auto seen = std::find_if(found.begin(), found.end(),
+  const auto computed = [&](const std::string& name) {
+    return std::any_of(mistakes.begin(), mistakes.end(),
+                       [&](const Predictable& mistake) { return name == mistake.name; });
+  };
+  // What was seen besides decides among several. If its own motion cannot be computed, only a close fit is
+  // better evidence.
+  const bool among = std::any_of(found.begin(), found.end(),
                                  [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
-  if (finding.observed && seen != found.end()) return;
+  const bool close = found.size() == 1 && found.front().off <= kEqual;
+  if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
+    return;
   if (found.size() == 1) {
     if (finding.mistake != found.front().mistake->name) finding.says = found.front().mistake->says;
     finding.mistake = found.front().mistake->name;
@@ -185,9 +207,7 @@ void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.mistake->name, fit.mistake->says);
     return;
   }
-  const bool known = std::any_of(mistakes.begin(), mistakes.end(),
-                                 [&](const Predictable& mistake) { return finding.mistake == mistake.name; });
-  if (!known || finding.observed) return;
+  if (!computed(finding.mistake) || finding.observed) return;
   finding.mistake.clear();
   finding.says = describe(finding.readings);
 }
