@@ -42,8 +42,11 @@ Finding force_accelerates(const Lab& lab) {
   scene.forces.emplace_back(push("ball", {6, 0}));
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = 6 * t, h = lab.dt();
+  const Trace finer = lab.run(scene, 1, 2);
   return Judgement()
       .read("vx after 1 s", "m/s", trace.last(0).velocity.x, v, lab.rounding(v, t))
+      .read("vx/t with half of dt", "m/s^2", finer.last(0).velocity.x / finer.duration(), 6,
+            lab.rounding(6, 2))
       .mistake("force_ignored", {0}, "The force does nothing: add F dt/m to the velocity each step.")
       .mistake("force_once", {6 * h},
                "The force acts for one step only: it lasts until its duration is over.")
@@ -165,8 +168,12 @@ Finding drag(const Lab& lab) {
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), rate = c / mass;
   const double v = v0 * std::exp(-rate * t);
+  scene.bodies.front().velocity = {0, -v0};
+  const double down = lab.run(scene, 1).last(0).velocity.y;
   return Judgement()
       .read("vx after 1 s", "m/s", trace.last(0).velocity.x, v,
+            v * rate * t * lab.method_error(rate, 1e-4) * 1.2)
+      .read("vy after 1 s of a ball that moves down", "m/s", down, -v,
             v * rate * t * lab.method_error(rate, 1e-4) * 1.2)
       .mistake("drag_pushes", {v0 * std::exp(rate * t)},
                "Drag speeds the ball up: it is -c v, against the velocity.")

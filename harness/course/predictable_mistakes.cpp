@@ -175,6 +175,9 @@ std::vector<Predictable> predictable_mistakes() {
       {"force_without_dt", "force_without_dt", "2",
        "dt is missing: a step adds F dt/m to the velocity, not F/m."},
       {"force_dt_twice", "force_dt_twice", "2", "dt enters twice: a step adds F dt/m to the velocity, once."},
+      {"force_per_frame", "per_frame", "2",
+       "A force adds the same in each step, however long it is: it adds F dt/m."},
+      {"drag_along_x_only", "drag_along_one_axis", "2", "Drag acts along x alone: it is -c v, a vector."},
       {"force_once", "force_once", "2",
        "The force acts for one step only: it lasts until its duration is over."},
       {"force_not_cleared", "force_not_cleared", "2",
@@ -548,6 +551,13 @@ std::vector<Predictable> predictable_mistakes() {
       {"joined_bodies_collide", "joined_bodies_collide", "5",
        "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not collide, "
        "unless \"collide\" is true."},
+      {"restitution*2", "restitution_twice", "13",
+       "The motion is that of an engine in which the restitution is used twice."},
+      {"torque*0.5", "torque_halved", "4",
+       "The motion is that of an engine in which the torque is used by half."},
+      {"torque*2", "torque_twice", "4", "The motion is that of an engine in which the torque is used twice."},
+      {"length of a stick*-1", "length_of_stick_reversed", "5",
+       "The motion is that of an engine in which the length of a stick has the wrong sign."},
   };
 }
 

@@ -169,6 +169,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
+    if (is("drag_along_x_only")) return add({c * b.velocity.x, 0});
     add(times("drag") * c * b.velocity);
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
     const Vec2d way = b.position - spring->anchor_a;
@@ -223,6 +224,7 @@ void StudentWorld::accelerate() {
     if (is("root_of_mass")) inverse = std::sqrt(inverse);
     double force_dt = dt;
     if (is("force_without_dt")) force_dt = 1;
+    if (is("force_per_frame")) force_dt = 1.0 / 60;
     if (is("force_dt_twice")) force_dt = dt_ * dt_;
     const Vec2d gain = dt * fall + force_dt * inverse * b.force;
     if (is("constant_speed")) b.velocity = b.body->velocity;
