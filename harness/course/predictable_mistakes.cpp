@@ -82,8 +82,6 @@ std::vector<Predictable> predictable_mistakes() {
        "The ball has twice its radius: compare the distance with the radius, not with the diameter."},
       {"radius*0.5", "radius_halved", "13",
        "Circles touch at half of their radius: \"radius\" is the radius already, not the diameter."},
-      {"radius*0", "radius_ignored", "1",
-       "It turns when its centre reaches the wall: it touches when the nearest point is a radius away."},
       {"wall_normal_flipped", "normal_flipped", "1",
        "The ball is pulled into the floor: the normal points into the wall, and should point out of it, "
        "towards the ball."},
@@ -128,8 +126,11 @@ std::vector<Predictable> predictable_mistakes() {
        "Restitution is applied twice: multiply the speed by e once."},
       {"restitution_root", "restitution_root", "13",
        "The energy is multiplied by e: restitution multiplies the speed."},
-      {"always_elastic", "always_elastic", "13", "All of the speed comes back: restitution is not used."},
-      {"restitution*0", "restitution_ignored", "13",
+      {"always_elastic", "restitution_ignored", "1",
+       "All of the speed comes back: multiply it by the restitution."},
+      {"always_elastic", "always_elastic", "3", "Every collision is elastic: restitution is not used."},
+      {"restitution*0", "restitution_zero", "1", "None of the speed comes back: restitution is not used."},
+      {"restitution*0", "restitution_ignored", "3",
        "None of the speed comes back: restitution is not used. If you go over contacts several times, "
        "compute the bounce once, before the first time."},
       {"restitution*0.5", "restitution_halved", "13",
