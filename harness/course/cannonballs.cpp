@@ -273,14 +273,17 @@ Finding spring(const Lab& lab) {
                "The spring pulls to its anchor: take \"rest_length\" off the length.")
       .mistake("spring_ignored", {1, rest + amplitude}, "The spring does nothing.")
       .mistake_if(
-          acts && acts->seems(acts->stiffness, k) && !acts->damped(k), "rest_length_wrong",
+          acts && acts->seems(acts->stiffness, k) && !acts->seems(acts->rest, rest) && !acts->damped(k),
+          "rest_length_wrong",
           fmt::format("The spring acts as if it were {:.3g} m long at rest, and its \"rest_length\" is "
                       "{:.3g}: its force is stiffness (length - rest_length).",
                       acts ? acts->rest : 0, rest))
-      .mistake_if(acts && acts->seems(acts->rest, rest) && !acts->damped(k), "stiffness_wrong",
-                  fmt::format("The spring acts with {:.3g} N/m, and its \"stiffness\" is {:.3g}: its "
-                              "force is stiffness (length - rest_length), on both ends.",
-                              acts ? acts->stiffness : 0, k))
+      .mistake_if(
+          acts && acts->seems(acts->rest, rest) && !acts->seems(acts->stiffness, k) && !acts->damped(k),
+          "stiffness_wrong",
+          fmt::format("The spring acts with {:.3g} N/m, and its \"stiffness\" is {:.3g}: its "
+                      "force is stiffness (length - rest_length), on both ends.",
+                      acts ? acts->stiffness : 0, k))
       .mistake_if(acts && acts->seems(acts->stiffness, k) && acts->seems(acts->rest, rest) && acts->damped(k),
                   "spring_damped",
                   fmt::format("A force of {:.3g} N s/m times the velocity acts beside the spring: its "
