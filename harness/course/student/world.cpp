@@ -369,6 +369,8 @@ void StudentWorld::answer(Touch& touch) {
   double k = a.inverse_mass + b.inverse_mass;
   if (is("first_inverse_mass_only")) k = a.inverse_mass > 0 ? a.inverse_mass : k;
   if (is("second_inverse_mass_only")) k = b.inverse_mass > 0 ? b.inverse_mass : k;
+  if (is("first_inverse_mass_for_both") && a.inverse_mass > 0) k = 2 * a.inverse_mass;
+  if (is("second_inverse_mass_for_both") && b.inverse_mass > 0) k = 2 * b.inverse_mass;
   if (is("first_inverse_mass_twice")) k += a.inverse_mass;
   if (is("second_inverse_mass_twice")) k += b.inverse_mass;
   if (is("lever_not_squared"))
