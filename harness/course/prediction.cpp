@@ -189,8 +189,8 @@ void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found
     return std::any_of(mistakes.begin(), mistakes.end(),
                        [&](const Predictable& mistake) { return name == mistake.name; });
   };
-  // What was seen besides decides among several. If its own motion cannot be computed, only a close fit is
-  // better evidence.
+  // Lets what was seen besides decide among several. If its own motion cannot be computed, only a close fit
+  // is better evidence.
   const bool among = std::any_of(found.begin(), found.end(),
                                  [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
   const bool close = found.size() == 1 && found.front().off <= kEqual;

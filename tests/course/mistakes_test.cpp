@@ -149,7 +149,7 @@ TEST(Mistakes, EachIsRecognisedByName) {
     std::string readings;
     for (const Reading& r : finding.readings) readings += "\n  " + r.what + " " + std::to_string(r.measured);
     EXPECT_EQ(finding.verdict, Verdict::Fail) << seed.planted << " in " << seed.check;
-    // Where two give one motion, both are described and none is named.
+    // Accepts a description of both where two give one motion, and none is named.
     if (finding.mistake.empty() &&
         finding.says.find(" " + std::string(seed.recognised) + ": ") != std::string::npos) {
       ++described;

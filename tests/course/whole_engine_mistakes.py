@@ -80,7 +80,7 @@ MISTAKES = [
     ('bounce anew each sweep', 3,
      '        j = (c["bounce"] - (vx * nx + vy * ny)) / c["k"]',
      "        vn = vx * nx + vy * ny\n        j = ((-vn if vn < 0 and c['bounce'] else 0) - vn) / c['k'] ",
-     "restitution_zero"),
+     "one_plus_forgotten"),
     ('neighbours only', 3,
      'for b in self.bodies[i + 1:]:\n                if (a',
      'for b in self.bodies[i + 1:i + 2]:\n                if (a',
@@ -375,7 +375,7 @@ def main():
             found, says = first_named(plumb, str(program), chapter)
             if chosen:
                 print(f"{name}: {found}: {says}")
-            # Where two give one motion, both are described and none is named.
+            # Accepts a description of both where two give one motion, and none is named.
             if found != expected and (found or f" {expected}: " not in says):
                 failures += 1
                 print(f"{name}: is called '{found}', not '{expected}': {says}")
