@@ -58,16 +58,25 @@ constexpr const char* kNormalFlipped =
 
 Finding detects(const Lab& lab) {
   const double r = 0.3, v = 1, reach = 2 * r;
-  const Trace trace = head_on(lab, {.position = {-1, 0}, .velocity = {v, 0}, .radius = r},
-                              {.position = {1, 0}, .velocity = {-v, 0}, .radius = r});
-  double nearest = distance(trace, 0);
-  for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
+  const auto meet = [&](double second) {
+    return head_on(lab, {.position = {-1, 0}, .velocity = {v, 0}, .radius = r},
+                   {.position = {1, 0}, .velocity = {-v, 0}, .radius = second});
+  };
+  const auto nearest_of = [](const Trace& t) {
+    double nearest = distance(t, 0);
+    for (std::size_t k = 0; k < t.states.size(); ++k) nearest = std::min(nearest, distance(t, k));
+    return nearest;
+  };
+  const double larger = 0.5, smaller = 0.1;
+  const Trace trace = meet(r), with_larger = meet(larger), with_smaller = meet(smaller);
+  const double nearest = nearest_of(trace), tolerance = 2 * v * lab.dt() + 0.01 * reach;
   const double last = distance(trace, trace.states.size() - 1);
   const bool caught = last < 0.9 * reach && nearest < reach / 4;
   const bool through = !caught && trace.last(0).position.x > trace.last(1).position.x;
-  const double tolerance = 2 * v * lab.dt() + 0.01 * reach;
   return Judgement()
       .read("nearest that the centres came", "m", nearest, reach, tolerance)
+      .read("nearest of radii 0.3 m and 0.5 m", "m", nearest_of(with_larger), r + larger, tolerance)
+      .read("nearest of radii 0.3 m and 0.1 m", "m", nearest_of(with_smaller), r + smaller, tolerance)
       .mistake_if(caught, "normal_flipped", kNormalFlipped)
       .mistake_if(
           through, "no_detection",
@@ -477,7 +486,7 @@ Chapter circle_collisions() {
               {"restitution_of_two", "restitution from 0 to 1", kCircles, restitution},
               {"oblique", "only the part along the line of centres changes", kCircles, oblique},
               {"post", "a static post does not move, and sends the ball back", kCircles, post},
-              {"break_shot", "a break keeps momentum and energy", kCircles, break_shot},
+              {"break_shot", "a break keeps momentum and energy", kCircles, break_shot, false},
               {"pile_rests", "a ball rests on a ball", kCircles, pile_rests}}};
 }
 

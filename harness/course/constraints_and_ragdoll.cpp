@@ -49,6 +49,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
     Finding out;
     out.verdict = Verdict::Fail;
     out.mistake = "impulse_backwards";
+    out.observed = true;
     out.says =
         "The balls speed up within three steps: the stick's impulse has the wrong sign. It is -speed/(1/ma + "
         "1/mb) "
@@ -180,9 +181,9 @@ Finding pendulum(const Lab& lab) {
       .mistake_if(!period, "joint_ignored",
                   "It does not swing to and fro: the end named \"world\" is a fixed point, at anchor_a.")
       .otherwise_if(
-          high > 1.1 * amplitude, "correction_adds_energy",
-          "It swings higher each time: correcting positions must not add to velocities. Or is this explicit "
-          "Euler?")
+          high > 1.1 * amplitude, "swings_higher",
+          "It swings higher each time: something adds energy. A joint's impulse only stops the change of "
+          "length, and a correction of positions leaves velocities as they are.")
       .otherwise_if(high < lowest, "damped",
                     "It swings lower each time: correct along the string only, and by a share of the error.")
       .mistake("weight_not_divided", {due / std::sqrt(3.0), kAny, kAny},
@@ -339,9 +340,9 @@ Chapter constraints_and_ragdoll() {
                  {"stick_weighs_masses", "a stick moves the light end more", kSticks, stick_weighs_masses},
                  {"pendulum", "a pendulum keeps its period and its swing", kSticks, pendulum},
                  {"hinged_rod", "a rod on a hinge swings as a rod", kHinges, hinged_rod},
-                 {"chain_swings", "a chain swings like a rope", kChain, chain_swings},
-                 {"ragdoll_flies", "a ragdoll in the air falls as one", kRagdoll, ragdoll_flies},
-                 {"ragdoll_drops", "it lands, holds together and settles", kRagdoll, ragdoll_drops}}};
+                 {"chain_swings", "a chain swings like a rope", kChain, chain_swings, false},
+                 {"ragdoll_flies", "a ragdoll in the air falls as one", kRagdoll, ragdoll_flies, false},
+                 {"ragdoll_drops", "it lands, holds together and settles", kRagdoll, ragdoll_drops, false}}};
 }
 
 }  // namespace plumb::course

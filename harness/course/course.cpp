@@ -7,6 +7,7 @@
 
 #include "engine/scene/error.h"
 #include "harness/course/flight.h"
+#include "harness/course/prediction.h"
 #include "reference/process_backend.h"
 
 namespace plumb::course {
@@ -48,7 +49,7 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
   for (std::size_t i = 0; i < std::min(finding.readings.size(), again.readings.size()); ++i) {
     const Reading &first = finding.readings[i], &second = again.readings[i];
     if (first.measured == second.measured) continue;
-    finding.mistake = "runs_differ";
+    finding.mistake = kRunsDiffer;
     finding.says = fmt::format(
         "Two runs of the same scene differ: {} is {:.6g} in one and {:.6g} in the other. Is the step taken "
         "from "
@@ -69,13 +70,10 @@ void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   }
 }
 
-Finding run(const Check& check, const Lab& lab, const std::vector<Recorded>& runs, int& timeouts) {
+Finding run(const Check& check, const Lab& lab, int& timeouts) {
   try {
     Finding out = check.run(lab);
-    if (out.verdict == Verdict::Fail) {
-      compare_with_second_run(check, lab, out);
-      if (out.mistake != "runs_differ") look_at_flights(runs, out);
-    }
+    if (out.verdict == Verdict::Fail) compare_with_second_run(check, lab, out);
     for (const Reading& reading : out.readings)
       if (!std::isfinite(reading.measured))
         return broken(fmt::format("{} is not a finite number", reading.what));
@@ -109,14 +107,22 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
   int timeouts = 0;
   std::string named;  // the first mistake
   for (const Chapter& chapter : chapters) {
+    std::vector<Outcome> outcomes;
     for (const Check& check : chapter.checks) {
       Outcome outcome{.chapter = &chapter, .check = &check, .finding = {}};
       const Lab lab(engine, settings, &outcome.runs);
       outcome.finding = timeouts >= kPatience
                             ? broken(fmt::format("not tried: the engine has hung {} times", timeouts))
-                            : run(check, lab, outcome.runs, timeouts);
-      if (!named.empty() && outcome.finding.mistake != named) outcome.finding.follows = named;
-      if (named.empty()) named = outcome.finding.mistake;
+                            : run(check, lab, timeouts);
+      outcomes.push_back(std::move(outcome));
+    }
+    name_by_motion(Lab(engine, settings), outcomes);
+    for (Outcome& outcome : outcomes) {
+      Finding& finding = outcome.finding;
+      if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
+        look_at_flights(outcome.runs, finding);
+      if (!named.empty() && finding.mistake != named) finding.follows = named;
+      if (named.empty()) named = finding.mistake;
       done(outcome);
       out.push_back(std::move(outcome));
     }

@@ -13,18 +13,22 @@ namespace {
 // Tolerance of a mistake's figure, as a fraction of its distance from the right figure.
 constexpr double kSmallestShare = 0.03, kLargestShare = 0.1;
 
-std::string nothing_known(const std::vector<Reading>& readings) {
+}  // namespace
+
+std::string describe(const std::vector<Reading>& readings) {
+  std::string out = "No known mistake gives this motion";
   for (const Reading& reading : readings) {
     if (reading.good()) continue;
-    if (reading.expected == 0)
-      return fmt::format("No known mistake has these figures: {} should be 0.", reading.what);
-    return fmt::format("No known mistake has these figures: {} is {:.4g} times what it should be.",
-                       reading.what, reading.measured / reading.expected);
+    if (reading.expected == 0) return out + fmt::format(": {} should be 0.", reading.what);
+    const double times = reading.measured / reading.expected;
+    if (times < 0) return out + fmt::format(": {} has the wrong sign.", reading.what);
+    if (std::abs(times - 1) < 0.1)
+      return out + fmt::format(": {} is {:.2g} % too {}.", reading.what, 100 * std::abs(times - 1),
+                               times > 1 ? "large" : "small");
+    return out + fmt::format(": {} is {:.4g} times what it should be.", reading.what, times);
   }
-  return "";
+  return out + ".";
 }
-
-}  // namespace
 
 bool Reading::good() const { return std::abs(measured - expected) <= tolerance; }
 
@@ -87,11 +91,12 @@ Finding Judgement::finding() const {
   }
   if (nearest == nullptr && !otherwise_.empty()) nearest = &otherwise_.front();
   if (nearest == nullptr) {
-    out.says = nothing_known(readings_);
+    out.says = describe(readings_);
     return out;
   }
   out.mistake = nearest->name;
   out.says = nearest->says;
+  out.observed = nearest->gives.empty();
   return out;
 }
 

@@ -14,6 +14,9 @@ struct Reading {
   bool good() const;
 };
 
+/// Returns a sentence about the first reading that is wrong, without a cause.
+std::string describe(const std::vector<Reading>& readings);
+
 enum class Verdict {
   Pass,
   Fail,
@@ -25,8 +28,9 @@ enum class Verdict {
 struct Finding {
   Verdict verdict = Verdict::Pass;
   std::vector<Reading> readings;
-  std::string mistake;  ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
-  std::string says;     ///< the diagnosis, the reason or the error, for people
+  std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
+  std::string says;       ///< the diagnosis, the reason or the error, for people
+  bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
 };
 

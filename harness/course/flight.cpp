@@ -130,6 +130,13 @@ std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
 
 }  // namespace
 
+bool flies_freely(const Recorded& run) {
+  if (!run.scene.joints.empty()) return false;
+  for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
+    if (length_of_flight(run, b) < run.trace.states.size()) return false;
+  return true;
+}
+
 std::optional<Seen> seen_in_flight(const Recorded& run) {
   if (!run.scene.forces.empty() || !run.scene.joints.empty()) return std::nullopt;
   for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {

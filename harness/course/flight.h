@@ -17,4 +17,8 @@ struct Seen {
 /// largest speed, and states that are rounded to decimals.
 std::optional<Seen> seen_in_flight(const Recorded& run);
 
+/// Returns true if no body comes near another and no joint acts: engines of one method then agree to
+/// rounding.
+bool flies_freely(const Recorded& run);
+
 }  // namespace plumb::course

@@ -39,6 +39,13 @@ Trace Lab::run(const Scene& scene, double duration, int finer) const {
   return trace;
 }
 
+reference::StepSettings Lab::plain_settings() const {
+  reference::StepSettings out;
+  out.dt = settings_.dt;
+  if (method_.substep > 0) out.substeps = std::max(1, static_cast<int>(std::round(out.dt / method_.substep)));
+  return out;
+}
+
 double Lab::rounding(double scale, double time) const {
   const double steps = time / (method_.substep > 0 ? method_.substep : settings_.dt);
   const double adaptive = method_.scheme == Scheme::Adaptive ? 1e-6 : 0;

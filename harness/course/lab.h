@@ -44,6 +44,9 @@ class Lab {
   /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
   Trace run(const Scene& scene, double duration, int finer = 1) const;
 
+  /// Returns settings with which another engine takes steps and substeps of the same lengths.
+  reference::StepSettings plain_settings() const;
+
   double dt() const { return settings_.dt; }          ///< s
   double substep() const { return method_.substep; }  ///< s; 0 if the method adapts its own
   reference::Scheme scheme() const { return method_.scheme; }

@@ -155,15 +155,24 @@ Finding corner_force(const Lab& lab) {
   const Trace corner = pushed(lab, 0, {0, 1}, {0.5, 0.5});
   const Trace turned = pushed(lab, std::numbers::pi / 2, {1, 0}, {0.5, 0});
   const double w = 0.5 * kPushed / kPushInertia, tolerance = w * share_of_push(lab);
+  // At an angle and a point that make all products of r x F different.
+  const double angle = 0.7;
+  const Vec2d force{0.9, -0.6}, point{0.5, 0.2};
+  const double oblique =
+      cross(Rotation<double>{std::cos(angle), std::sin(angle)} * point, force) * kPushed / kPushInertia;
+  const Trace tilted = pushed(lab, angle, force, point);
   return Judgement()
       .read("spin by a push at the corner", "rad/s", corner.last(0).angular_velocity, w, tolerance)
       .read("spin of a box that stands at 90 degrees", "rad/s", turned.last(0).angular_velocity, -w,
             tolerance)
-      .mistake("torque_backwards", {-w, w},
+      .read("spin of a box that stands at 0.7 rad", "rad/s", tilted.last(0).angular_velocity, oblique,
+            std::abs(oblique) * share_of_push(lab))
+      .mistake("torque_backwards", {-w, w, -oblique},
                "It spins the wrong way: the torque is rx Fy - ry Fx; r x F, not F x r.")
-      .mistake("point_not_turned", {w, 0},
+      .mistake("point_not_turned", {w, 0, cross(point, force) * kPushed / kPushInertia},
                "The point does not turn with the box: turn \"point\" by the body's angle, then take r x F.")
-      .mistake("point_ignored", {0, 0}, "A push at the corner does not spin the box: add the torque r x F.")
+      .mistake("point_ignored", {0, 0, 0},
+               "A push at the corner does not spin the box: add the torque r x F.")
       .mistake("dot_for_cross", {w, w}, "The torque is computed as r . F: it is r x F = rx Fy - ry Fx.")
       .mistake("inertia_sixth", {w / 2, -w / 2},
                "Twice too slow: is the inertia 1/6? It is m (w^2 + h^2)/12.")

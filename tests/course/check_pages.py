@@ -17,7 +17,7 @@ import textwrap
 
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
 NAMED = re.compile(r"`([\w/]+\.(?:h|cpp))`")
-CHECK = re.compile(r'\{"(\w+)",\s*"[^"]+",\s*(?:k\w+|"(?:[^"\\]|\\.)*"),\s*\w+\}')
+CHECK = re.compile(r'\{"(\w+)",\s*"[^"]+",\s*(?:k\w+|"(?:[^"\\]|\\.)*"),\s*\w+(?:,\s*false)?\}')
 ROW = re.compile(r"^\| `(\w+)` \|", re.M)
 MILESTONE = re.compile(r"`(\w+)\.(\w+)`")
 SOURCES = ["bouncing_ball", "cannonballs", "circle_collisions", "rotation_and_boxes", "constraints_and_ragdoll"]

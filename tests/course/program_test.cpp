@@ -54,7 +54,7 @@ TEST(Check, MistakesAreRecognisedOverTheProtocol) {
   };
   EXPECT_EQ(mistake_in(one("explicit_euler", "2"), "spring"), "explicit_euler");
   EXPECT_EQ(mistake_in(one("last_force_only", "2"), "forces_add"), "last_force_only");
-  EXPECT_EQ(mistake_in(one("inverse_mass_forgotten", "3"), "heavy_hits_light"), "inverse_mass_forgotten");
+  EXPECT_EQ(mistake_in(one("masses_swapped", "3"), "heavy_hits_light"), "masses_swapped");
   EXPECT_EQ(mistake_in(one("inertia_sixth", "4"), "torque_spins"), "inertia_sixth");
   EXPECT_EQ(mistake_in(one("r_cross_n_flipped", "4"), "ball_hits_rod"), "r_cross_n_flipped");
   EXPECT_EQ(mistake_in(one("stick_masses_ignored", "5"), "stick_weighs_masses"), "masses_ignored");
@@ -154,8 +154,8 @@ TEST(Check, ReportsUseTheEnginesOwnName) {
 }
 
 TEST(Check, WhatFollowsAMistakeSaysSo) {
-  const Ran ran = plumb({"check", "--chapter", "1", "--", PLUMB_STUDENT, "no_gravity"});
-  EXPECT_THAT(ran.out, HasSubstr("This may follow from no_gravity above"));
+  const Ran ran = plumb({"check", "--chapter", "1", "--", PLUMB_STUDENT, "gravity_twice"});
+  EXPECT_THAT(ran.out, HasSubstr("This may follow from gravity_twice above"));
 }
 
 TEST(Run, TakesAnEngineOfOnesOwn) {

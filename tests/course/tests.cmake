@@ -1,8 +1,9 @@
 # The course: its checks, a learner's engine that makes mistakes when asked to, and the starters.
 plumb_add_tests(course process LINK plumb_catalogue nlohmann_json::nlohmann_json)
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/course/student)
-set(student ${folder}/student.cpp ${folder}/world.cpp ${folder}/touches.cpp)
-target_sources(test_course PRIVATE ${student} ${CMAKE_CURRENT_SOURCE_DIR}/app/program.cpp)
+set(engine ${PROJECT_SOURCE_DIR}/harness/course/student)
+set(student ${engine}/student.cpp ${engine}/world.cpp ${engine}/touches.cpp)
+target_sources(test_course PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/app/program.cpp)
 
 add_executable(plumb_course_student ${folder}/main.cpp ${student})
 target_link_libraries(plumb_course_student PRIVATE plumb_reference_support plumb_options)

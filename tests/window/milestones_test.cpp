@@ -174,6 +174,29 @@ TEST_F(BallByMouse, AClickMovesItAndItFallsFasterAndFaster) {
   for (std::size_t i = 1; i < speeds.size(); ++i) EXPECT_NEAR(speeds[i] - speeds[i - 1], kGravity / 60, 1e-9);
 }
 
+// A step in flight changes the energy of 1 kg by +(g h)^2/2 with explicit Euler and by -(g h)^2/2 with
+// semi-implicit Euler: height changes by the velocity of one end of the step, and kinetic energy by the mean
+// of both ends. Verlet takes the mean, and keeps the energy.
+TEST_F(BallByMouse, EachSchemeGainsLosesOrKeepsEnergyAsItMust) {
+  constexpr double kStep = 0.02, kShare = kGravity * kGravity * kStep * kStep / 2;  // s, J
+  const double due[] = {kShare, -kShare, 0};
+  for (int scheme = 0; scheme < 3; ++scheme) {
+    open("bouncing_ball",
+         {{"damping", 0}, {"restitution", 1}, {"dt", kStep}, {"integrator", static_cast<double>(scheme)}});
+    click(1, {4, 5});
+    std::vector<std::pair<std::uint64_t, double>> seen;  // steps, energy
+    each([&] {
+      if (plan_->frame > 5 && plan_->frame < 50) seen.emplace_back(demo().step_count(), figure("energy"));
+    });
+    run(60);
+    ASSERT_GT(seen.back().first, seen.front().first + 30);
+    for (const auto& [steps, energy] : seen) {
+      const double n = static_cast<double>(steps - seen.front().first);
+      EXPECT_NEAR(energy - seen.front().second, n * due[scheme], 1e-9) << scheme << ", " << n;
+    }
+  }
+}
+
 TEST_F(BallByMouse, ThrownItBouncesOffAllFourEdges) {
   open("bouncing_ball", {{"damping", 0}, {"gravity", 0}, {"restitution", 1}});
   drag(1, {2, 2}, {4, 3.3}, 12);

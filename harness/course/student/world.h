@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "reference/backend.h"
 
 namespace plumb::course {
 
 struct Rigid {
   Vec2d position, velocity, force;
+  Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
   const Body* body = nullptr;
@@ -27,7 +29,11 @@ struct Touch {
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
-  StudentWorld(const Scene& scene, double dt, std::string mistake);
+  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5"; ", one sweep"
+  /// after it answers contacts once a step. `scheme` is semi-implicit Euler, explicit Euler or velocity
+  /// Verlet.
+  StudentWorld(const Scene& scene, double dt, std::string mistake,
+               reference::Scheme scheme = reference::Scheme::SemiImplicitEuler);
 
   void step();
   double time() const { return static_cast<double>(steps_) * dt_; }
@@ -35,6 +41,10 @@ class StudentWorld {
 
  private:
   bool is(std::string_view mistake) const { return mistake_ == mistake; }
+  double times(std::string_view quantity) const;  ///< the factor by which a quantity is wrong, or 1
+  double shown(double angle) const;
+  double radius(const Rigid& body) const;
+  Box box(const Rigid& body) const;
   double inertia(const Body& body) const;
   void gather_forces();
   void apply(const ForceLaw& law, bool first, bool last);
@@ -45,6 +55,7 @@ class StudentWorld {
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
   double restitution(const Touch& touch) const;
+  Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
   void answer(Touch& touch);
   void rub(Touch& touch);
@@ -62,8 +73,11 @@ class StudentWorld {
 
   Scene scene_;
   double dt_;
-  std::string mistake_;
-  bool once_ = false;  ///< contacts are answered once a step
+  std::string mistake_, quantity_;
+  double factor_ = 1;
+  reference::Scheme scheme_;
+  bool touched_ = false;  ///< there was a contact
+  bool once_ = false;     ///< contacts are answered once a step
   long steps_ = 0;
   std::vector<Rigid> bodies_;  ///< the scene's, then the world
 };

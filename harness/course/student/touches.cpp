@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/course/student/world.h"
+#include "harness/course/student/world.h"
 
 // Finds contacts: circles and circles, circles and boxes, corners in boxes.
 namespace plumb::course {
@@ -12,25 +12,39 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 }  // namespace
 
 void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
-  const double ra = std::get<Circle>(bodies_[a].body->shapes[0].geometry).radius;
-  const double rb = std::get<Circle>(bodies_[b].body->shapes[0].geometry).radius;
+  const double ra = radius(bodies_[a]), rb = radius(bodies_[b]);
   const Vec2d way = bodies_[b].position - bodies_[a].position;
   const double d = length(way);
   double reach = ra + rb;
   if (is("diameters")) reach *= 2;
   if (is("one_radius")) reach = ra;
+  if (is("other_radius")) reach = rb;
+  if (is("larger_radius")) reach = 2 * std::max(ra, rb);
+  if (is("smaller_radius")) reach = 2 * std::min(ra, rb);
   if (is("no_detection")) reach = 0;
   if (d <= 0 || (is("square_of_distance") ? d * d : d) >= reach) return;
   Vec2d n = 1 / d * way;
   if (is("normal_not_unit")) n = way;
+  if (is("normal_over_square")) n = 1 / (d * d) * way;
+  if (is("normal_along_x")) n = {std::copysign(1.0, way.x), 0};
+  if (is("normal_along_y")) n = {0, std::copysign(1.0, way.y)};
+  if (is("normal_along_longer_axis"))
+    n = std::abs(way.x) > std::abs(way.y) ? Vec2d{std::copysign(1.0, way.x), 0}
+                                          : Vec2d{0, std::copysign(1.0, way.y)};
+  if (is("normal_along_velocity")) {
+    const Vec2d v = bodies_[a].velocity - bodies_[b].velocity;
+    if (length(v) > 0) n = 1 / length(v) * v;
+  }
+  if (is("tangent")) n = {-n.y, n.x};
+  if (is("y_of_normal_flipped")) n.y = -n.y;
   if (is("normal_flipped")) n = -n;
   out.push_back({a, b, bodies_[a].position + ra / d * way, n, is("normal_flipped") ? 0 : ra + rb - d});
 }
 
 void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
   const Rigid &c = bodies_[circle], &b = bodies_[box];
-  const double r = std::get<Circle>(c.body->shapes[0].geometry).radius;
-  const Box& size = std::get<Box>(b.body->shapes[0].geometry);
+  const double r = radius(c);
+  const Box size = this->box(b);
   const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
   const Vec2d local = q.inverse() * (c.position - b.position);
   const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
@@ -39,14 +53,16 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const double d = length(way);
   if (d <= 0 || d >= r) return;
   if (is("wall_missing") && b.position.x > 1) return;
-  out.push_back({circle, box, c.position + way, 1 / d * way, r - d});
+  Vec2d n = 1 / d * way;
+  if (is("wall_normal_not_unit")) n = way;
+  if (is("wall_normal_flipped")) n = -n;
+  out.push_back({circle, box, c.position + way, n, r - d});
 }
 
 // The corners of a box that lie in another box.
 void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const {
   const Rigid &b = bodies_[box], &c = bodies_[corners];
-  const Box& size = std::get<Box>(b.body->shapes[0].geometry);
-  const Box& other = std::get<Box>(c.body->shapes[0].geometry);
+  const Box size = this->box(b), other = this->box(c);
   const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
   for (const Vec2d sign : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}}) {
     const Vec2d corner = c.position + c.to_world({sign.x * other.width / 2, sign.y * other.height / 2});
@@ -55,7 +71,11 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
     if (in_x <= 0 || in_y <= 0) continue;
     const Vec2d n = (in_x < in_y) != is("largest_overlap") ? Vec2d{std::copysign(1.0, local.x), 0}
                                                            : Vec2d{0, std::copysign(1.0, local.y)};
-    out.push_back({box, corners, corner, q * n, std::min(in_x, in_y)});
+    Vec2d normal = q * n;
+    if (const Vec2d way = c.position - b.position; is("normal_between_centres"))
+      normal = 1 / length(way) * way;
+    if (is("box_normal_not_turned")) normal = n;
+    out.push_back({box, corners, corner, normal, std::min(in_x, in_y)});
     if (is("one_corner")) return;
   }
 }
@@ -63,6 +83,7 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
 std::vector<Touch> StudentWorld::touches() const {
   std::vector<Touch> out;
   const auto joined = [&](std::size_t a, std::size_t b) {
+    if (is("joined_bodies_collide")) return false;
     for (const Joint& joint : scene_.joints) {
       const Ends e = ends(joint);
       if ((e.a == a && e.b == b) || (e.a == b && e.b == a)) return true;

@@ -1,4 +1,4 @@
-#include "tests/course/student/student.h"
+#include "harness/course/student/student.h"
 
 #include <chrono>
 #include <limits>
@@ -6,8 +6,8 @@
 
 #include "engine/core/text.h"
 #include "engine/scene/features.h"
+#include "harness/course/student/world.h"
 #include "reference/support/settings.h"
-#include "tests/course/student/world.h"
 
 namespace plumb::course {
 namespace {
@@ -16,11 +16,13 @@ using namespace plumb::reference;
 
 class StudentSimulator final : public Simulator {
  public:
-  StudentSimulator(const Scene& scene, double dt, const std::string& mistake) : world_(scene, dt, mistake) {}
+  StudentSimulator(const Scene& scene, const StepSettings& settings, const std::string& mistake,
+                   Scheme scheme)
+      : substeps_(settings.substeps.value_or(1)), world_(scene, settings.dt / substeps_, mistake, scheme) {}
 
   double advance(int steps) override {
     const auto start = std::chrono::steady_clock::now();
-    for (int i = 0; i < steps; ++i) world_.step();
+    for (int i = 0; i < steps * substeps_; ++i) world_.step();
     return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
   }
   double time() const override { return world_.time(); }
@@ -30,20 +32,21 @@ class StudentSimulator final : public Simulator {
   }
 
  private:
+  int substeps_;
   StudentWorld world_;
 };
 
 class Student final : public Backend {
  public:
-  explicit Student(std::string mistake) : mistake_(std::move(mistake)) {}
+  Student(std::string mistake, Scheme scheme) : mistake_(std::move(mistake)), scheme_(scheme) {}
 
   std::string_view name() const override { return "student"; }
   std::string_view summary() const override { return "an engine as the course builds it"; }
   Identity identity() const override { return {.version = "1", .precision = "double"}; }
   Method method(const StepSettings& settings) const override {
     check_steps(name(), settings, Stepping::Fixed);
-    return {.scheme = Scheme::SemiImplicitEuler,
-            .order = 1,
+    return {.scheme = scheme_,
+            .order = scheme_ == Scheme::VelocityVerlet ? 2 : 1,
             .substep = settings.dt / settings.substeps.value_or(1),
             .epsilon = std::numeric_limits<double>::epsilon()};
   }
@@ -54,17 +57,18 @@ class Student final : public Backend {
     return {{"dt", shortest(settings.dt)}};
   }
   std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const override {
-    return std::make_unique<StudentSimulator>(scene, settings.dt, mistake_);
+    return std::make_unique<StudentSimulator>(scene, settings, mistake_, scheme_);
   }
 
  private:
   std::string mistake_;
+  Scheme scheme_;
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> make_student(std::string mistake) {
-  return std::make_unique<Student>(std::move(mistake));
+std::unique_ptr<Backend> make_student(std::string mistake, reference::Scheme scheme) {
+  return std::make_unique<Student>(std::move(mistake), scheme);
 }
 
 }  // namespace plumb::course

@@ -1,0 +1,233 @@
+#include "harness/course/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/course/flight.h"
+#include "harness/course/student/student.h"
+
+namespace plumb::course {
+namespace {
+
+// Largest distance of two paths that count as the same, as a fraction of their distance from the right one. A
+// contact that is found a step sooner or later shifts a path by about a hundredth of it.
+constexpr double kSamePath = 0.1;
+
+// A mistake that fits less well than another by this factor does not count beside it.
+constexpr double kClearly = 5;
+
+// Paths nearer than this fit equally well: with contacts, and in free flight, where only rounding differs.
+constexpr double kEqual = 0.01, kRounding = 1e-6;
+
+constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
+
+struct Attempt {
+  Finding finding;
+  std::vector<Recorded> runs;
+};
+
+std::optional<Attempt> attempt(const Check& check, const reference::Backend& engine,
+                               const reference::StepSettings& settings) {
+  Attempt out;
+  try {
+    const Lab lab(engine, settings, &out.runs);
+    out.finding = check.run(lab);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+// Adds up the squared distances of the bodies' places in two runs.
+double distance(const Trace& a, const Trace& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k)
+    for (std::size_t i = 0; i < std::min(a.states[k].size(), b.states[k].size()); ++i) {
+      const Vec2d way = a.states[k][i].position - b.states[k][i].position;
+      const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
+      sum += dot(way, way) + turn * turn;
+    }
+  return sum;
+}
+
+double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b) {
+  double sum = 0;
+  for (std::size_t r = 0; r < std::min(a.size(), b.size()); ++r) sum += distance(a[r].trace, b[r].trace);
+  return std::sqrt(sum);
+}
+
+// Returns true if each reading is that of the mistake, within the tolerance that figures of mistakes have.
+bool same_readings(const Finding& seen, const Finding& predicted) {
+  if (seen.readings.size() != predicted.readings.size()) return false;
+  Judgement judgement;
+  std::vector<double> gives;
+  for (std::size_t i = 0; i < seen.readings.size(); ++i) {
+    const Reading& r = seen.readings[i];
+    judgement.read(r.what, r.unit, r.measured, r.expected, r.tolerance);
+    gives.push_back(predicted.readings[i].measured);
+  }
+  judgement.mistake("this", std::move(gives), "");
+  return judgement.finding().mistake == "this";
+}
+
+// Returns true if a static body has a velocity or leaves its place.
+bool static_moves(const std::vector<Recorded>& runs) {
+  for (const Recorded& run : runs)
+    for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
+      for (const auto& states : run.trace.states)
+        if (run.scene.bodies[b].type == BodyType::Static &&
+            (states[b].velocity != Vec2d{} || states[b].position != run.scene.bodies[b].position))
+          return true;
+  return false;
+}
+
+struct Fit {
+  const Predictable* mistake;
+  double off;  // distance of the paths over that from the right ones
+  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
+  int verdicts = 0, readings = 0;
+};
+
+// Runs the checks of a chapter on the learner's engine, each at most once for each mistake.
+class Predictions {
+ public:
+  Predictions(const Lab& lab, const std::vector<Outcome>& chapter) : lab_(lab), chapter_(chapter) {}
+
+  const std::optional<Attempt>& of(const std::string& planted, std::size_t check) {
+    const auto [place, is_new] = attempts_.try_emplace({planted, check});
+    if (is_new)
+      place->second =
+          attempt(*chapter_[check].check, *make_student(planted, lab_.scheme()), lab_.plain_settings());
+    return place->second;
+  }
+
+  // Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
+  void refute(const std::string& planted, std::size_t check, Fit& fit) {
+    for (std::size_t i = 0; i < chapter_.size(); ++i) {
+      const Finding& seen = chapter_[i].finding;
+      if (i == check || !chapter_[i].check->repeatable || seen.verdict == Verdict::NotYet ||
+          seen.verdict == Verdict::Broken)
+        continue;
+      const auto& predicted = of(planted, i);
+      if (!predicted || predicted->finding.verdict != seen.verdict)
+        ++fit.verdicts;
+      else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
+        ++fit.readings;
+    }
+  }
+
+ private:
+  const Lab& lab_;
+  const std::vector<Outcome>& chapter_;
+  std::map<std::pair<std::string, std::size_t>, std::optional<Attempt>> attempts_;
+};
+
+bool finite(const Finding& finding) {
+  return std::all_of(finding.readings.begin(), finding.readings.end(),
+                     [](const Reading& r) { return std::isfinite(r.measured); });
+}
+
+bool better(const Fit& a, const Fit& b) {
+  return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
+}
+
+// Returns the mistakes that fit, the best first, one for each name.
+std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
+                      const std::vector<Outcome>& chapter, std::size_t check) {
+  std::vector<Fit> out;
+  const Outcome& outcome = chapter[check];
+  const auto right = predictions.of("", check);
+  if (!right) return out;
+  const char digit = static_cast<char>('0' + outcome.chapter->number);
+  for (const Predictable& mistake : mistakes) {
+    if (std::string_view(mistake.chapters).find(digit) == std::string_view::npos) continue;
+    for (const char* sweeps : {"", ", one sweep"}) {
+      const std::string planted = std::string(mistake.planted) + sweeps;
+      const auto& wrong = predictions.of(planted, check);
+      if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
+      if (!same_readings(outcome.finding, wrong->finding)) continue;
+      if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
+      const double way = distance(right->runs, wrong->runs), off = distance(outcome.runs, wrong->runs);
+      // If only velocities are wrong, readings decide alone.
+      const double share = way > 1e-9 ? off / way : 0;
+      if (!std::isfinite(share) || share > kSamePath) continue;
+      out.push_back({&mistake, share});
+      predictions.refute(planted, check, out.back());
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), better);
+  std::vector<Fit> names;
+  for (const Fit& fit : out)
+    if (std::none_of(names.begin(), names.end(), [&](const Fit& other) {
+          return std::string_view(other.mistake->name) == fit.mistake->name;
+        }))
+      names.push_back(fit);
+  return names;
+}
+
+void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found, const Outcome& outcome,
+                Finding& finding) {
+  if (!found.empty()) {
+    const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
+    const Fit best = found.front();
+    const double most = kClearly * std::max(best.off, exact ? kRounding : kEqual);
+    // The other checks refute a mistake unless its motion here fits clearly better than that of the best.
+    const double least = best.off / kClearly;
+    std::erase_if(found, [&](const Fit& fit) {
+      const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
+      return fit.off > most || (worse && (fit.off >= least || best.off <= (exact ? kRounding : kEqual)));
+    });
+  }
+  const auto computed = [&](const std::string& name) {
+    return std::any_of(mistakes.begin(), mistakes.end(),
+                       [&](const Predictable& mistake) { return name == mistake.name; });
+  };
+  // Lets what was seen besides decide among several. If its own motion cannot be computed, only a close fit
+  // is better evidence.
+  const bool among = std::any_of(found.begin(), found.end(),
+                                 [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
+  const bool close = found.size() == 1 && found.front().off <= kEqual;
+  if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
+    return;
+  if (found.size() == 1) {
+    if (finding.mistake != found.front().mistake->name) finding.says = found.front().mistake->says;
+    finding.mistake = found.front().mistake->name;
+    return;
+  }
+  if (found.size() > 1) {
+    finding.mistake.clear();
+    finding.says = "Several mistakes give this motion, and the checks do not tell them apart.";
+    for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.mistake->name, fit.mistake->says);
+    return;
+  }
+  if (!computed(finding.mistake) || finding.observed) return;
+  finding.mistake.clear();
+  finding.says = describe(finding.readings);
+}
+
+}  // namespace
+
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter) {
+  using reference::Scheme;
+  const Scheme scheme = lab.scheme();
+  if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
+      scheme != Scheme::VelocityVerlet)
+    return;
+  const std::vector<Predictable> mistakes = predictable_mistakes();
+  Predictions predictions(lab, chapter);
+  for (std::size_t i = 0; i < chapter.size(); ++i) {
+    Finding& finding = chapter[i].finding;
+    if (finding.verdict != Verdict::Fail || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer)
+      continue;
+    name_check(mistakes, fits(mistakes, predictions, chapter, i), chapter[i], finding);
+  }
+}
+
+}  // namespace plumb::course

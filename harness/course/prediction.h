@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "harness/course/course.h"
+
+namespace plumb::course {
+
+/// A mistake that the learner's engine (student/student.h) can make, so that its motion can be computed.
+struct Predictable {
+  const char* planted;   ///< for `make_student`
+  const char* name;      ///< several may share one
+  const char* chapters;  ///< digits of the chapters whose checks it may spoil
+  const char* says;
+};
+
+/// Returns every mistake whose motion can be computed.
+std::vector<Predictable> predictable_mistakes();
+
+/// Names mistakes by their motion, in the failed checks of a chapter. Runs each such check on the learner's
+/// engine, without a mistake and with each that the chapter knows, by the method that `lab` declares. A
+/// mistake fits a check if the readings and the paths of all bodies are those of the engine under test. Among
+/// several, those are refuted that fail other checks of the chapter than the engine does. If one is left, it
+/// gives the check its name. If several are, all are described and none is named. If none is, a name that
+/// stands for certain figures is taken back if the learner's engine can make that mistake: its motion is
+/// another. Does nothing for methods that the learner's engine does not have.
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter);
+
+}  // namespace plumb::course
