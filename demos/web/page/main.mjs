@@ -1,3 +1,4 @@
+import {bytes_of_base85} from "./base85.mjs";
 import {Painter} from "./painter.mjs";
 import {Panel} from "./panel.mjs";
 import {Player} from "./player.mjs";
@@ -6,8 +7,7 @@ import {follow_pointer} from "./pointer.mjs";
 
 // The program lies in the page, compressed.
 async function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const stream = new Blob([bytes_of_base85(text.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 }
 
