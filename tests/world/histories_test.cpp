@@ -261,6 +261,23 @@ TYPED_TEST(Histories, ASensorThatIsDestroyedEndsItsOverlaps) {
   }
 }
 
+TYPED_TEST(Histories, ABodyInThePlaceOfOneThatHadMovedTouchesOnce) {
+  BasicWorld<TypeParam> world;
+  add_ground(world);
+  const BodyId first = add_box(world, {0, 0.5});
+  run(world, 5);
+  world.set_position(first, {1, 0.5}, 0);
+  world.destroy(first);
+  const BodyId second = add_box(world, {0, 0.5});
+  int begun = 0;
+  for (int i = 0; i < 5; ++i) {
+    world.step();
+    begun += static_cast<int>(world.events().begin.size());
+  }
+  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(world.contacts(second).size(), 1u);
+}
+
 TYPED_TEST(Histories, AMaterialThatChangesIsNoEndAndBegin) {
   BasicWorld<TypeParam> world;
   const BodyId ground = add_ground(world, {.friction = 0});

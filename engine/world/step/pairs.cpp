@@ -108,7 +108,9 @@ void find_pairs(WorldData<Real>& w, Real dt) {
   w.scratch.found_pairs_of.begin(blocks);
   w.crew.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, grounds); });
   w.scratch.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
-    if (is_let_through(w, pair.first, pair.second)) create_contact(w, pair.first, pair.second);
+    // A shape that took the place of one that had moved is listed twice, and finds its pairs twice.
+    if (!w.pairs.contains(pair.first, pair.second) && is_let_through(w, pair.first, pair.second))
+      create_contact(w, pair.first, pair.second);
   });
   // Clear the flags last: if memory runs out above, these pairs are searched again.
   for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
