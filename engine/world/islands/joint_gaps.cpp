@@ -17,19 +17,14 @@ namespace {
 // step.
 constexpr int kLoops = 64;
 
-// Opening that a step leaves, as a share of the joint's link (joint_opening.h). At 0.007 5 % of random
-// mechanisms open by more than 1 % of their shortest link; at 0.015 four times as many as at 0.007. At 0.005
-// propellers of long blades lose more than 2 % of their energy in 3 s of one substep a step, and ragdolls
-// cost 4 % more.
+// Most by which a step may open a joint, and by which it may be open then, as a share of its link
+// (joint_opening.h). What a load opens over many steps, and holds open, is left: closed in each step, it
+// would open again, and a ragdoll that lies would creep without end. At 0.007 270 of 2,000 random mechanisms
+// open by more than 1 % of their shortest link (557 without closing), at 0.004 193; but propellers of long
+// blades lose more than 2 % of their energy in 3 s of one substep a step.
 constexpr double kOpening = 0.007;
 // Rounds of closing.
 constexpr int kCloseRounds = 4;
-
-// Gap that a load makes at rest, in units of |gravity| h^2. Iterations carry a load by a gap that grows with
-// it: 0.4 for a body's own weight, from the frequency and damping of a joint's rows. So this is the weight of
-// ten bodies. At 0 ragdolls on a heap do not sleep, and brakes creep: what closing takes from the gap, the
-// load opens again.
-constexpr double kSag = 4;
 
 // Substeps from which joints open by no more than kOpening; with fewer they may open in proportion.
 // Closing in each step what each step of a sixtieth second opens would take spin from long blades.
@@ -47,8 +42,8 @@ enum class Of { Displacements, Velocities };
 template <class Real>
 class Mechanism {
  public:
-  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening, double sag)
-      : w_(w), island_(island), h_(h), opening_(opening), sag_(sag) {}
+  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening)
+      : w_(w), island_(island), h_(h), opening_(opening) {}
 
   // Returns true if the step has opened a joint. Costs much less than `collect`.
   bool has_opened(int joint) {
@@ -206,8 +201,8 @@ class Mechanism {
     return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
   }
 
-  // Returns the gap that a row may have: `opening_` of its link, as joint_opening.h defines it, and what a
-  // load makes at rest. `length`: of a joint that is a link itself, m.
+  // Returns the gap that a row may have: `opening_` of its link, as joint_opening.h defines it. `length`: of
+  // a joint that is a link itself, m.
   double allowed_gap(const BoundedRow& row, double length) const {
     const auto radius = [](const BoundedBody& body, Vec2d linear, double angular) {
       if (!(body.inverse_inertia > 0)) return kUnbounded;
@@ -216,7 +211,7 @@ class Mechanism {
     };
     const double shorter = std::min(radius(island_.system.bodies[row.a], row.linear_a, row.angular_a),
                                     radius(island_.system.bodies[row.b], row.linear_b, row.angular_b));
-    return opening_ * std::max(shorter, length) + sag_;
+    return opening_ * std::max(shorter, length);
   }
   // Returns true if a joint's row is open by more than it may. Limits of angles have a pass of their own.
   bool is_open(std::size_t i) const {
@@ -231,8 +226,8 @@ class Mechanism {
 
   static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && row.linear_b == Vec2d{}; }
 
-  // Returns true if the step has opened a row: what was open before and closes by itself is left to the
-  // solver.
+  // Returns true if the step has opened a row by more than it may be open: what was open before is left to
+  // the solver, as a load may hold it open.
   bool has_opened() {
     note_poses(w_, island_);
     for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
@@ -244,7 +239,7 @@ class Mechanism {
     make_joint_rows(Of::Displacements);
     assert(before.size() == island_.system.rows.size());
     for (std::size_t i = 0; i < before.size(); ++i)
-      if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i]) return true;
+      if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i] + island_.allowed[i]) return true;
     return false;
   }
 
@@ -291,7 +286,7 @@ class Mechanism {
 
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
-  const double h_, opening_, sag_;
+  const double h_, opening_;
   std::size_t tied_ = 0;  // links that joints tie; behind them are those that they touch
 };
 
@@ -311,10 +306,8 @@ void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   std::vector<char>& marks = w.scratch.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kClosed);
   const double opening = kOpening * std::max(kSubsteps / static_cast<double>(substeps), 1.0);
-  const double sag = kSag * std::sqrt(length_squared(w.settings.gravity)) * h * h;
-  const AllowedGap<Real> allowed{static_cast<Real>(opening), static_cast<Real>(sag)};
-  if (!w.joint_set.find_open(w.solver_bodies(), allowed, marks, &w.crew)) return;
-  Mechanism<Real> mechanism(w, w.scratch.opened, h, opening, sag);
+  if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(opening), marks, &w.crew)) return;
+  Mechanism<Real> mechanism(w, w.scratch.opened, h, opening);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
     if (marks[joint] != kOpen || is_net(w, joint)) continue;
     if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();

@@ -332,14 +332,13 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* mo
 }
 
 template <class Joint>
-void JointBlocks<Joint>::open(int first, int last, const AllowedGap<Real>& allowed, Visit visit,
-                              const void* data) {
+void JointBlocks<Joint>::open(int first, int last, Real share, Visit visit, const void* data) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
         const Number opening = joint_opening(
             block.joint,
             {block.inverse_mass_a, block.inverse_inertia_a, block.inverse_mass_b, block.inverse_inertia_b},
-            allowed);
+            share);
         if (!any(opening > Number(0))) return;
         Real value[Number::kLanes];
         opening.store(value);

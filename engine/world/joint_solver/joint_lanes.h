@@ -85,9 +85,9 @@ class JointBlocks {
   }
   /// Calls `act(joint)` for the joints of blocks that are open (joint_opening.h), some of them twice.
   template <class Act>
-  void open(int first, int last, const AllowedGap<Real>& allowed, const Act& act) {
+  void open(int first, int last, Real share, const Act& act) {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
-    open(first, last, allowed, call, &act);
+    open(first, last, share, call, &act);
   }
   /// Writes the results back to the joints.
   void finish(int first, int last, const SolverBodies<Real>& bodies);
@@ -112,7 +112,7 @@ class JointBlocks {
                ShareOf share, const void* data);
   void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
                      const void* data);
-  void open(int first, int last, const AllowedGap<Real>& allowed, Visit visit, const void* data);
+  void open(int first, int last, Real share, Visit visit, const void* data);
   /// Calls `run(block)` for the blocks from first to last, compiled for their registers.
   template <class Run>
   void for_each(int first, int last, const Run& run);

@@ -6,22 +6,21 @@ namespace plumb {
 
 /// Compares how far rigid rows and limits of a joint are open with its link: the radius of gyration about the
 /// joint of the body for which it is shorter, or the length of a joint that is a link itself (rod, rope), if
-/// that is longer. For angles the link is 1. Takes no root: the sag is added in quadrature, which is less.
+/// that is longer. For angles the link is 1. Takes no root.
 /// With Lanes, of several joints side by side.
 template <class Number>
 struct JointOpening {
   const PairMobility<Number> p{};
-  const AllowedGap<Scalar<Number>> allowed{};
-  Number most = -1;  ///< positive if a row is open by more than is allowed
+  const Scalar<Number> share = 0;  ///< of its link by which a joint may be open
+  Number most = -1;                ///< positive if a row is open by more than is allowed
 
   [[gnu::always_inline]] void add(Number error_squared, Number length, Number linear_a, Number angular_a,
                                   Number linear_b, Number angular_b) {
     using std::max, std::min;
-    const Number squared = error_squared - Number(allowed.sag * allowed.sag);
-    const Number least = allowed.share * allowed.share;
-    const Number of_bodies = max(squared * p.i_a - least * (p.m_a * linear_a + p.i_a * angular_a),
-                                 squared * p.i_b - least * (p.m_b * linear_b + p.i_b * angular_b));
-    most = max(most, min(of_bodies, squared - least * (length * length)));
+    const Number least = share * share;
+    const Number of_bodies = max(error_squared * p.i_a - least * (p.m_a * linear_a + p.i_a * angular_a),
+                                 error_squared * p.i_b - least * (p.m_b * linear_b + p.i_b * angular_b));
+    most = max(most, min(of_bodies, error_squared - least * (length * length)));
   }
   [[gnu::always_inline]] void rigid(const JointRow<Number>& row, Number error, Number length = 0) {
     add(error * error, length, length_squared(row.linear_a), row.angular_a * row.angular_a,
@@ -32,16 +31,15 @@ struct JointOpening {
   }
 };
 
-/// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than is
-/// allowed when it was last evaluated. It reads what the evaluation has left, so that a look at all joints
-/// costs little. Limits of angles have a pass of their own (`project_angular_limits`).
+/// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than
+/// `share` of its link when it was last evaluated. It reads what the evaluation has left, so that a look at
+/// all joints costs little. Limits of angles have a pass of their own (`project_angular_limits`).
 template <class Number, template <class> class Kind>
 [[gnu::always_inline]] inline Number joint_opening(const JointConstraint<Number, Kind>& joint,
-                                                   const PairMobility<Number>& p,
-                                                   const AllowedGap<Scalar<Number>>& allowed) {
+                                                   const PairMobility<Number>& p, Scalar<Number> share) {
   using Constraint = JointConstraint<Number, Kind>;
   using std::min;
-  JointOpening<Number> opening{p, allowed};
+  JointOpening<Number> opening{p, share};
   for (int k = 0; k < Constraint::kAxial; ++k) {
     const auto& coordinate = joint.axial[k];
     for (int i = 0; i < coordinate.count; ++i) {

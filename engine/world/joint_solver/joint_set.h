@@ -61,13 +61,6 @@ struct JointSolverRow {
       nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
 };
 
-/// How far a joint may be open: by `share` times its link and by `sag` more.
-template <class Real>
-struct AllowedGap {
-  Real share = 0;  ///< rad
-  Real sag = 0;    ///< m, or rad for angles
-};
-
 /// A plain revolute joint that the caller solves in the set's place.
 template <class Real>
 struct HeldHinge {
@@ -152,11 +145,9 @@ class JointSet {
   bool began_beyond_limits(int joint, Real slack) const;
 
   /// Sets `open[slot]` (of `slots()` items) for joints of which a rigid row, or a limit along an axis, was
-  /// open after the last `relax` by more than `allowed` (joint_opening.h), and for some that were open by a
-  /// little less; returns true if there are any.
-  /// Call before `finish`. Does not allocate.
-  bool find_open(const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed, std::vector<char>& open,
-                 Crew* crew = nullptr);
+  /// open after the last `relax` by more than `share` of its link (joint_opening.h); returns true if there
+  /// are any. Call before `finish`. Does not allocate.
+  bool find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open, Crew* crew = nullptr);
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.

@@ -7,19 +7,19 @@ namespace plumb {
 namespace {
 
 template <class Joint, class Real>
-bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed) {
+bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real share) {
   if constexpr (Joint::kPlainHinge)
     if (joint.held) return false;
   const BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
-  return joint_opening(joint, {a.inverse_mass, a.inverse_inertia, b.inverse_mass, b.inverse_inertia},
-                       allowed) > 0;
+  return joint_opening(joint, {a.inverse_mass, a.inverse_inertia, b.inverse_mass, b.inverse_inertia}, share) >
+         0;
 }
 
 }  // namespace
 
 template <class Real>
-bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, const AllowedGap<Real>& allowed,
-                               std::vector<char>& open, Crew* crew) {
+bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open,
+                               Crew* crew) {
   Parts& p = *parts_;
   std::atomic<bool> any = false;
   const auto mark = [&](const auto& joint) {
@@ -27,7 +27,7 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, const AllowedGa
     any.store(true, std::memory_order_relaxed);
   };
   const auto look = [&](const auto& joint) {
-    if (is_open(joint, bodies, allowed)) mark(joint);
+    if (is_open(joint, bodies, share)) mark(joint);
   };
   for (const JointRun& run : p.runs) {
     p.with(run.form, [&](auto& lists) {
@@ -37,7 +37,7 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, const AllowedGa
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
           return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
-            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, allowed, mark);
+            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, share, mark);
             for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
           });
         }
@@ -50,9 +50,7 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, const AllowedGa
   return any.load(std::memory_order_relaxed);
 }
 
-template bool JointSet<float>::find_open(const SolverBodies<float>&, const AllowedGap<float>&,
-                                         std::vector<char>&, Crew*);
-template bool JointSet<double>::find_open(const SolverBodies<double>&, const AllowedGap<double>&,
-                                          std::vector<char>&, Crew*);
+template bool JointSet<float>::find_open(const SolverBodies<float>&, float, std::vector<char>&, Crew*);
+template bool JointSet<double>::find_open(const SolverBodies<double>&, double, std::vector<char>&, Crew*);
 
 }  // namespace plumb
