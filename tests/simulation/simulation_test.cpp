@@ -203,12 +203,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 312294620071503275ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 13576735152262376006ull},
-      {Precision::Double, Solver::Direct, 0.5, 2694779110868159153ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 17017913890267584398ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 10982186220095079918ull},
-      {Precision::Float, Solver::Direct, 0.5, 880443959705619344ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 5729274271429572295ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 17745963885277470914ull},
+      {Precision::Double, Solver::Direct, 0.5, 4270586826982709517ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 2513220054713266788ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 2178720544711267887ull},
+      {Precision::Float, Solver::Direct, 0.5, 14202110481890469868ull},
   };
   for (const auto& row : table) {
     Simulation world =
