@@ -25,7 +25,7 @@ function counted() {
   if (data.scenes.length === 0) return found.join(" ");
   const parts = [...counts].map(([status, count]) => `${count} ${status}`);
   return `${data.scenes.length} scenes, ${data.engines.length} engines; runs: ${parts.join(", ")}. ` +
-    [`${missed} missed a check; ${unexpected} not as expected.`, sampled, leftOut, ...found].filter(Boolean).join(" ");
+    [`${missed} missed a check; ${unexpected ? `${unexpected} not as expected` : "all as expected"}.`, sampled, leftOut, ...found].filter(Boolean).join(" ");
 }
 
 // The largest position error of each engine in each scene: a dot a scene, a bar at the median.
@@ -194,7 +194,8 @@ document.getElementById("counts").textContent = counted();
 if (data.scenes.length > 0) {
   document.getElementById("sentence").textContent = sentence();
   document.getElementById("opening").hidden = !glance();
-  if (data.standings.length > 0) {
+  // Without costs, and where no rival ran, there is nothing to rank.
+  if (data.standings.some((row) => row.points > 0)) {
     document.getElementById("standing-table").append(standingTable());
     exceptionTable();
   } else {
