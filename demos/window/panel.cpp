@@ -124,11 +124,14 @@ void draw_ghosts(Player& player, Companion& companion) {
     ImGui::PushStyleColor(ImGuiCol_CheckMark, imgui_colour(colour));
     if (ImGui::Checkbox(ghost.name.c_str(), &shown)) companion.show_ghost(i, shown);
     ImGui::PopStyleColor();
-    if (!ghost.remark.empty()) {
-      ImGui::SameLine();
-      ImGui::TextDisabled("%s", ghost.remark.c_str());
-      tip(ghost.remark);
-    }
+    tip(ghost.remark);
+    // Settings are shown by the tooltip; the reason why an outline is missing can be read at once.
+    if (ghost.remark.empty() || ghost.shown) continue;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::Indent();
+    ImGui::TextWrapped("%s", ghost.remark.c_str());
+    ImGui::Unindent();
+    ImGui::PopStyleColor();
   }
 }
 

@@ -51,7 +51,7 @@ function glance() {
     const y = top + step * (i + 0.5), colour = look.get(engine).colour;
     svg.append(makeSvg("text", {x: left - 8, y: y + 4, "text-anchor": "end", text: engine}));
     for (const [label, error] of own)
-      svg.append(makeSvg("circle", {cx: x(error).toFixed(1), cy: y, r: 3.2, fill: colour, "fill-opacity": 0.55},
+      svg.append(makeSvg("circle", {cx: x(error).toFixed(1), cy: y, r: 3.2, fill: colour},
         makeSvg("title", {text: `${engine}, ${label}: ${figure(error)} m`})));
     const errors = own.map(([, error]) => error).sort((a, b) => a - b), middle = errors[Math.floor((errors.length - 1) / 2)];
     svg.append(makeSvg("path", {d: `M${x(middle).toFixed(1)} ${y - 9}V${y + 9}`, stroke: "var(--ink)", "stroke-width": 2.5}));

@@ -34,6 +34,11 @@ TEST(ViewScene, FollowsTheScene) {
   }
 }
 
+TEST(ViewScene, SaysInSentencesHowToPlay) {
+  EXPECT_EQ(SceneDemo(oscillator(), "a spring").about().play, "A spring. Drag bodies with the pointer.");
+  EXPECT_EQ(SceneDemo(oscillator(), "").about().play, "Drag bodies with the pointer.");
+}
+
 TEST(ViewScene, SolversAndStepsAreChosen) {
   SceneDemo demo(oscillator(), "a spring");
   for (int i = 0; i < 5; ++i) {
