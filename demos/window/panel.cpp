@@ -108,6 +108,7 @@ void draw_figures(const Player& player) {
   if (player.frame_ms > 0) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f ms", player.frame_ms);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 66);  // below the names of the figures
     ImGui::TextUnformatted("time of a frame");
     tip("to step and draw");
     ImGui::SameLine(value_place(text));
