@@ -160,9 +160,9 @@ int run_course(const Given& given) {
       const demos::About about{
           .name = name,
           .summary = outcome.check->title,
-          .play = fmt::format("Solid: {}. Outline: the right motion. {}.{}{}", engine.name(),
-                              outcome.check->title, outcome.finding.says.empty() ? "" : " ",
-                              outcome.finding.says)};
+          .play = fmt::format("Solid: {}. Outline: the right motion. {}{}{}", engine.name(),
+                              demos::sentence_of(outcome.check->title),
+                              outcome.finding.says.empty() ? "" : " ", outcome.finding.says)};
       window::Engines own = engines;
       own.dt = run.dt;
       items.push_back(window::motion_item(about, run.scene, motion_of(run), own));

@@ -31,6 +31,13 @@ void check(const Control& control, double value) {
 
 }  // namespace
 
+std::string sentence_of(std::string_view summary) {
+  if (summary.empty()) return {};
+  std::string out(summary);
+  if (out.front() >= 'a' && out.front() <= 'z') out.front() = static_cast<char>(out.front() - 'a' + 'A');
+  return out + ".";
+}
+
 void Demo::add(Control control, Target target) {
   control.value = control.initial = value_of(target);
   controls_.push_back(std::move(control));

@@ -42,6 +42,9 @@ struct About {
   std::vector<Key> keys{};
 };
 
+/// Returns a summary as a sentence, with a capital letter and a full stop; an empty one stays empty.
+std::string sentence_of(std::string_view summary);
+
 /// A figure to display.
 struct Figure {
   std::string_view name;

@@ -26,7 +26,7 @@ const About kAbout{
     "ragdoll",
     "a figure of jointed parts to pick up and fling, a rope and a chain of circles",
     "Drag a body with the pointer and let go to fling it. Hinges hold rigid parts; sticks hold points "
-    "apart by moving them, some times a step.",
+    "apart by moving them several times a step.",
     {{'n', "another figure"}, {'j', "hinges or sticks"}}};
 
 class Ragdoll final : public WorldDemo {

@@ -75,7 +75,7 @@ std::vector<std::string> solver_names() {
 About about_of(const Scene& scene, const std::string& summary) {
   return {.name = scene.name.empty() ? "scene" : scene.name,
           .summary = summary,
-          .play = summary + (summary.empty() ? "" : ". ") + "Drag bodies with the pointer."};
+          .play = sentence_of(summary) + (summary.empty() ? "" : " ") + "Drag bodies with the pointer."};
 }
 
 std::vector<BodyState> start_of(const Scene& scene) {

@@ -88,13 +88,14 @@ PLUMB_EXPORT("list") void plumb_list() {
     for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
       // Few scenes have rules that no world has.
       if (!plumb::world_unsupported(instance.build().scene).empty()) continue;
-      list.add(JsonObject()
-                   .add("kind", std::string("scene"))
-                   .add("name", instance.label())
-                   .add("summary", scenario.summary)
-                   .add("play", scenario.summary + ". Drag bodies with the pointer.")
-                   .add_json("keys", JsonList().text())
-                   .text());
+      list.add(
+          JsonObject()
+              .add("kind", std::string("scene"))
+              .add("name", instance.label())
+              .add("summary", scenario.summary)
+              .add("play", plumb::demos::sentence_of(scenario.summary) + " Drag bodies with the pointer.")
+              .add_json("keys", JsonList().text())
+              .text());
     }
   }
   answer_with(list.text());

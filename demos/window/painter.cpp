@@ -104,6 +104,12 @@ void Painter::scale_bar(double covered) {
   char text[32];
   std::snprintf(text, sizeof text, "%g m", step);
   const Vec2d left{width - 20 - step * camera_.scale(), height - 14}, right{width - 20, height - 14};
+  // On a plate: the bar can be read over bodies and ground.
+  Colour plate = theme_.ground();
+  plate.a = kPlateAlpha;
+  const Vec2d corners[] = {left + Vec2d{-8, 8}, right + Vec2d{8, 8}, right + Vec2d{8, -20},
+                           left + Vec2d{-8, -20}};
+  canvas_.paint(corners, 0, filled(plate));
   const Vec2d ends[] = {left, right};
   canvas_.paint(ends, 1, filled(theme_.text()));
   labels_.push_back({0.5 * (left + right) + Vec2d{0, -3}, text, theme_.text()});

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <cstdio>
 #include <string>
@@ -14,6 +15,13 @@ namespace {
 // Adds a tooltip to the item before it.
 void tip(const std::string& text) {
   if (!text.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+}
+
+// Returns the place (px) of a value: in the column of values, or as far left of it as a long one needs.
+float value_place(const char* text) {
+  constexpr float kColumn = 244;
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  return std::min(kColumn, right - ImGui::CalcTextSize(text).x);
 }
 
 void draw_list(Player& player) {
@@ -43,13 +51,11 @@ void draw_time(Player& player) {
   ImGui::Checkbox("slow", &player.slow);
   tip("slow motion (S)");
   ImGui::SameLine();
-  if (player.frame_ms > 0) {
-    ImGui::Text("%.2f s  %.1f ms", player.demo().time(), player.frame_ms);
-  } else {
-    ImGui::Text("%.2f s", player.demo().time());
-  }
-  tip("simulated time; " + std::to_string(player.remembered() - 1) + " states back are remembered" +
-      (player.frame_ms > 0 ? "; time that a frame takes to step and draw" : ""));
+  char time[32];
+  std::snprintf(time, sizeof time, "t = %.2f s", player.demo().time());
+  ImGui::SetCursorPosX(value_place(time));
+  ImGui::TextUnformatted(time);
+  tip("simulated time; " + std::to_string(player.remembered() - 1) + " states back are remembered");
 }
 
 void draw_control(Player& player, const demos::Control& control) {
@@ -96,7 +102,16 @@ void draw_figures(const Player& player) {
                      nullptr, FLT_MAX, FLT_MAX, {58, 20});
     ImGui::SameLine();
     ImGui::Text("%s", series.name().c_str());
-    ImGui::SameLine(244);
+    ImGui::SameLine(value_place(text));
+    ImGui::TextUnformatted(text);
+  }
+  if (player.frame_ms > 0) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f ms", player.frame_ms);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 66);  // below the names of the figures
+    ImGui::TextUnformatted("time of a frame");
+    tip("to step and draw");
+    ImGui::SameLine(value_place(text));
     ImGui::TextUnformatted(text);
   }
 }
@@ -110,11 +125,14 @@ void draw_ghosts(Player& player, Companion& companion) {
     ImGui::PushStyleColor(ImGuiCol_CheckMark, imgui_colour(colour));
     if (ImGui::Checkbox(ghost.name.c_str(), &shown)) companion.show_ghost(i, shown);
     ImGui::PopStyleColor();
-    if (!ghost.remark.empty()) {
-      ImGui::SameLine();
-      ImGui::TextDisabled("%s", ghost.remark.c_str());
-      tip(ghost.remark);
-    }
+    tip(ghost.remark);
+    // Settings are shown by the tooltip; the reason why an outline is missing can be read at once.
+    if (ghost.remark.empty() || ghost.shown) continue;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::Indent();
+    ImGui::TextWrapped("%s", ghost.remark.c_str());
+    ImGui::Unindent();
+    ImGui::PopStyleColor();
   }
 }
 
@@ -213,8 +231,14 @@ void draw_message(const Player& player) {
   if (text.empty()) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float left = player.panel ? 370 : 12;
-  ImGui::GetBackgroundDrawList()->AddText({left, size.y - 24}, imgui_colour(player.theme.text()),
-                                          text.c_str());
+  const ImVec2 wide = ImGui::CalcTextSize(text.c_str()), corner{left, size.y - 24};
+  ImDrawList& out = *ImGui::GetBackgroundDrawList();
+  // On a plate: bodies and ground lie behind it.
+  Colour plate = player.theme.ground();
+  plate.a = kPlateAlpha;
+  out.AddRectFilled({corner.x - 6, corner.y - 4}, {corner.x + wide.x + 6, corner.y + wide.y + 4},
+                    imgui_colour(plate));
+  out.AddText(corner, imgui_colour(player.theme.text()), text.c_str());
 }
 
 }  // namespace plumb::window

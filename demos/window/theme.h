@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstdint>
+
 #include "demos/window/canvas.h"
 #include "engine/world/debug_draw.h"
 
 namespace plumb::window {
+
+/// How opaque the plates behind texts over the picture are, of 255: what lies behind shows through.
+constexpr std::uint8_t kPlateAlpha = 215;
 
 /// Colours on a dark or a light background.
 struct Theme {

@@ -41,6 +41,8 @@ void set_style(bool dark) {
   style.FrameBorderSize = dark ? 0.0f : 1.0f;  // white boxes on white need a border
   style.AntiAliasedLinesUseTex = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
+  // A slider's number stands where its knob may be: through half of the colour it can be read.
+  style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.5f;
 }
 
 // Draws a text with its middle above a point.

@@ -149,10 +149,10 @@ Show show_of(scenarios::Problem problem, const std::string& summary, const Engin
     const GhostRun run(truth.scene(), *engines.shown, {.dt = engines.dt}, truth.end());
     if (!run.known())
       throw Error(Error::Kind::Run, fmt::format("engine '{}'", engines.shown->name()), "", "", run.remark());
-    demos::About about{
-        .name = truth.scene().name,
-        .summary = summary,
-        .play = fmt::format("{}{}Moved by {}.", summary, summary.empty() ? "" : ". ", engines.shown->name())};
+    demos::About about{.name = truth.scene().name,
+                       .summary = summary,
+                       .play = fmt::format("{}{}Moved by {}.", demos::sentence_of(summary),
+                                           summary.empty() ? "" : " ", engines.shown->name())};
     show.demo = std::make_unique<PlaybackDemo>(about, truth.scene(), run.motion(), engines.dt, truth.view());
   }
   show.companion = std::move(companion);

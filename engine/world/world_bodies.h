@@ -9,6 +9,7 @@
 #include "engine/world/state/mass.h"
 #include "engine/world/state/naming.h"
 #include "engine/world/state/quarantine.h"
+#include "engine/world/state/shape_boxes.h"
 #include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
 #include "engine/world/step/contact_reading.h"
@@ -414,8 +415,8 @@ template <class Real>
 Aabb<double> BasicWorld<Real>::box(BodyId body) const {
   int shape = data_->bodies[place(body)].first_shape;
   if (shape == kNone) return {position(body), position(body)};
-  Aabb<Real> all = data_->boxes[shape];
-  for (; shape != kNone; shape = data_->shapes[shape].next) all = merged(all, data_->boxes[shape]);
+  Aabb<Real> all = current_aabb(*data_, shape);
+  for (; shape != kNone; shape = data_->shapes[shape].next) all = merged(all, current_aabb(*data_, shape));
   return {all.lower.template as<double>(), all.upper.template as<double>()};
 }
 template <class Real>

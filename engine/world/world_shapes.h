@@ -5,6 +5,7 @@
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/naming.h"
+#include "engine/world/state/shape_boxes.h"
 #include "engine/world/state/shape_reading.h"
 #include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
@@ -102,7 +103,7 @@ ChainId BasicWorld<Real>::chain(ShapeId shape) const {
 }
 template <class Real>
 Aabb<double> BasicWorld<Real>::box(ShapeId shape) const {
-  const Aabb<Real>& box = data_->boxes[place(shape)];
+  const Aabb<Real> box = current_aabb(*data_, place(shape));
   return {box.lower.template as<double>(), box.upper.template as<double>()};
 }
 template <class Real>

@@ -50,6 +50,7 @@ class Lab {
   double dt() const { return settings_.dt; }          ///< s
   double substep() const { return method_.substep; }  ///< s; 0 if the method adapts its own
   reference::Scheme scheme() const { return method_.scheme; }
+  bool first_order() const { return method_.order == 1; }
 
   /// Returns the bound of rounding errors in a sum of the size of `scale` over `time` s: four roundings a
   /// step, each of half an epsilon. Adaptive methods get 1e-6 `scale` more.

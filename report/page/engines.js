@@ -1,6 +1,7 @@
-// How each engine looks: a colour, a mark and a dash, so that no two differ by colour alone.
+// How each engine looks: a colour, a mark and a dash, so that no two differ by colour alone. There are 13 colours and 11
+// marks: 143 engines look different.
 const kColours = ["#0072b2", "#d55e00", "#009e73", "#b8860b", "#cc79a7", "#3f8fd2", "#8a5cc2", "#7a7a72", "#c2384a",
-  "#2f9c9c", "#9a6b3f"];
+  "#2f9c9c", "#9a6b3f", "#5b8c00", "#b3478f"];
 const kDashes = [[], [7, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 4], [12, 4], [4, 4, 1, 4], [8, 2, 2, 2, 2, 2], [3, 6], [14, 3, 3, 3]];
 // Marks of Chart.js, some of them turned, in degrees.
 const kMarks = [["circle", 0], ["rect", 0], ["triangle", 0], ["rectRot", 0], ["triangle", 180], ["star", 0], ["triangle", 90], ["crossRot", 0],

@@ -25,7 +25,7 @@ function counted() {
   if (data.scenes.length === 0) return found.join(" ");
   const parts = [...counts].map(([status, count]) => `${count} ${status}`);
   return `${data.scenes.length} scenes, ${data.engines.length} engines; runs: ${parts.join(", ")}. ` +
-    [`${missed} missed a check; ${unexpected} not as expected.`, sampled, leftOut, ...found].filter(Boolean).join(" ");
+    [`${missed} missed a check; ${unexpected ? `${unexpected} not as expected` : "all as expected"}.`, sampled, leftOut, ...found].filter(Boolean).join(" ");
 }
 
 // The largest position error of each engine in each scene: a dot a scene, a bar at the median.
@@ -51,7 +51,7 @@ function glance() {
     const y = top + step * (i + 0.5), colour = look.get(engine).colour;
     svg.append(makeSvg("text", {x: left - 8, y: y + 4, "text-anchor": "end", text: engine}));
     for (const [label, error] of own)
-      svg.append(makeSvg("circle", {cx: x(error).toFixed(1), cy: y, r: 3.2, fill: colour, "fill-opacity": 0.55},
+      svg.append(makeSvg("circle", {cx: x(error).toFixed(1), cy: y, r: 3.2, fill: colour},
         makeSvg("title", {text: `${engine}, ${label}: ${figure(error)} m`})));
     const errors = own.map(([, error]) => error).sort((a, b) => a - b), middle = errors[Math.floor((errors.length - 1) / 2)];
     svg.append(makeSvg("path", {d: `M${x(middle).toFixed(1)} ${y - 9}V${y + 9}`, stroke: "var(--ink)", "stroke-width": 2.5}));
@@ -194,7 +194,8 @@ document.getElementById("counts").textContent = counted();
 if (data.scenes.length > 0) {
   document.getElementById("sentence").textContent = sentence();
   document.getElementById("opening").hidden = !glance();
-  if (data.standings.length > 0) {
+  // Without costs, and where no rival ran, there is nothing to rank.
+  if (data.standings.some((row) => row.points > 0)) {
     document.getElementById("standing-table").append(standingTable());
     exceptionTable();
   } else {

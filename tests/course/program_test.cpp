@@ -105,6 +105,19 @@ TEST(Starters, EachSolvedChapterPassesItsChecks) {
   }
 }
 
+// Both ways of holding a joint that chapter 5 teaches pass its checks. Positions lose more spin, by a known
+// law; what loses more than that is no method.
+TEST(Starters, JointsHeldByPositionsPassChapterFive) {
+  const std::string file = fmt::format("{}/tests/course/joints_by_positions.py", PLUMB_SOURCE_DIR);
+  for (const char* dt : {"1/60", "1/120"}) {
+    const Json report = examined({"python3", "-B", file}, {"--chapter", "5", "--dt", dt});
+    EXPECT_EQ(report["passed"], report["checks"]) << report.dump(1);
+  }
+  const Json report = examined({"python3", "-B", file, "--spin-lost"}, {"--chapter", "5"});
+  EXPECT_EQ(mistake_in(report, "stick_keeps_its_length"), "spin_lost");
+  EXPECT_EQ(count(report, "fail", 5), 4) << report.dump(1);
+}
+
 // The part of a scene that docs/protocol.md says is enough for chapters 1 to 3.
 TEST(Starters, AnEngineWrittenFromTheProtocolPassesThreeChapters) {
   const Json report = examined({"python3", PLUMB_CIRCLES});

@@ -34,6 +34,11 @@ TEST(ViewScene, FollowsTheScene) {
   }
 }
 
+TEST(ViewScene, SaysInSentencesHowToPlay) {
+  EXPECT_EQ(SceneDemo(oscillator(), "a spring").about().play, "A spring. Drag bodies with the pointer.");
+  EXPECT_EQ(SceneDemo(oscillator(), "").about().play, "Drag bodies with the pointer.");
+}
+
 TEST(ViewScene, SolversAndStepsAreChosen) {
   SceneDemo demo(oscillator(), "a spring");
   for (int i = 0; i < 5; ++i) {
@@ -51,6 +56,19 @@ TEST(ViewScene, ShowsWhatThereIsToSee) {
   EXPECT_LT(view.half_perimeter(), 20);
   const Aabb<double> given{{-1, -2}, {3, 4}};
   EXPECT_EQ(SceneDemo(oscillator(), "", given).view().upper, given.upper);
+}
+
+// The camera holds bodies that fall out of the view, also those that collide with nothing.
+TEST(ViewScene, TheCameraFollowsBodiesThatMeetNothing) {
+  Scene scene{.name = "falls", .gravity = {0, -10}};
+  scene.bodies = {{.name = "ball", .shapes = {{.geometry = Circle{0.5}, .filter = {.mask = 0}}}}};
+  SceneDemo demo(scene, "");
+  steps(demo, 180);
+  std::vector<BodyState> states(1);
+  demo.read_states(states);
+  const Vec2d centre = states[0].position;
+  EXPECT_LT(centre.y, -40);
+  EXPECT_TRUE(demo.shown().contains({centre - Vec2d{0.49, 0.49}, centre + Vec2d{0.49, 0.49}}));
 }
 
 TEST(ViewScene, BodiesCanBeDragged) {

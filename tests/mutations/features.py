@@ -35,7 +35,7 @@ FEATURES = [
             "made.record.density = 2 * static_cast<Real>(definition.density);", "world/readers"),
     feature("Density, sensor, hit events, hook changed later", WORLD + "state/shapes.cpp",
             "note_mass_change(w, body); wake_body(w, body); }", "wake_body(w, body); }", "world/changes"),
-    feature("Boxes; rays and points at one shape", WORLD + "world_bodies.h", "all = merged(all, data_->boxes[shape]);",
+    feature("Boxes; rays and points at one shape", WORLD + "world_bodies.h", "all = merged(all, current_aabb(*data_, shape));",
             "all = data_->boxes[shape];", "world/changes"),
 
     # Bodies.

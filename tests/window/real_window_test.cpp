@@ -131,7 +131,7 @@ class RealWindow : public testing::Test {
     app::plumb({"demo", demo, "--headless", "--seconds", "0", "--width", std::to_string(kWidth), "--height",
                 std::to_string(kHeight), "--screenshot", folder_.path("start.png")});
     const Canvas picture = read_png(folder_.path("start.png"));
-    const auto knob = [](Colour colour) { return colour == Colour{61, 133, 224}; };
+    const auto knob = [](Colour colour) { return colour == Colour{45, 90, 149}; };
     int top = 0;
     const auto in_row = [&](int y) {
       for (int x = 0; x < static_cast<int>(Ui::kPanelWidth); ++x)

@@ -140,6 +140,18 @@ TEST(Filters, CanChangeWhileTheWorldRuns) {
   EXPECT_LT(world.position(ball).y, -2);
 }
 
+TEST(Filters, TheBoxFollowsABodyThatMeetsNothing) {
+  World world;
+  const BodyId ball = add_body(world, {0, 40}, {.geometry = Circle{0.5}, .filter = {.mask = 0}});
+  run(world, 60);
+  const Vec2d centre = world.position(ball);
+  EXPECT_LT(centre.y, 36);
+  for (const Aabb<double>& box : {world.box(ball), world.box(world.shapes(ball)[0])}) {
+    EXPECT_NEAR(box.lower.y, centre.y - 0.5, 1e-5);
+    EXPECT_NEAR(box.upper.y, centre.y + 0.5, 1e-5);
+  }
+}
+
 // Shapes that nothing can meet have no box in the trees: one gets its box in place when its filter lets it
 // meet things, also in a world that was restored, on a body of another type, and beside a shape of its body
 // that has one.

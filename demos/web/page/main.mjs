@@ -24,9 +24,11 @@ function named_place() {
 const kWide = 700;  // pixels: on less the panel lies at the lower edge
 
 async function play() {
+  // The page has its colours before the program is unpacked.
+  const light = window.matchMedia("(prefers-color-scheme: light)");
+  document.documentElement.classList.toggle("dark", !light.matches);
   const module = await WebAssembly.compile(await unpacked(document.getElementById("module").textContent));
   const player = await Player.start(module, named_place());
-  const light = window.matchMedia("(prefers-color-scheme: light)");
   const theme = new Theme(!light.matches);
   light.addEventListener("change", () => { theme.dark = !light.matches; });
   if (window.innerWidth <= kWide) player.panel = false;

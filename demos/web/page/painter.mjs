@@ -145,9 +145,13 @@ export class Painter {
   // How long a step of the grid is.
   #scale_bar(width, height) {
     const context = this.#context, camera = this.#camera, step = round_step(kGridStep / camera.scale);
-    context.strokeStyle = context.fillStyle = this.#theme.text;
+    context.strokeStyle = this.#theme.text;
     context.lineWidth = 2;
     const right = this.scale_bar_x ?? width - 20, left = right - step * camera.scale, y = this.scale_bar_y ?? height - 14;
+    // On a plate: the bar can be read over bodies and ground.
+    context.fillStyle = this.#theme.plate;
+    context.fillRect(left - 8, y - 20, right - left + 16, 28);
+    context.fillStyle = this.#theme.text;
     this.#line(left, y, right, y);
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "left";

@@ -1,7 +1,7 @@
 // The panel: what there is to open, what can be set, what is measured, what is drawn.
 import {kCommands, kShown} from "./player.mjs";
 
-const kPlot = {width: 90, height: 20};  // pixels
+const kPlot = {width: 64, height: 20};  // pixels
 const kSliderStops = 1000;
 
 const the = (id) => document.getElementById(id);
@@ -62,7 +62,8 @@ export class Panel {
     the("fold").setAttribute("aria-expanded", player.panel);
     the("pause").textContent = player.paused ? "go on" : "pause";
     the("slow").checked = player.slow;
-    the("clock").textContent = `${player.time.toFixed(2)} s, ${player.frame_ms.toFixed(1)} ms`;
+    the("clock").textContent = `t = ${player.time.toFixed(2)} s`;
+    if (player.panel) the("frame").textContent = `time of a frame: ${player.frame_ms.toFixed(1)} ms`;
     the("code").hidden = !player.code_shown;
     if (player.code_shown && this.#coded !== player.place) {
       this.#coded = player.place;
@@ -103,7 +104,7 @@ export class Panel {
       if (remark && (shown === 0 || i === 0)) remarks.push(made("p", {className: "unit", textContent: `${name}: ${remark}`}));
       return label;
     });
-    the("ghosts").replaceChildren(made("div", {className: "row"}, ...labels), ...remarks);
+    the("ghosts").replaceChildren(...(labels.length > 0 ? [made("div", {className: "row"}, ...labels)] : []), ...remarks);
   }
 
   #control(control, i) {

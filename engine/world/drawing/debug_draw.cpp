@@ -6,6 +6,7 @@
 
 #include "engine/geometry/convex.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/shape_boxes.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/world_data.h"
 
@@ -55,7 +56,7 @@ class Drawing {
   // the body's size tells.
   bool shows_shape(int shape) const {
     if (!options_.bounds) return true;
-    const Aabb<Real>& box = w_.boxes[shape];
+    const Aabb<Real> box = current_aabb(w_, shape);
     return fraction_ == 1
                ? shows(Aabb<double>{box.lower.template as<double>(), box.upper.template as<double>()})
                : shows(w_.shapes[shape].body);

@@ -12,6 +12,13 @@ namespace plumb {
 template <class Real>
 Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape);
 
+/// Returns the tight AABB of a shape after the last step. A step keeps those of the shapes in the trees; that
+/// of a shape that collides with nothing is computed here.
+template <class Real>
+Aabb<Real> current_aabb(const WorldData<Real>& w, int shape) {
+  return w.shapes[shape].proxy == kNone ? tight_aabb(w, shape) : w.boxes[shape];
+}
+
 /// Returns its fat AABB: with a margin and the predicted motion of the next steps.
 template <class Real>
 Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt);
