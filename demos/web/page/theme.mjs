@@ -50,10 +50,10 @@ export class Theme {
   }
 
   get ground() { return css(this.#dark ? [20, 23, 28] : [250, 250, 248]); }
-  get plate() { return css(this.#dark ? [20, 23, 28, 215] : [250, 250, 248, 215]); }  // behind what must be read
   get grid() { return css(this.#dark ? [32, 36, 43] : [233, 234, 232]); }
   get text() { return css(this.#dark ? [220, 224, 230] : [30, 34, 40]); }
   get plot() { return this.#styles[kAwake].line; }
+  get plate() { return css(this.#dark ? [20, 23, 28, 215] : [250, 250, 248, 215]); }  // behind what must be read
   ghost(place) { return css(kGhosts[place % kGhosts.length]); }
   style(role) {
     if (role >= kGhost) return {fill: null, line: this.ghost(role - kGhost), width: 1.6};
