@@ -339,7 +339,7 @@ void SoftContacts<Real>::show_bounces(Blocks<kBytes>& blocks) {
 
 template <class Real>
 void SoftContacts<Real>::show_bounces() {
-  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { show_bounces(blocks); });
+  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { this->show_bounces(blocks); });
 }
 
 template <class Real>
@@ -353,7 +353,8 @@ void SoftContacts<Real>::take_bounces(Blocks<kBytes>& blocks, const BodyMotion<R
 
 template <class Real>
 void SoftContacts<Real>::take_bounces(const BodyMotion<Real>* motion) {
-  with_blocks(width_, blocks16_, blocks32_, [=, this](auto& blocks) { take_bounces(blocks, motion); });
+  with_blocks(width_, blocks16_, blocks32_,
+              [this, motion](auto& blocks) { this->take_bounces(blocks, motion); });
 }
 
 template <class Real>
