@@ -56,7 +56,7 @@ before(async () => {
     const name = request.url.slice(1), asset = /^(assets\/)?(page|index)[\w.-]*(js|html)$/.exec(name);
     const file = /^plumb[a-z.]*\.mjs$/.test(name);
     response.setHeader("Content-Type", /js$/.test(name) ? "text/javascript" : "text/html");
-    // What a bundler does with the package's name.
+    // Replaces the name of the package, as a bundler does.
     if (asset) response.end(readFileSync(path.join(example, name), "utf8").replace('"plumb-physics"', '"./plumb.mjs"'));
     else response.end(file ? readFileSync(path.join(folder, name)) : kPage);
   });
