@@ -137,9 +137,6 @@ constexpr KnownLimit kLimits[] = {
     {"plumb|plumb-float", "toppling_block/stands", "position_error|angle_error|velocity_error", kSettling},
     {"plumb|plumb-float", "toppling_block/topples",
      "position_error|angle_error|velocity_error|angular_velocity_error", kSettling},
-    {"plumb", "welded_pair", "angle_error", kSoft},
-    {"plumb|plumb-float", "hanging_chain[7]", "position_error|velocity_error", kSoft},
-    {"plumb|plumb-float", "small_modes[10]", "position_error|velocity_error|energy_drift", kSoft},
     {"bullet-double", "pi_billiard/314", "velocity_error", kCrowded},
     // The same at other steps.
     {"box2d", "overhang[1]|table_edge/lies|toppling_block/stands|toppling_block/topples",

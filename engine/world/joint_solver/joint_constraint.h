@@ -52,6 +52,7 @@ struct JointConstraint {
   int joint = 0, a = 0, b = 0;
   Real share = 1;            ///< under-relaxation factor of its impulses
   bool alone = false;        ///< no other joint moves its bodies
+  bool with_island = false;  ///< solved with its island: here it is only evaluated
   Scalar<Real> known_h = 0;  ///< s, substep length that the rules are set for
   Vec2<Real> offset{};       ///< m, at the start of the step
   [[no_unique_address]] If<kPulley, Vec2<Real>, 5> offset_a{};

@@ -112,7 +112,7 @@ void fields(const A& ar, JointSlot& s) {
       s.definition);
   ar(s.a), ar(s.b), ar(s.centre_a), ar(s.centre_b);
   ar(s.used), ar(s.dynamic_a), ar(s.dynamic_b), ar(s.active);
-  ar(s.form), ar(s.colour), ar(s.index);
+  ar(s.form), ar(s.colour), ar(s.index), ar(s.carry);
 }
 
 // ---- State of constraints; the rest follows from slots and bodies
