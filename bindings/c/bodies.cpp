@@ -39,6 +39,9 @@ bool plumb_body_valid(const plumb_world* world, plumb_body body) {
   return read_or(false, world, [&](const auto& w) { return w.valid(in(body)); });
 }
 
+plumb_body_state plumb_body_get_state(const plumb_world* world, plumb_body body) {
+  return read_or(plumb_body_state{}, world, [&](const auto& w) { return out(w.state(in(body))); });
+}
 plumb_pose plumb_body_pose(const plumb_world* world, plumb_body body) {
   return read_or(plumb_pose{}, world, [&](const auto& w) {
     return plumb_pose{out(w.position(in(body))), w.angle(in(body))};
@@ -143,6 +146,12 @@ double plumb_body_angular_damping(const plumb_world* world, plumb_body body) {
 plumb_status plumb_body_set_locks(plumb_world* world, plumb_body body, bool x, bool y, bool rotation) {
   return change_checked(world, [&](auto& w) { w.set_locks(in(body), x, y, rotation); });
 }
+plumb_locks plumb_body_locks(const plumb_world* world, plumb_body body) {
+  return read_or(plumb_locks{}, world, [&](const auto& w) {
+    const plumb::BodyLocks locks = w.locks(in(body));
+    return plumb_locks{locks.x, locks.y, locks.rotation};
+  });
+}
 plumb_status plumb_body_set_continuous(plumb_world* world, plumb_body body, bool on) {
   return change_checked(world, [&](auto& w) { w.set_continuous(in(body), on); });
 }
@@ -157,6 +166,9 @@ plumb_status plumb_body_set_awake(plumb_world* world, plumb_body body, bool awak
 }
 plumb_status plumb_body_set_may_sleep(plumb_world* world, plumb_body body, bool may_sleep) {
   return change_checked(world, [&](auto& w) { w.set_may_sleep(in(body), may_sleep); });
+}
+bool plumb_body_may_sleep(const plumb_world* world, plumb_body body) {
+  return read_or(false, world, [&](const auto& w) { return w.may_sleep(in(body)); });
 }
 uint64_t plumb_body_user_data(const plumb_world* world, plumb_body body) {
   return read_or<uint64_t>(0, world, [&](const auto& w) { return w.user_data(in(body)); });

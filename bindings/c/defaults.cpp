@@ -2,11 +2,10 @@
 #include "engine/joints/definitions.h"
 #include "engine/world/mover.h"
 
-plumb_world_definition plumb_default_world(void) {
-  const plumb::WorldDefinition d;
+plumb_world_definition plumb::c::out(const plumb::WorldDefinition& d, plumb_precision precision) {
   plumb_world_definition result{};
-  result.precision = PLUMB_FLOAT;
-  result.gravity = plumb::c::out(d.gravity);
+  result.precision = precision;
+  result.gravity = out(d.gravity);
   result.combine_friction = static_cast<plumb_combine>(d.combine_friction);
   result.combine_restitution = static_cast<plumb_combine>(d.combine_restitution);
   result.sleeping = d.sleeping;
@@ -17,7 +16,11 @@ plumb_world_definition plumb_default_world(void) {
   result.direct_islands = d.direct_islands;
   result.quarantine = d.quarantine;
   result.thresholds = {d.thresholds.hit, d.thresholds.bounce, d.thresholds.sleep};
+  result.threads = d.threads;
   return result;
+}
+plumb_world_definition plumb_default_world(void) {
+  return plumb::c::out(plumb::WorldDefinition{}, PLUMB_FLOAT);
 }
 
 plumb_body_definition plumb_default_body(void) {

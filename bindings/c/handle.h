@@ -34,7 +34,8 @@ struct plumb_world {
       world;
 #endif
   plumb_event_arrays events{};
-  mutable std::vector<plumb_vec2> points{};  ///< of the shape that was read last
+  mutable std::vector<plumb_vec2> points{};  ///< of the shape or chain that was read last
+  int moves = 0;                             ///< how often the world inside took another place
 };
 
 namespace plumb::c {
@@ -127,6 +128,9 @@ inline ShapeId in(plumb_shape id) { return {id.index, id.generation}; }
 inline JointId in(plumb_joint id) { return {id.index, id.generation}; }
 inline ChainId in(plumb_chain id) { return {id.index, id.generation}; }
 
+inline plumb_body_state out(const BodyState& s) {
+  return {out(s.position), s.angle, out(s.velocity), s.angular_velocity};
+}
 inline plumb_box_bounds out(const Aabb<double>& box) { return {out(box.lower), out(box.upper)}; }
 
 inline constexpr plumb_body kNoBody{PLUMB_NO_INDEX, 0};
@@ -166,6 +170,15 @@ inline std::vector<Vec2d> in(const plumb_vec2* points, std::size_t count) {
 ShapeGeometry in(const plumb_geometry& geometry);
 ShapeDefinition in(const plumb_shape_definition& definition);
 plumb_contact out(const ContactReading& reading);
+plumb_world_definition out(const WorldDefinition& settings, plumb_precision precision);
+plumb_quarantine_event out(const QuarantineEvent& event);
+
+/// Throws Error (Unsupported) for a helper of a world that was moved since: recording moves it.
+inline void require_unmoved(const plumb_world& world, int moves, const char* subject) {
+  if (world.moves == moves) return;
+  throw Error(Error::Kind::Unsupported, subject, "world", "",
+              "was recorded since this was created; create it after plumb_world_record");
+}
 
 /// Writes the first `capacity` of `all` and returns the number of all.
 template <class Type, class From>

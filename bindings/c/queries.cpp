@@ -1,36 +1,12 @@
 #include "engine/world/queries.h"
 
 #include "bindings/c/handle.h"
+#include "bindings/c/query_filter.h"
 #include "engine/world/mover.h"
 
 using namespace plumb::c;
 
 namespace {
-
-/// A filter of a query, with the condition that it views.
-class Filter {
- public:
-  explicit Filter(const plumb_query_filter* from) {
-    if (from == nullptr) return;
-    filter_.category = from->category, filter_.mask = from->mask;
-    filter_.sensors = from->sensors;
-    filter_.ignore = in(from->ignore);
-    condition_ = {from->condition, from->context};
-    if (from->condition != nullptr) filter_.condition = condition_;
-  }
-  Filter(const Filter&) = delete;
-  Filter& operator=(const Filter&) = delete;
-  const plumb::QueryFilter& get() const { return filter_; }
-
- private:
-  struct Condition {
-    bool (*call)(plumb_shape, void*) = nullptr;
-    void* context = nullptr;
-    bool operator()(plumb::ShapeId shape) const { return call(out(shape), context); }
-  };
-  Condition condition_{};
-  plumb::QueryFilter filter_{};
-};
 
 plumb_ray_hit hit_of(const plumb::RayResult& r) {
   return {out(r.shape), out(r.body), r.fraction, out(r.point), out(r.normal)};
@@ -55,14 +31,14 @@ plumb::QueryShape shape_of(const plumb_geometry* geometry) { return {in(require(
 bool plumb_ray_cast_closest(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
                             const plumb_query_filter* filter, plumb_ray_hit* hit) {
   return read_or(false, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     return give(plumb::ray_cast_closest(w, in(origin), in(translation), only.get()), hit);
   });
 }
 plumb_status plumb_ray_cast(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
                             const plumb_query_filter* filter, plumb_ray_visitor visit, void* context) {
   return read_checked(world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     require(visit, "visitor");
     plumb::ray_cast(w, in(origin), in(translation), only.get(), [&](const plumb::RayResult& result) {
       const plumb_ray_hit hit = hit_of(result);
@@ -73,7 +49,7 @@ plumb_status plumb_ray_cast(const plumb_world* world, plumb_vec2 origin, plumb_v
 size_t plumb_ray_cast_all(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
                           const plumb_query_filter* filter, plumb_ray_hit* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     std::vector<plumb::RayResult> hits;
     plumb::ray_cast_all(w, in(origin), in(translation), only.get(), hits);
     if (!hits.empty() && capacity > 0) require(to, "out");
@@ -84,7 +60,7 @@ size_t plumb_ray_cast_all(const plumb_world* world, plumb_vec2 origin, plumb_vec
 bool plumb_cast_shape_closest(const plumb_world* world, const plumb_geometry* shape, plumb_pose pose,
                               plumb_vec2 translation, const plumb_query_filter* filter, plumb_cast_hit* hit) {
   return read_or(false, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     return give(plumb::cast_shape_closest(w, shape_of(shape), in(pose.position), pose.angle, in(translation),
                                           only.get()),
                 hit);
@@ -94,7 +70,7 @@ plumb_status plumb_cast_shape(const plumb_world* world, const plumb_geometry* sh
                               plumb_vec2 translation, const plumb_query_filter* filter,
                               plumb_cast_visitor visit, void* context) {
   return read_checked(world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     require(visit, "visitor");
     plumb::cast_shape(w, shape_of(shape), in(pose.position), pose.angle, in(translation), only.get(),
                       [&](const plumb::CastShapeResult& result) {
@@ -106,7 +82,7 @@ plumb_status plumb_cast_shape(const plumb_world* world, const plumb_geometry* sh
 size_t plumb_overlap_shape(const plumb_world* world, const plumb_geometry* shape, plumb_pose pose,
                            const plumb_query_filter* filter, plumb_shape* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     std::vector<plumb::ShapeId> found;
     plumb::overlap_shape(w, shape_of(shape), in(pose.position), pose.angle, only.get(), found);
     return fill(found, to, capacity);
@@ -115,7 +91,7 @@ size_t plumb_overlap_shape(const plumb_world* world, const plumb_geometry* shape
 size_t plumb_overlap_box(const plumb_world* world, plumb_vec2 lower, plumb_vec2 upper,
                          const plumb_query_filter* filter, plumb_shape* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     std::vector<plumb::ShapeId> found;
     plumb::overlap_box(w, plumb::Aabb<double>{in(lower), in(upper)}, only.get(), found);
     return fill(found, to, capacity);
@@ -124,7 +100,7 @@ size_t plumb_overlap_box(const plumb_world* world, plumb_vec2 lower, plumb_vec2 
 size_t plumb_shapes_at(const plumb_world* world, plumb_vec2 point, const plumb_query_filter* filter,
                        plumb_shape* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     std::vector<plumb::ShapeId> found;
     plumb::shapes_at(w, in(point), only.get(), found);
     return fill(found, to, capacity);
@@ -133,7 +109,7 @@ size_t plumb_shapes_at(const plumb_world* world, plumb_vec2 point, const plumb_q
 bool plumb_nearest(const plumb_world* world, plumb_vec2 point, double max_distance,
                    const plumb_query_filter* filter, plumb_nearest_hit* hit) {
   return read_or(false, world, [&](const auto& w) {
-    const Filter only(filter);
+    const Filtered only(filter);
     return give(plumb::nearest(w, in(point), max_distance, only.get()), hit);
   });
 }
@@ -154,7 +130,7 @@ plumb_mover_result plumb_move(const plumb_world* world, const plumb_geometry* ca
                          "must be a capsule; make it with plumb_capsule");
     }
     const plumb_mover_options o = options != nullptr ? *options : plumb_default_mover();
-    const Filter only(&o.filter);
+    const Filtered only(&o.filter);
     const plumb::MoverOptions settings{in(o.up), o.max_slope,  o.step_height, o.skin,
                                        o.mass,   o.push_force, only.get()};
     const plumb::MoverResult r = plumb::move(w, plumb::Capsule{in(shape.start), in(shape.end), shape.radius},

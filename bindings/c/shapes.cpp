@@ -133,6 +133,12 @@ double plumb_shape_density(const plumb_world* world, plumb_shape shape) {
 bool plumb_shape_sensor(const plumb_world* world, plumb_shape shape) {
   return read_or(false, world, [&](const auto& w) { return w.sensor(in(shape)); });
 }
+bool plumb_shape_hit_events(const plumb_world* world, plumb_shape shape) {
+  return read_or(false, world, [&](const auto& w) { return w.hit_events(in(shape)); });
+}
+bool plumb_shape_pre_solve(const plumb_world* world, plumb_shape shape) {
+  return read_or(false, world, [&](const auto& w) { return w.pre_solve(in(shape)); });
+}
 plumb_shape_definition plumb_shape_get_definition(const plumb_world* world, plumb_shape shape) {
   return read_or(plumb_default_shape(), world, [&](const auto& w) {
     const plumb::ShapeDefinition d = w.definition(in(shape));
@@ -170,4 +176,18 @@ plumb_body plumb_chain_body(const plumb_world* world, plumb_chain chain) {
 }
 size_t plumb_chain_segments(const plumb_world* world, plumb_chain chain, plumb_shape* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) { return fill(w.segments(in(chain)), to, capacity); });
+}
+plumb_chain_definition plumb_chain_get_definition(const plumb_world* world, plumb_chain chain) {
+  return read_or(plumb_default_chain(), world, [&](const auto& w) {
+    const plumb::ChainDefinition d = w.definition(in(chain));
+    world->points.clear();
+    for (const plumb::Vec2d point : d.points) world->points.push_back(out(point));
+    plumb_chain_definition result{};
+    result.points = world->points.data(), result.point_count = world->points.size();
+    result.closed = d.closed;
+    result.material = out(d.material), result.filter = out(d.filter);
+    result.sensor = d.sensor, result.hit_events = d.hit_events, result.pre_solve = d.pre_solve;
+    result.user_data = d.user_data;
+    return result;
+  });
 }

@@ -3,6 +3,7 @@
 #include "bindings/c/handle.h"
 #include "engine/scene/json.h"
 #include "engine/world/add_scene.h"
+#include "engine/world/scene/scene_forces.h"
 
 using namespace plumb::c;
 using plumb::Error;
@@ -11,6 +12,13 @@ using plumb::Error;
 struct plumb_simulation {
   plumb::Simulation simulation;
   std::vector<std::string> names;
+};
+
+/// A scene in a world, and its force laws.
+struct plumb_added_scene {
+  plumb_world* world;
+  plumb::SceneParts parts;
+  std::variant<plumb::SceneForces<float>, plumb::SceneForces<double>> forces;
 };
 
 namespace {
@@ -51,10 +59,6 @@ plumb_accuracy default_accuracy(plumb_method method) {
   return a;
 }
 
-plumb_body_state state_of(const plumb::BodyState& s) {
-  return {out(s.position), s.angle, out(s.velocity), s.angular_velocity};
-}
-
 const plumb_simulation& opened(const plumb_simulation* simulation) {
   return require(simulation, "simulation");
 }
@@ -73,6 +77,43 @@ size_t plumb_world_add_scene(plumb_world* world, const char* json, plumb_body* t
     std::vector<plumb::BodyId> bodies;
     edit(world, [&](auto& w) { bodies = plumb::add_scene(w, scene).bodies; });
     return fill(bodies, to, capacity);
+  });
+}
+
+plumb_status plumb_scene_world(const char* json, plumb_world_definition* definition) {
+  return checked([&] {
+    plumb_world_definition& to = require(definition, "definition");
+    to = out(plumb::world_definition(plumb::scene_from_json(&require(json, "json"))), PLUMB_FLOAT);
+  });
+}
+plumb_added_scene* plumb_scene_add(plumb_world* world, const char* json) {
+  return checked_or<plumb_added_scene*>(nullptr, [&] {
+    const plumb::Scene scene = plumb::scene_from_json(&require(json, "json"));
+    std::unique_ptr<plumb_added_scene> added;
+    edit(world, [&]<class Real>(plumb::BasicWorld<Real>& w) {
+      plumb::SceneParts parts = plumb::add_scene(w, scene);
+      plumb::SceneForces<Real> forces(scene, parts);
+      added.reset(new plumb_added_scene{world, std::move(parts), std::move(forces)});
+    });
+    return added.release();
+  });
+}
+void plumb_scene_destroy(plumb_added_scene* scene) { delete scene; }
+size_t plumb_scene_bodies(const plumb_added_scene* scene, plumb_body* to, size_t capacity) {
+  return checked_or<size_t>(0, [&] { return fill(require(scene, "scene").parts.bodies, to, capacity); });
+}
+size_t plumb_scene_joints(const plumb_added_scene* scene, plumb_joint* to, size_t capacity) {
+  return checked_or<size_t>(0, [&] { return fill(require(scene, "scene").parts.joints, to, capacity); });
+}
+plumb_body plumb_scene_frame(const plumb_added_scene* scene) {
+  return checked_or(kNoBody, [&] { return out(require(scene, "scene").parts.frame); });
+}
+plumb_status plumb_scene_apply_forces(plumb_added_scene* scene, double dt) {
+  return checked([&] {
+    plumb_added_scene& s = require(scene, "scene");
+    edit(s.world, [&]<class Real>(plumb::BasicWorld<Real>& w) {
+      std::get<plumb::SceneForces<Real>>(s.forces).apply(w, dt);
+    });
   });
 }
 
@@ -109,7 +150,7 @@ int plumb_simulation_find(const plumb_simulation* simulation, const char* name) 
 plumb_body_state plumb_simulation_state(const plumb_simulation* simulation, size_t body) {
   return checked_or(plumb_body_state{}, [&] {
     const plumb_simulation& s = opened(simulation);
-    return state_of(s.simulation.state(existing(s, body)));
+    return out(s.simulation.state(existing(s, body)));
   });
 }
 size_t plumb_simulation_states(const plumb_simulation* simulation, plumb_body_state* to, size_t capacity) {
@@ -118,7 +159,7 @@ size_t plumb_simulation_states(const plumb_simulation* simulation, plumb_body_st
     std::vector<plumb::BodyState> states(s.names.size());
     s.simulation.read(states);
     if (!states.empty() && capacity > 0) require(to, "out");
-    for (size_t i = 0; i < states.size() && i < capacity; ++i) to[i] = state_of(states[i]);
+    for (size_t i = 0; i < states.size() && i < capacity; ++i) to[i] = out(states[i]);
     return states.size();
   });
 }

@@ -29,6 +29,7 @@ namespace {
 template <class Real>
 void record(plumb_world& world, const char* file, bool bodies) {
   auto& plain = std::get<plumb::BasicWorld<Real>>(world.world);
+  ++world.moves;
   const std::vector<std::byte> state = plumb::save(plain);
   try {
     plumb::RecordedWorld<Real> recorded(file, std::move(plain), {.bodies = bodies});
@@ -41,9 +42,18 @@ void record(plumb_world& world, const char* file, bool bodies) {
   }
 }
 
-plumb_status report_of(const plumb::ReplayReport& from, plumb_replay_report& to) {
-  to = {from.calls, from.steps, from.first_difference.value_or(-1), from.recorded_hash, from.hash};
-  return PLUMB_OK;
+thread_local std::string message;  // of the last replay
+
+template <class Real>
+void replay(const char* file, const std::function<bool(const plumb::ContactReading&)>& hook,
+            plumb_replay_report& to, plumb_body* differing, size_t capacity) {
+  const plumb::ReplayReport from = plumb::replay<Real>(file, hook);
+  message = from.message;
+  to = {from.calls,         from.steps,     from.first_difference.value_or(-1), from.recorded_hash, from.hash,
+        from.bodies.size(), message.c_str()};
+  std::vector<plumb::BodyId> bodies;
+  for (const plumb::BodyDifference& each : from.bodies) bodies.push_back(each.body);
+  fill(bodies, differing, capacity);
 }
 
 }  // namespace
@@ -59,13 +69,25 @@ plumb_status plumb_world_record(plumb_world* world, const char* file, bool bodie
 }
 
 plumb_status plumb_replay(const char* file, plumb_precision precision, plumb_replay_report* report) {
+  return plumb_replay_with(file, precision, nullptr, nullptr, report, nullptr, 0);
+}
+plumb_status plumb_replay_with(const char* file, plumb_precision precision, plumb_pre_solve_function hook,
+                               void* context, plumb_replay_report* report, plumb_body* differing,
+                               size_t capacity) {
   return checked([&] {
     require(file, "file");
     plumb_replay_report& to = require(report, "report");
+    std::function<bool(const plumb::ContactReading&)> call;
+    if (hook != nullptr) {
+      call = [hook, context](const plumb::ContactReading& reading) {
+        const plumb_contact contact = out(reading);
+        return hook(&contact, context);
+      };
+    }
     if (in<int>(precision, 2, "replay", "precision") == PLUMB_FLOAT) {
-      report_of(plumb::replay<float>(file), to);
+      replay<float>(file, call, to, differing, capacity);
     } else {
-      report_of(plumb::replay<double>(file), to);
+      replay<double>(file, call, to, differing, capacity);
     }
   });
 }

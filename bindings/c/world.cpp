@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "bindings/c/handle.h"
+#include "engine/world/state/bodies.h"
 #include "engine/world/state_hash.h"
 #include "engine/world/world_data.h"
 
@@ -22,6 +23,7 @@ plumb::WorldDefinition definition_of(const plumb_world_definition& d) {
   result.iterations = d.iterations;
   result.direct_islands = d.direct_islands, result.quarantine = d.quarantine;
   result.thresholds = {d.thresholds.hit, d.thresholds.bounce, d.thresholds.sleep};
+  result.threads = d.threads;
   return result;
 }
 
@@ -68,6 +70,13 @@ double plumb_world_time(const plumb_world* world) {
 }
 int64_t plumb_world_step_count(const plumb_world* world) {
   return read_or<int64_t>(0, world, [](const auto& w) { return w.step_count(); });
+}
+plumb_world_definition plumb_world_get_definition(const plumb_world* world) {
+  return read_or(plumb_default_world(), world, []<class Real>(const BasicWorld<Real>& w) {
+    plumb::WorldDefinition settings = w.data().settings;
+    settings.threads = w.threads();
+    return out(settings, sizeof(Real) == sizeof(float) ? PLUMB_FLOAT : PLUMB_DOUBLE);
+  });
 }
 uint64_t plumb_world_hash(const plumb_world* world) {
   return read_or<uint64_t>(0, world, [](const auto& w) { return w.hash(); });
@@ -122,6 +131,19 @@ plumb_status plumb_world_combine_with(plumb_world* world, plumb_combine_function
   });
 }
 
+plumb_status plumb_world_set_threads(plumb_world* world, int threads) {
+  return checked([&] { edit(world, [&](auto& w) { w.set_threads(threads); }); });
+}
+plumb_status plumb_world_set_task_system(plumb_world* world, const plumb_task_system* tasks) {
+  return checked([&] {
+    plumb::TaskSystem own;
+    if (tasks != nullptr) {
+      own = {&require(tasks->start, "start"), &require(tasks->finish, "finish"), tasks->user};
+    }
+    edit(world, [&](auto& w) { w.set_task_system(own); });
+  });
+}
+
 plumb_counts plumb_world_counts(const plumb_world* world) {
   return read_or(plumb_counts{}, world, [](const auto& w) {
     const plumb::WorldCounts c = w.counts();
@@ -146,7 +168,8 @@ size_t plumb_world_bodies(const plumb_world* world, plumb_body* out_bodies, size
 }
 size_t plumb_world_poses(const plumb_world* world, plumb_pose* out_poses, size_t capacity) {
   return fill_bodies(world, out_poses, capacity, [](const auto& w, plumb::BodyId body) {
-    return plumb_pose{out(w.position(body)), w.angle(body)};
+    const int index = static_cast<int>(body.index);  // it is valid: no handle needs to be looked up
+    return plumb_pose{out(plumb::origin_of(w.data(), index)), w.data().bodies[index].angle};
   });
 }
 size_t plumb_world_velocities(const plumb_world* world, plumb_velocity* out_velocities, size_t capacity) {
@@ -155,6 +178,17 @@ size_t plumb_world_velocities(const plumb_world* world, plumb_velocity* out_velo
   });
 }
 
+size_t plumb_world_states(const plumb_world* world, plumb_body_state* out_states, size_t capacity) {
+  return fill_bodies(world, out_states, capacity,
+                     [](const auto& w, plumb::BodyId body) { return out(w.state(body)); });
+}
+
+plumb_quarantine_event plumb::c::out(const plumb::QuarantineEvent& e) {
+  return {out(e.body), plumb::kBadFieldNames[static_cast<int>(e.field)], e.value, e.step};
+}
+size_t plumb_world_quarantined(const plumb_world* world, plumb_quarantine_event* to, size_t capacity) {
+  return read_or<size_t>(0, world, [&](const auto& w) { return fill(w.quarantined(), to, capacity); });
+}
 plumb_events plumb_world_events(plumb_world* world) {
   return read_or(plumb_events{}, world, [&](const auto& w) {
     const plumb::Events& from = w.events();
@@ -183,10 +217,7 @@ plumb_events plumb_world_events(plumb_world* world) {
     });
     convert(from.fell_asleep, to.fell_asleep, id);
     convert(from.woke, to.woke, id);
-    convert(from.quarantined, to.quarantined, [](const plumb::QuarantineEvent& e) {
-      return plumb_quarantine_event{out(e.body), plumb::kBadFieldNames[static_cast<int>(e.field)], e.value,
-                                    e.step};
-    });
+    convert(from.quarantined, to.quarantined, [](const plumb::QuarantineEvent& e) { return out(e); });
     return plumb_events{
         to.begin.data(),        to.end.data(),         to.hits.data(),        to.sensor_begin.data(),
         to.sensor_end.data(),   to.broken.data(),      to.fell_asleep.data(), to.woke.data(),

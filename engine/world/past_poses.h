@@ -18,6 +18,8 @@ class PastPoses {
   /// Returns the interpolated pose of the centre of mass of body `body` of `data`, at `fraction` (0..1)
   /// between the stored and the present pose. Bodies created since get their present pose.
   Pose<double> between(const WorldData<Real>& data, int body, double fraction) const;
+  /// Returns its angle there, rad, whole turns counted.
+  double angle_between(const WorldData<Real>& data, int body, double fraction) const;
 
  private:
   struct Past {
@@ -25,6 +27,7 @@ class PastPoses {
     double angle = 0;              ///< rad
     std::uint32_t generation = 0;  ///< even: the slot was free
   };
+  const Past* find(const WorldData<Real>& data, int body) const;
   std::vector<Past> past_;  // by the body's index
 };
 

@@ -14,16 +14,30 @@ void PastPoses<Real>::keep(const BasicWorld<Real>& world) {
   }
 }
 
+/// Returns null for a body that did not exist when the poses were stored.
+template <class Real>
+auto PastPoses<Real>::find(const WorldData<Real>& data, int body) const -> const Past* {
+  if (static_cast<std::size_t>(body) >= past_.size()) return nullptr;
+  const Past& past = past_[body];
+  return past.generation == data.bodies.generation(body) ? &past : nullptr;
+}
+
 template <class Real>
 Pose<double> PastPoses<Real>::between(const WorldData<Real>& data, int body, double fraction) const {
   const Rotation<Real> q = data.rotation[body];
   const Pose<double> now{data.position[body], {q.c, q.s}};
-  if (static_cast<std::size_t>(body) >= past_.size()) return now;
-  const Past& past = past_[body];
-  if (past.generation != data.bodies.generation(body)) return now;
-  const double turned = data.bodies[body].angle - past.angle;
-  return {past.position + fraction * (now.position - past.position),
-          turned == 0 ? now.rotation : rotation_of(past.angle + fraction * turned)};
+  const Past* past = find(data, body);
+  if (past == nullptr) return now;
+  return {past->position + fraction * (now.position - past->position),
+          data.bodies[body].angle == past->angle ? now.rotation
+                                                 : rotation_of(angle_between(data, body, fraction))};
+}
+
+template <class Real>
+double PastPoses<Real>::angle_between(const WorldData<Real>& data, int body, double fraction) const {
+  const double now = data.bodies[body].angle;
+  const Past* past = find(data, body);
+  return past == nullptr ? now : past->angle + fraction * (now - past->angle);
 }
 
 template class PastPoses<float>;

@@ -8,40 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "bindings/c/include/plumb/plumb.h"
-#include "engine/scene/json.h"
-#include "engine/simulation/simulation.h"
 #include "engine/world/mover.h"
 #include "engine/world/queries.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/state_hash.h"
 #include "engine/world/world.h"
+#include "tests/bindings/c/fixture.h"
 
 namespace {
 
+using plumb::tests::C;
+using plumb::tests::kDt;
 using ::testing::HasSubstr;
-
-constexpr double kDt = 1.0 / 60;
-
-class C : public ::testing::Test {
- protected:
-  C() { plumb_clear_error(); }
-  ~C() override { plumb_world_destroy(world); }
-  C(const C&) = delete;
-  C& operator=(const C&) = delete;
-
-  plumb_body box(plumb_body_type type, plumb_vec2 position, double width, double height) {
-    plumb_body_definition body = plumb_default_body();
-    body.type = type;
-    body.position = position;
-    plumb_shape_definition shape = plumb_default_shape();
-    shape.geometry = plumb_box(width, height);
-    shape.hit_events = true;
-    return plumb_body_create(world, &body, &shape, 1);
-  }
-
-  plumb_world* world = plumb_world_create(nullptr);
-};
 
 TEST_F(C, StepsLikeCppInBothPrecisions) {
   for (const plumb_precision precision : {PLUMB_FLOAT, PLUMB_DOUBLE}) {

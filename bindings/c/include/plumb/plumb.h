@@ -79,6 +79,14 @@ typedef struct plumb_velocity {
   double angular;
 } plumb_velocity;
 
+/* State of a body at its centre of mass. */
+typedef struct plumb_body_state {
+  plumb_vec2 position;     /* m */
+  double angle;            /* rad */
+  plumb_vec2 velocity;     /* m/s */
+  double angular_velocity; /* rad/s */
+} plumb_body_state;
+
 /* A box along the axes, m. */
 typedef struct plumb_box_bounds {
   plumb_vec2 lower, upper;
@@ -141,6 +149,7 @@ typedef struct plumb_world_definition {
   bool direct_islands; /* soft steps solve small islands directly */
   bool quarantine;     /* takes non-finite bodies out; false: PLUMB_RUN ends the step */
   plumb_thresholds thresholds;
+  int threads; /* that share a step, 1..64: the same bits for every number; not in snapshots */
 } plumb_world_definition;
 
 /* Mass of a body that does not follow from its shapes. */
@@ -298,6 +307,8 @@ PLUMB_API void plumb_world_destroy(plumb_world* world);
 PLUMB_API plumb_status plumb_world_step(plumb_world* world, double dt, int substeps);
 PLUMB_API double plumb_world_time(const plumb_world* world); /* s */
 PLUMB_API int64_t plumb_world_step_count(const plumb_world* world);
+/* The settings as they are now; it could be created again. */
+PLUMB_API plumb_world_definition plumb_world_get_definition(const plumb_world* world);
 /* Hash of all bodies' states: equal on every platform and in every language for the same calls. */
 PLUMB_API uint64_t plumb_world_hash(const plumb_world* world);
 /* Hash of all that the future depends on. */
@@ -318,6 +329,21 @@ typedef double (*plumb_combine_function)(double a, double b);
 PLUMB_API plumb_status plumb_world_combine_with(plumb_world* world, plumb_combine_function friction,
                                                 plumb_combine_function restitution);
 
+/* Threads that share a step: PLUMB_VALUE for a number out of 1..64, PLUMB_RUN if the system has no more. */
+PLUMB_API plumb_status plumb_world_set_threads(plumb_world* world, int threads);
+/* A program's own job system, through which a world runs the loops of a step. Both functions must be given;
+ * the same bits come out however they run the tasks. */
+typedef void (*plumb_task)(void* data, int item);
+typedef struct plumb_task_system {
+  /* Starts `count` tasks: `task(data, i)` once for each i from 0 to count - 1, on any threads, or in
+   * `finish`. Returns a handle for `finish`, which may be NULL. */
+  void* (*start)(void* user, plumb_task task, void* data, int count);
+  void (*finish)(void* user, void* started); /* returns after all tasks of a start have returned */
+  void* user;                                /* passed on to both; outlives the world */
+} plumb_task_system;
+/* Shares steps with `threads - 1` tasks at a time; NULL: the world's own threads again. */
+PLUMB_API plumb_status plumb_world_set_task_system(plumb_world* world, const plumb_task_system* tasks);
+
 typedef struct plumb_counts {
   int bodies, awake, shapes, contacts, touching, joints;
 } plumb_counts;
@@ -336,6 +362,7 @@ PLUMB_API plumb_profile plumb_world_profile(const plumb_world* world);
 PLUMB_API size_t plumb_world_bodies(const plumb_world* world, plumb_body* out, size_t capacity);
 PLUMB_API size_t plumb_world_poses(const plumb_world* world, plumb_pose* out, size_t capacity);
 PLUMB_API size_t plumb_world_velocities(const plumb_world* world, plumb_velocity* out, size_t capacity);
+PLUMB_API size_t plumb_world_states(const plumb_world* world, plumb_body_state* out, size_t capacity);
 
 /* Bodies whose pose the last step may have changed; not sorted. */
 PLUMB_API size_t plumb_world_moved(const plumb_world* world, plumb_body* out, size_t capacity);
@@ -347,6 +374,7 @@ PLUMB_API plumb_body plumb_body_create(plumb_world* world, const plumb_body_defi
 PLUMB_API plumb_status plumb_body_destroy(plumb_world* world, plumb_body body); /* with shapes and joints */
 PLUMB_API bool plumb_body_valid(const plumb_world* world, plumb_body body);
 
+PLUMB_API plumb_body_state plumb_body_get_state(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_pose plumb_body_pose(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_vec2 plumb_body_position(const plumb_world* world, plumb_body body); /* m, of the origin */
 PLUMB_API plumb_vec2 plumb_body_centre(const plumb_world* world, plumb_body body);   /* m, centre of mass */
@@ -388,11 +416,16 @@ PLUMB_API double plumb_body_linear_damping(const plumb_world* world, plumb_body 
 PLUMB_API double plumb_body_angular_damping(const plumb_world* world, plumb_body body); /* 1/s */
 PLUMB_API plumb_status plumb_body_set_locks(plumb_world* world, plumb_body body, bool x, bool y,
                                             bool rotation);
+typedef struct plumb_locks {
+  bool x, y, rotation;
+} plumb_locks;
+PLUMB_API plumb_locks plumb_body_locks(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_status plumb_body_set_continuous(plumb_world* world, plumb_body body, bool on);
 PLUMB_API bool plumb_body_continuous(const plumb_world* world, plumb_body body);
 PLUMB_API bool plumb_body_awake(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_status plumb_body_set_awake(plumb_world* world, plumb_body body, bool awake);
 PLUMB_API plumb_status plumb_body_set_may_sleep(plumb_world* world, plumb_body body, bool may_sleep);
+PLUMB_API bool plumb_body_may_sleep(const plumb_world* world, plumb_body body);
 PLUMB_API uint64_t plumb_body_user_data(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_status plumb_body_set_user_data(plumb_world* world, plumb_body body, uint64_t data);
 PLUMB_API plumb_status plumb_body_set_name(plumb_world* world, plumb_body body, const char* name);
@@ -454,6 +487,8 @@ PLUMB_API bool plumb_shape_ray_cast(const plumb_world* world, plumb_shape shape,
 PLUMB_API bool plumb_shape_contains(const plumb_world* world, plumb_shape shape, plumb_vec2 point);
 PLUMB_API double plumb_shape_density(const plumb_world* world, plumb_shape shape); /* kg/m^2 */
 PLUMB_API bool plumb_shape_sensor(const plumb_world* world, plumb_shape shape);
+PLUMB_API bool plumb_shape_hit_events(const plumb_world* world, plumb_shape shape);
+PLUMB_API bool plumb_shape_pre_solve(const plumb_world* world, plumb_shape shape);
 /* Returns the present definition, in the body's frame; a box is a polygon then. The points of a polygon are
  * valid until the next call of this function for the world. */
 PLUMB_API plumb_shape_definition plumb_shape_get_definition(const plumb_world* world, plumb_shape shape);
@@ -468,6 +503,9 @@ PLUMB_API bool plumb_chain_valid(const plumb_world* world, plumb_chain chain);
 PLUMB_API plumb_body plumb_chain_body(const plumb_world* world, plumb_chain chain);
 PLUMB_API size_t plumb_chain_segments(const plumb_world* world, plumb_chain chain, plumb_shape* out,
                                       size_t capacity);
+/* Returns the present definition; its points are valid until the next call of this function or of
+ * `plumb_shape_get_definition` for the world. */
+PLUMB_API plumb_chain_definition plumb_chain_get_definition(const plumb_world* world, plumb_chain chain);
 
 /* ---- Joints ------------------------------------------------------------------------------------------ */
 
@@ -540,6 +578,9 @@ typedef struct plumb_events {
   size_t loaded_count;
 } plumb_events;
 PLUMB_API plumb_events plumb_world_events(plumb_world* world);
+/* The bodies in quarantine and their faults, oldest first. */
+PLUMB_API size_t plumb_world_quarantined(const plumb_world* world, plumb_quarantine_event* out,
+                                         size_t capacity);
 
 /* Called for contacts of shapes with `pre_solve` before they are solved; false disables one in this step. It
  * may read the world and not change it. NULL: no hook. */
@@ -625,6 +666,99 @@ PLUMB_API bool plumb_nearest(const plumb_world* world, plumb_vec2 point, double 
 PLUMB_API plumb_distance_result plumb_distance_between(const plumb_world* world, plumb_shape a,
                                                        plumb_shape b);
 
+/* ---- Force laws -------------------------------------------------------------------------------------- */
+
+/* Each call before a step adds the forces of that one step; `dt` is its length, s. Laws act on awake dynamic
+ * bodies; with `wakes` on sleeping ones as well, and wake those that they push. A recorded world records the
+ * state that they leave. */
+
+typedef struct plumb_law_body {
+  plumb_body body;
+  plumb_vec2 centre;       /* m, of mass */
+  double angle;            /* rad */
+  plumb_vec2 velocity;     /* m/s, of the centre of mass */
+  double angular_velocity; /* rad/s */
+  double mass, inertia;    /* kg, kg m^2 about the centre of mass */
+  uint64_t user_data;
+} plumb_law_body;
+typedef struct plumb_wrench {
+  plumb_vec2 force; /* N */
+  double torque;    /* N m, about the centre of mass */
+} plumb_wrench;
+/* Returns the force on a body. It may read the world and not change it; it must return, and not jump out. */
+typedef plumb_wrench (*plumb_law_function)(const plumb_law_body* body, void* context);
+/* Applies a law of your own. A body for which it returns a number that is not finite, or beyond 1e12, is
+ * quarantined. */
+PLUMB_API plumb_status plumb_world_apply_law(plumb_world* world, plumb_law_function law, void* context,
+                                             bool wakes);
+
+/* Applies F = -linear v and torque -angular w, in N s/m and N m s, >= 0. */
+PLUMB_API plumb_status plumb_world_apply_linear_drag(plumb_world* world, double linear, double angular,
+                                                     double dt, bool wakes);
+/* Applies F = -coefficient |v| v, in N s^2/m^2, >= 0. */
+PLUMB_API plumb_status plumb_world_apply_quadratic_drag(plumb_world* world, double coefficient, double dt,
+                                                        bool wakes);
+
+typedef enum plumb_falloff {
+  PLUMB_INVERSE_SQUARE, /* acceleration strength / r^2 */
+  PLUMB_LINEAR          /* acceleration strength r */
+} plumb_falloff;
+typedef struct plumb_attraction {
+  double strength; /* m^3/s^2 or 1/s^2; negative repels */
+  plumb_falloff falloff;
+  double softening; /* m, > 0: below it the inverse square grows linearly from 0 */
+} plumb_attraction;
+PLUMB_API plumb_attraction plumb_default_attraction(void);
+PLUMB_API plumb_status plumb_world_apply_attraction(plumb_world* world, plumb_vec2 centre,
+                                                    const plumb_attraction* law, double dt, bool wakes);
+/* Attracts to a body's centre of mass; the reaction acts on a dynamic one. */
+PLUMB_API plumb_status plumb_world_apply_attraction_to(plumb_world* world, plumb_body centre,
+                                                       const plumb_attraction* law, double dt, bool wakes);
+
+typedef struct plumb_wind {
+  plumb_vec2 velocity; /* m/s; zero: air at rest, which resists motion */
+  double density;      /* kg/m^2, >= 0, of the air, for a depth of 1 m */
+} plumb_wind;
+PLUMB_API plumb_wind plumb_default_wind(void);
+/* Presses on the outlines of all shapes but sensors and chains. */
+PLUMB_API plumb_status plumb_world_apply_wind(plumb_world* world, const plumb_wind* wind, double dt,
+                                              bool wakes);
+
+/* Water below a plane across gravity. */
+typedef struct plumb_water {
+  double level;        /* m, of the surface, along "up": y if gravity points down */
+  double density;      /* kg/m^2, >= 0 */
+  plumb_vec2 velocity; /* m/s, of the current */
+  double linear_drag;  /* N s/m for each m^2 under water, >= 0 */
+  double angular_drag; /* N m s for each m^2 under water, >= 0 */
+} plumb_water;
+PLUMB_API plumb_water plumb_default_water(void);
+PLUMB_API plumb_status plumb_world_apply_water(plumb_world* world, const plumb_water* water, double dt,
+                                               bool wakes);
+
+typedef struct plumb_elastic_spring {
+  double stiffness;   /* N/m, >= 0 */
+  double damping;     /* N s/m, >= 0 */
+  double rest_length; /* m, >= 0 */
+  bool pulls_only;    /* a rubber band: slack below its rest length */
+} plumb_elastic_spring;
+PLUMB_API plumb_elastic_spring plumb_default_elastic_spring(void);
+/* Pulls between points of two bodies, in the bodies' frames, without a joint. */
+PLUMB_API plumb_status plumb_world_apply_spring(plumb_world* world, plumb_body a, plumb_vec2 point_a,
+                                                plumb_body b, plumb_vec2 point_b,
+                                                const plumb_elastic_spring* spring, double dt, bool wakes);
+
+typedef struct plumb_blast {
+  plumb_vec2 centre;        /* m */
+  double radius;            /* m, > 0: its range */
+  double impulse;           /* N s for each m of surface square to it, at the centre; 0 at `radius` */
+  bool occlusion;           /* spares points that another body covers from the centre */
+  plumb_query_filter cover; /* shapes that count as cover */
+} plumb_blast;
+PLUMB_API plumb_blast plumb_default_blast(void);
+/* Applies impulses at once to all dynamic bodies within its radius, sleeping ones too. */
+PLUMB_API plumb_status plumb_world_explode(plumb_world* world, const plumb_blast* blast);
+
 /* ---- Character mover --------------------------------------------------------------------------------- */
 
 typedef struct plumb_mover_options {
@@ -670,6 +804,23 @@ PLUMB_API size_t plumb_world_save(const plumb_world* world, void* out, size_t ca
 /* Restores a snapshot of this precision and version; the world is unchanged if it is refused. */
 PLUMB_API plumb_status plumb_world_restore(plumb_world* world, const void* bytes, size_t count);
 
+/* The last states of a world, in memory, for network play: inputs arrive late, and the steps since then are
+ * repeated. Nothing allocates once each slot has been used. Handles created after a state are invalid when
+ * the world is back there. Create it after `plumb_world_record`, if at all, which moves the world. */
+typedef struct plumb_rollback plumb_rollback;
+/* Keeps up to `frames` states, 1..10000. The world must outlive it. */
+PLUMB_API plumb_rollback* plumb_rollback_create(plumb_world* world, int frames);
+PLUMB_API void plumb_rollback_destroy(plumb_rollback* rollback);
+/* Saves the present state under its step count, instead of the oldest one if it is full. Drops states of this
+ * step and later ones. */
+PLUMB_API plumb_status plumb_rollback_save(plumb_rollback* rollback);
+/* Restores the state after `step` steps and drops later ones; PLUMB_VALUE if there is none. */
+PLUMB_API plumb_status plumb_rollback_back_to(plumb_rollback* rollback, int64_t step);
+PLUMB_API bool plumb_rollback_holds(const plumb_rollback* rollback, int64_t step);
+PLUMB_API int plumb_rollback_size(const plumb_rollback* rollback);
+PLUMB_API int64_t plumb_rollback_oldest(const plumb_rollback* rollback); /* step; -1: it is empty */
+PLUMB_API int64_t plumb_rollback_latest(const plumb_rollback* rollback);
+
 /* Writes all further calls to a file, from the present state on. `bodies`: with the hash of each awake body
  * after each step, so that a replay names those that differ. */
 PLUMB_API plumb_status plumb_world_record(plumb_world* world, const char* file, bool bodies);
@@ -679,9 +830,106 @@ typedef struct plumb_replay_report {
   int64_t steps;
   int64_t first_difference; /* step after which the state differed; -1: none did */
   uint64_t recorded_hash, hash;
+  size_t difference_count; /* bodies that differ then, if they were recorded */
+  const char* message;     /* a truncated end, a rejected call, a missing hook; else ""; until the next replay
+                              of the thread */
 } plumb_replay_report;
 /* Replays a recording until a step differs, or to its end. */
 PLUMB_API plumb_status plumb_replay(const char* file, plumb_precision precision, plumb_replay_report* report);
+/* Does the same with the pre-solve hook that the world had; fills in the bodies that differ. */
+PLUMB_API plumb_status plumb_replay_with(const char* file, plumb_precision precision,
+                                         plumb_pre_solve_function hook, void* context,
+                                         plumb_replay_report* report, plumb_body* differing, size_t capacity);
+
+/* ---- Monitor of invariants --------------------------------------------------------------------------- */
+
+/* Checks around each step that joints are closed, that shapes do not overlap and that no energy is gained
+ * without a drive. A step with it costs about a tenth more. */
+typedef struct plumb_monitor plumb_monitor;
+/* Bounds, as fractions of the world's own sizes and energies. */
+typedef struct plumb_monitor_bounds {
+  double joint_gap; /* of the distance from the anchor to the farther body's centre */
+  double overlap;   /* of the smaller shape's extent */
+  double energy;    /* gained, of the largest kinetic energy so far */
+  int lasting;      /* successive steps for which a bound must be missed */
+} plumb_monitor_bounds;
+PLUMB_API plumb_monitor_bounds plumb_default_monitor(void);
+/* `bounds` may be NULL. The world must outlive it. Create it after `plumb_world_record`, if at all. */
+PLUMB_API plumb_monitor* plumb_monitor_create(const plumb_world* world, const plumb_monitor_bounds* bounds);
+PLUMB_API void plumb_monitor_destroy(plumb_monitor* monitor);
+/* Before a step, after the forces of it were applied. */
+PLUMB_API plumb_status plumb_monitor_begin_step(plumb_monitor* monitor);
+/* After the step: PLUMB_RUN if a bound was missed for `lasting` steps on end, and the error names it. */
+PLUMB_API plumb_status plumb_monitor_end_step(plumb_monitor* monitor);
+/* Accepts the present state: after bodies were moved, or a snapshot was restored. */
+PLUMB_API plumb_status plumb_monitor_reset(plumb_monitor* monitor);
+
+/* ---- Drawing ----------------------------------------------------------------------------------------- */
+
+/* Poses before a step, for frames that come at other times than steps: keep them before each step, and draw
+ * between them and the present ones. */
+typedef struct plumb_past_poses plumb_past_poses;
+PLUMB_API plumb_past_poses* plumb_past_poses_create(void);
+PLUMB_API void plumb_past_poses_destroy(plumb_past_poses* past);
+PLUMB_API plumb_status plumb_past_poses_keep(plumb_past_poses* past, const plumb_world* world);
+/* The poses at `fraction` between the kept ones (0) and the present ones (1), like `plumb_world_poses`.
+ * Bodies created since have their present pose. */
+PLUMB_API size_t plumb_past_poses_between(const plumb_past_poses* past, const plumb_world* world,
+                                          double fraction, plumb_pose* out, size_t capacity);
+
+/* What an item is; the functions that draw choose its colour. */
+typedef enum plumb_draw_role {
+  PLUMB_DRAW_STATIC,    /* shapes of static bodies */
+  PLUMB_DRAW_KINEMATIC, /* shapes of kinematic bodies */
+  PLUMB_DRAW_AWAKE,     /* shapes of awake dynamic bodies */
+  PLUMB_DRAW_ASLEEP,    /* shapes of sleeping bodies */
+  PLUMB_DRAW_SENSOR,    /* shapes of sensors */
+  PLUMB_DRAW_CONTACT,   /* points where shapes touch */
+  PLUMB_DRAW_NORMAL,    /* contact normals, from a to b */
+  PLUMB_DRAW_IMPULSE,   /* normal impulses of contacts */
+  PLUMB_DRAW_BOX,       /* boxes around shapes */
+  PLUMB_DRAW_CENTRE,    /* centres of mass, with the body's axes */
+  PLUMB_DRAW_JOINT,     /* anchors, and the lines between them */
+  PLUMB_DRAW_NAME       /* names of bodies */
+} plumb_draw_role;
+
+/* Functions that draw: m, in the world's frame, y up. Those that are NULL are left out. They may read the
+ * world and not change it; they must return, and not jump out. */
+typedef struct plumb_debug_draw {
+  /* A convex polygon, counter-clockwise, rounded by `radius`. */
+  void (*polygon)(const plumb_vec2* corners, size_t count, double radius, plumb_draw_role role,
+                  void* context);
+  /* `axis`: direction of the body's x axis. */
+  void (*circle)(plumb_vec2 centre, double radius, plumb_vec2 axis, plumb_draw_role role, void* context);
+  void (*capsule)(plumb_vec2 start, plumb_vec2 end, double radius, plumb_draw_role role, void* context);
+  void (*segment)(plumb_vec2 start, plumb_vec2 end, plumb_draw_role role, void* context);
+  void (*point)(plumb_vec2 point, plumb_draw_role role, void* context);
+  void (*text)(plumb_vec2 point, const char* text, plumb_draw_role role, void* context);
+  void* context;
+} plumb_debug_draw;
+
+/* Items to draw. */
+typedef struct plumb_draw_options {
+  bool shapes, joints;
+  bool contacts, normals, impulses, boxes, centres, names;
+  double normal_length;    /* m */
+  double impulse_length;   /* m per N s */
+  bool bounded;            /* leaves out what certainly lies outside `bounds` */
+  plumb_box_bounds bounds; /* m */
+} plumb_draw_options;
+PLUMB_API plumb_draw_options plumb_default_draw(void); /* shapes and joints */
+/* Draws the world after its last step: shapes in the order of their bodies' indices, then the rest. `options`
+ * may be NULL. */
+PLUMB_API plumb_status plumb_world_draw(const plumb_world* world, const plumb_debug_draw* draw,
+                                        const plumb_draw_options* options);
+/* Draws it at `fraction` between the kept poses (0) and the present ones (1). */
+PLUMB_API plumb_status plumb_world_draw_between(const plumb_world* world, const plumb_past_poses* past,
+                                                double fraction, const plumb_debug_draw* draw,
+                                                const plumb_draw_options* options);
+/* Fills in a picture as SVG, `width` pixels wide, of `options->bounds` or of everything, if `capacity` has
+ * room for it. Returns how many bytes it has, with the 0 at its end. */
+PLUMB_API size_t plumb_world_svg(const plumb_world* world, const plumb_draw_options* options, int width,
+                                 char* out, size_t capacity);
 
 /* ---- Scenes as JSON ---------------------------------------------------------------------------------- */
 
@@ -689,6 +937,21 @@ PLUMB_API plumb_status plumb_replay(const char* file, plumb_precision precision,
  * handles in the scene's order up to `capacity`. */
 PLUMB_API size_t plumb_world_add_scene(plumb_world* world, const char* json, plumb_body* out,
                                        size_t capacity);
+
+/* A scene that was added to a world: handles of its parts, and its force laws. */
+typedef struct plumb_added_scene plumb_added_scene;
+/* The definition of a world with the gravity and the combine rules of a scene. */
+PLUMB_API plumb_status plumb_scene_world(const char* json, plumb_world_definition* definition);
+/* Adds a scene as `plumb_world_add_scene` does; NULL if it is refused. The world must outlive it. */
+PLUMB_API plumb_added_scene* plumb_scene_add(plumb_world* world, const char* json);
+PLUMB_API void plumb_scene_destroy(plumb_added_scene* scene); /* bodies and joints stay in the world */
+/* Handles in the scene's order. */
+PLUMB_API size_t plumb_scene_bodies(const plumb_added_scene* scene, plumb_body* out, size_t capacity);
+PLUMB_API size_t plumb_scene_joints(const plumb_added_scene* scene, plumb_joint* out, size_t capacity);
+/* The static body for joints to the world; invalid if there are none. */
+PLUMB_API plumb_body plumb_scene_frame(const plumb_added_scene* scene);
+/* Adds the forces of the scene's laws for the next step, of `dt` s. */
+PLUMB_API plumb_status plumb_scene_apply_forces(plumb_added_scene* scene, double dt);
 
 typedef enum plumb_method {
   PLUMB_REALTIME, /* a world in fixed steps */
@@ -720,14 +983,6 @@ typedef struct plumb_accuracy {
 } plumb_accuracy;
 PLUMB_API plumb_accuracy plumb_default_realtime(void);
 PLUMB_API plumb_accuracy plumb_default_precise(void);
-
-/* State of a body of a simulation: its centre of mass. */
-typedef struct plumb_body_state {
-  plumb_vec2 position;     /* m */
-  double angle;            /* rad */
-  plumb_vec2 velocity;     /* m/s */
-  double angular_velocity; /* rad/s */
-} plumb_body_state;
 
 typedef struct plumb_statistics {
   int64_t steps, rejected, impacts, evaluations;
