@@ -157,8 +157,11 @@ class RowMaker {
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, row);
       row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
-      // A contact that bounces is disabled until its time of impact.
-      const bool passes = !(c.mass[i] > 0);
+      // A contact that bounces is disabled until its time of impact, and a gap that nothing pressed on brakes
+      // nothing at the substep's end.
+      const std::size_t place = island_.ties.size();
+      const bool open = !hold_ && !close_ && gap > 0 && !(island_.impulses[place] > 0);
+      const bool passes = open || !(c.mass[i] > 0);
       add(row, {.impulse = &c.normal_impulse[i]}, 0, passes ? 0 : std::numeric_limits<double>::infinity());
       if (passes) island_.impulses[island_.ties.size() - 1] = 0;
       pressure += island_.impulses[island_.ties.size() - 1];
