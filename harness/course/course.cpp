@@ -63,7 +63,7 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
 void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   for (const Recorded& run : runs) {
     const std::optional<Seen> seen = seen_in_flight(run);
-    if (!seen) continue;
+    if (!seen || (seen->general && !finding.mistake.empty())) continue;
     finding.mistake = seen->mistake;
     finding.says = seen->says;
     return;
@@ -116,7 +116,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                             : run(check, lab, timeouts);
       outcomes.push_back(std::move(outcome));
     }
-    name_by_motion(Lab(engine, settings), outcomes);
+    name_by_motion(Lab(engine, settings), outcomes, named);
     for (Outcome& outcome : outcomes) {
       Finding& finding = outcome.finding;
       if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
