@@ -131,7 +131,7 @@ std::optional<Seen> wrong_factor(const Recorded& run, std::size_t b, std::size_t
     if (!gain || !move || (right(*gain) && right(*move)) || *gain <= 0 || *move <= 0) continue;
     if (std::abs(*gain - *move) < 1e-6)
       return Seen{
-          "step_length",
+          "wrong_dt",
           fmt::format("Each step is {:.6g} s long, and \"dt\" of the settings is {:.6g} s: take it as it "
                       "is, not rounded, cut or fixed.",
                       *gain * run.dt, run.dt),

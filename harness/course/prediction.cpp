@@ -309,7 +309,9 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
       finding.mistake.clear();
       finding.says = fmt::format("{}, which is named above, spoils this as well.", known);
     }
-    if (known.empty()) known = finding.mistake;
+    finding.computed = std::any_of(found[i].begin(), found[i].end(),
+                                   [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
+    if (known.empty() && finding.computed) known = finding.mistake;
   }
 }
 
