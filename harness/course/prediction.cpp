@@ -313,6 +313,17 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
                                    [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
     if (known.empty() && finding.computed) known = finding.mistake;
   }
+  // Gives the only mistake that the motions show to the checks that it fails and that have no name.
+  if (alone.size() != 1 || !alone.contains(known)) return;
+  for (std::size_t i = 0; i < chapter.size() && chapter[i].finding.mistake != known; ++i) {
+    Finding& finding = chapter[i].finding;
+    if (finding.verdict != Verdict::Fail || !finding.mistake.empty() || !found[i].empty()) continue;
+    if (!fails_as_well(mistakes, predictions, known, i)) continue;
+    finding.mistake = known;
+    finding.says = std::find_if(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
+                     return known == mistake.name;
+                   })->says;
+  }
 }
 
 }  // namespace plumb::course
