@@ -223,7 +223,8 @@ void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
     if (options.forces && each.mass > 0) along += arrow(each.centre, for_force * each.force, DrawRole::Force);
     const double length = std::sqrt(length_squared(along));
     const Vec2d aside = length > 0 ? (-kAside * size / length) * along : Vec2d{};
-    if (options.masses && each.mass > 0) out.text(each.centre + aside, mass_text(each.mass), DrawRole::Name);
+    if (options.masses && each.mass > 0 && !each.labelled)
+      out.text(each.centre + aside, mass_text(each.mass), DrawRole::Name);
   }
 }
 
