@@ -64,6 +64,12 @@ class Lab {
   /// Returns 1 for other orders.
   double turn_kept(double w, double time) const;
 
+  /// Returns the fraction of a spin of `w` rad/s that a first-order method keeps over `time` s if a step
+  /// moves joined points back together and takes displacement/h for their velocities: the next displacement
+  /// starts along the last chord instead of the tangent, which takes (w h)^2 of w a step, so dw/dt = -w^3 h.
+  /// Returns 1 for other orders.
+  double spin_kept_by_positions(double w, double time) const;
+
   /// Returns the factor on joint gaps, relative to dt = 1/60 s and at least 1: a step along the tangent
   /// leaves a circle by (w dt)^2/2 of its radius.
   double coarseness() const;
