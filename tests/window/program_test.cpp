@@ -40,8 +40,8 @@ TEST(Program, DrawsTheBallWhereItIs) {
   const Canvas picture = read_png(file);
   ASSERT_EQ(picture.width(), 800);
   ASSERT_EQ(picture.height(), 640);
-  // The room of 8 m by 6 m and 0.3 m around it, with a margin of 16 px, below 36 px: the width decides, and the middle
-  // is at half of 16 px and 640 - 36 px.
+  // The room of 8 m by 6 m and 0.3 m around it, with a margin of 16 px, below 36 px: the width decides, and
+  // the middle is at half of 16 px and 640 - 36 px.
   const double scale = (800 - 32) / 8.6, t = 29.0 / 60;
   const double x = 1.5 + 2.5 * t, y = 5.2 - 9.81 * t * t / 2;
   const Blob ball = blob_of(picture, awake);
