@@ -98,6 +98,8 @@ const std::vector<Relation>& promises() {
                                          {"refused", is_world, refused},
                                          {"labels", is_world, labelled},
                                          {"overrun", is_world, overrun},
+                                         {"life", is_world, life},
+                                         {"twins", is_world, twins},
                                          {"simulation_restore", simulates, simulation_restored},
                                          {"simulation_stages", simulates, simulation_stages},
                                          {"simulation_stop", simulates_world, simulation_stops},

@@ -1,0 +1,233 @@
+// The promises of a world whose owner calls it between steps: random calls in every scene.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "engine/core/crew.h"
+#include "engine/math/vector_width.h"
+#include "engine/scene/error.h"
+#include "engine/world/add_scene.h"
+#include "engine/world/recorder.h"
+#include "engine/world/replay.h"
+#include "engine/world/snapshot.h"
+#include "engine/world/state_hash.h"
+#include "engine/world/world_data.h"
+#include "harness/hunt/calls.h"
+#include "harness/hunt/promises.h"
+#include "harness/hunt/state_watch.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+// Steps of a life, and calls before each at most.
+constexpr int kSteps = 90, kMostCalls = 2;
+// Steps between restores and between faults of hooks, of the twin.
+constexpr int kBetweenRestores = 11, kBetweenFaults = 17;
+
+WorldDefinition definition_of(const Case& one) {
+  WorldDefinition out = world_definition(one.scene);
+  out.sleeping = one.sleeping || one.index % 2 == 0;
+  return out;
+}
+
+/// A name of a file that nothing else has; removes it in the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "plumb-hunt-XXXXXX").string();
+    const int file = mkstemp(name.data());
+    if (file >= 0) close(file);
+    path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+double dt_of(const Case& one, int step) { return step % 5 == 4 ? 0.25 * one.dt : one.dt; }
+int steps_of(const Case& one) { return std::min(one.steps, kSteps); }
+
+// Calls begin late in some scenes, so that bodies sleep by then, and are rarer in others.
+int calls_of(const Case& one, Random& random, int step) {
+  const int first = one.index % 3 == 0 ? 30 : 0;
+  if (step < first || random.chance(one.index % 2 == 0 ? 0.5 : 0.85)) return 0;
+  return random.whole(1, kMostCalls);
+}
+
+template <class Real>
+BasicWorld<Real> world_of(const Case& one) {
+  BasicWorld<Real> out(definition_of(one));
+  add_scene(out, one.scene);
+  return out;
+}
+
+template <class Real>
+std::string live_recorded(const Case& one) {
+  const Scratch scratch;
+  std::uint64_t last = 0;
+  std::int64_t steps = 0;
+  {
+    RecordedWorld<Real> recorded(scratch.path(), world_of<Real>(one));
+    recorded.on_pre_solve([](const ContactReading&) { return true; });
+    StateWatch<Real> watch(*recorded);
+    Random random(one.seed, one.index);
+    for (int step = 0; step < steps_of(one); ++step) {
+      for (int i = calls_of(one, random, step); i > 0; --i)
+        if (std::string wrong = make_call(random, *recorded, recorded); !wrong.empty())
+          return fmt::format("{}, before step {}", wrong, step + 1);
+      watch.before_step();
+      recorded.step(dt_of(one, step), one.substeps);
+      if (std::string wrong = watch.after_step(dt_of(one, step)); !wrong.empty())
+        return fmt::format("{}, after step {}", wrong, step + 1);
+    }
+    last = full_hash(*recorded), steps = recorded->step_count();
+  }
+  Replay<Real> again(scratch.path(), [](const ContactReading&) { return true; });
+  while (again.step())
+    if (again.report().first_difference)
+      return fmt::format("its recording goes another way in step {}", *again.report().first_difference);
+  if (again.world().step_count() != steps) return "its recording ends early: " + again.report().message;
+  if (full_hash(again.world()) != last) return "its recording ends in another state";
+  return {};
+}
+
+/// Sets how numbers are rounded, and the width of vector registers, for as long as it lives.
+class OtherMachine {
+ public:
+  OtherMachine(int rounding, VectorWidth width) : rounding_(std::fegetround()), width_(vector_width()) {
+    std::fesetround(rounding);
+    set_vector_width(width);
+  }
+  ~OtherMachine() {
+    std::fesetround(rounding_);
+    set_vector_width(width_);
+  }
+  OtherMachine(const OtherMachine&) = delete;
+  OtherMachine& operator=(const OtherMachine&) = delete;
+
+ private:
+  int rounding_;
+  VectorWidth width_;
+};
+
+/// What a hook throws, which no engine does.
+struct Fault {};
+
+/// Returns what is wrong with a world whose hook throws in a step, and tries to change it.
+template <class Real>
+std::string hooked(const BasicWorld<Real>& world, const Case& one) {
+  BasicWorld<Real> other(definition_of(one));
+  restore(other, save(world));
+  other.set_threads(2), other.data().crew.set_eager(true);
+  bool asked = false, changed = false;
+  const std::uint64_t before = other.hash();
+  other.on_pre_solve([&](const ContactReading& contact) -> bool {
+    asked = true;
+    try {
+      other.set_gravity({1, 2}), changed = true;
+    } catch (const Error& error) {
+      changed = error.kind() != Error::Kind::Unsupported;
+    }
+    static_cast<void>(contact);
+    throw Fault{};
+  });
+  bool thrown = false;
+  try {
+    other.step(one.dt, one.substeps);
+  } catch (const Fault&) {
+    thrown = true;
+  }
+  if (changed) return "a hook may change the world";
+  if (asked && !thrown) return "what a hook throws is lost";
+  if (thrown && other.hash() != before) return "a step that a hook ends moves bodies";
+  other.on_pre_solve({});
+  try {
+    other.step(one.dt, one.substeps);
+  } catch (const Error& error) {
+    return fmt::format("a world is of no use after a hook has thrown: {}", error.what());
+  }
+  return {};
+}
+
+template <class Real>
+std::string live_as_twins(const Case& one) {
+  const int rounding = one.index % 4 == 1 ? FE_DOWNWARD : one.index % 4 == 3 ? FE_UPWARD : FE_TONEAREST;
+  const VectorWidth usual = vector_width();
+  const OtherMachine both(rounding, usual);
+  BasicWorld<Real> plain = world_of<Real>(one), other = world_of<Real>(one);
+  const auto ready = [&](BasicWorld<Real>& world) {
+    world.set_threads(2);
+    world.data().crew.set_eager(true);
+  };
+  // Hooks that are set wake bodies, so both worlds get theirs at the same time.
+  const auto hook = [](BasicWorld<Real>& world) {
+    world.on_pre_solve([](const ContactReading&) { return true; });
+  };
+  ready(other), hook(plain), hook(other);
+  Random random(one.seed, one.index + 1), same = random;
+  for (int step = 0; step < steps_of(one); ++step) {
+    const int calls = calls_of(one, random, step);
+    calls_of(one, same, step);
+    for (int i = 0; i < calls; ++i) {
+      // What a call answers is judged in the recorded life.
+      make_call(random, plain, plain), make_call(same, other, other);
+    }
+    plain.step(dt_of(one, step), one.substeps);
+    {
+      const OtherMachine narrow(rounding, step % 2 == 0 ? VectorWidth::None : usual);
+      other.step(dt_of(one, step), one.substeps);
+    }
+    if (full_hash(plain) != full_hash(other))
+      return fmt::format("two threads, narrow registers and restores change bits in step {}", step + 1);
+    if (step % kBetweenRestores == kBetweenRestores - 1) {
+      BasicWorld<Real> restored(definition_of(one));
+      restore(restored, save(other));
+      other = std::move(restored);
+      ready(other), hook(plain), hook(other);
+    }
+    if (step % kBetweenFaults == kBetweenFaults - 1)
+      if (std::string wrong = hooked(plain, one); !wrong.empty()) return wrong;
+  }
+  return {};
+}
+
+Verdict judged(const Case& one, const Engine& engine, const char* name, const char* right,
+               std::string (*in_float)(const Case&), std::string (*in_double)(const Case&)) {
+  std::string what;
+  try {
+    what = engine.kind == Engine::Kind::World ? in_float(one) : in_double(one);
+  } catch (const Error&) {
+    return {};  // a scene that no world takes, or a step that is refused by name
+  }
+  if (what.empty()) return {};
+  return Objection{.law = name, .judge = name, .what = what, .right = right, .time = steps_of(one) * one.dt};
+}
+
+}  // namespace
+
+Verdict life(const Case& one, const Engine& engine, const Motion&) {
+  return judged(one, engine, "life",
+                "calls do what they say, what is read agrees, and a recording leads to the same state",
+                live_recorded<float>, live_recorded<double>);
+}
+
+Verdict twins(const Case& one, const Engine& engine, const Motion&) {
+  return judged(one, engine, "twins", "threads, registers, restores and hooks change no bits among calls",
+                live_as_twins<float>, live_as_twins<double>);
+}
+
+}  // namespace plumb::harness::hunt
