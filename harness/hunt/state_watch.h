@@ -38,7 +38,7 @@ class StateWatch {
   std::string counts() const;
   std::string moved() const;
   std::string sleep_events() const;
-  std::string touches(double dt);
+  std::string touches();
   std::string distances(double dt);
   bool is_held(BodyId one, BodyId other) const;
   std::string islands() const;
