@@ -10,7 +10,8 @@ namespace {
 
 // Judges that cost no more than the run itself, or that each scene of theirs is made for.
 bool is_always_due(const std::string& name) {
-  return name == "life" || name == "twins" || name == "collisions" || name == "integrated";
+  return name == "life" || name == "twins" || name == "collisions" || name == "integrated" ||
+         name == "formulas" || name == "wind" || name == "as_formulas";
 }
 
 // Checks two of the relations per scene, in turn, because each costs a run or more, and those that are always

@@ -37,6 +37,7 @@ struct Motion {
   };
   std::vector<EventFault> event_faults{};
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
+  std::vector<double> costs{};               ///< s of processor time, of each step of a World
   std::vector<Digest> digests{};             ///< of a World after each step, if asked for
   std::string broken_promise{};              ///< of a World in a guise, in one line; empty if there is none
 };

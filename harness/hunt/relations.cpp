@@ -240,6 +240,7 @@ const std::vector<Relation>& relations() {
                                          {"sampling", is_precise, sampling},
                                          {"tolerance", is_precise, tolerance},
                                          {"integrated", plain, integrated_relation},
+                                         {"as_formulas", has_laws_as_formulas, as_formulas_relation},
                                          {"collisions", smooth_discs, collisions_relation}};
   return all;
 }

@@ -25,6 +25,10 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
 /// but no joints or locks.
 bool integrable(const Case& one);
 
+Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion& motion);
+/// Returns true if all force laws of a case can be written as formulas, and there are some.
+bool has_laws_as_formulas(const Case& one, const Engine& engine);
+
 /// Returns true if the harness itself knows how bodies collide: discs without friction or gravity.
 bool are_smooth_discs(const Case& one);
 

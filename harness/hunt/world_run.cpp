@@ -167,7 +167,9 @@ class Run {
         const double dt = step_of(step) / options_.refine;
         forces.apply(world_, dt);
         if (monitor_) monitor_->begin_step();
+        const double from = processor_seconds();
         world_.step(dt, case_.substeps);
+        if (part == 0) out.costs.push_back(processor_seconds() - from);
         if (monitor_) monitor_->end_step();
         if (!world_.events().quarantined.empty()) {
           const QuarantineEvent& bad = world_.events().quarantined.front();
