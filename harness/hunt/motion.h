@@ -59,7 +59,7 @@ struct RunOptions {
   Guise guise = Guise::Plain;         ///< of a World
   bool digests = false;               ///< fills `Motion::digests`
   std::optional<double> tolerance{};  ///< of an engine that chooses its steps; none: its own
-  double seconds = 5;                 ///< limit of processor time
+  double seconds = 2;                 ///< limit of processor time
 };
 
 /// Returns why `engine` does not support `one`; empty if it does.

@@ -329,6 +329,7 @@ std::string StateWatch<Real>::joints() const {
 template <class Real>
 std::string StateWatch<Real>::boxes() const {
   for (const BodyId body : world_.bodies()) {
+    if (!world_.enabled(body)) continue;
     const Aabb<double> all = world_.box(body);
     for (const ShapeId shape : world_.shapes(body)) {
       const Outline outline = outline_in_world(world_, shape);

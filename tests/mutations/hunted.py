@@ -41,6 +41,7 @@ ENGINES = {
     "simulation": "plumb",
     "agreement": "plumb-float,plumb",
     "precise": "plumb-precise",
+    "scene": "plumb-float,plumb",
 }
 # Scenes that are drawn before findings are looked at again.
 BATCH = 25
