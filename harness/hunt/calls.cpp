@@ -440,7 +440,10 @@ class Caller {
           if constexpr (requires { kind.motor->speed; }) {
             if (kind.motor) kind.motor->speed = number(3);
           }
-          if (random_.chance(0.15)) kind = usual;
+          // What a joint was made with stays: its anchors, and the angle that it counts from.
+          if constexpr (!requires { kind.reference_angle; }) {
+            if (random_.chance(0.15)) kind = usual;
+          }
         },
         wanted);
     target_.change(joint_, wanted);

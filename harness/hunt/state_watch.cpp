@@ -334,11 +334,12 @@ std::string StateWatch<Real>::boxes() const {
     for (const ShapeId shape : world_.shapes(body)) {
       const Outline outline = outline_in_world(world_, shape);
       const double slack =
-          kRounding * (size_of(outline) + length(world_.centre(body)) * 0.1 + length(outline.low) * 0.01);
+          1e-2 * size_of(outline) + kRounding * (length(world_.centre(body)) + length(outline.low));
       for (const Aabb<double>& box : {all, world_.box(shape)})
         if (outline.low.x < box.lower.x - slack || outline.low.y < box.lower.y - slack ||
             outline.high.x > box.upper.x + slack || outline.high.y > box.upper.y + slack)
-          return fmt::format("a box of '{}' does not hold its shape", world_.name(body));
+          return fmt::format("a box of '{}' does not hold its shape, {:.3g}, {:.3g} to {:.3g}, {:.3g}",
+                             world_.name(body), outline.low.x, outline.low.y, outline.high.x, outline.high.y);
     }
   }
   return {};
