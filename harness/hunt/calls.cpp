@@ -97,13 +97,13 @@ class Caller {
     return right ? std::string() : fmt::format("{} is not what is then answered", call);
   }
 
-  /// Where material points of a body are and how they move, which a change of mass leaves as it is.
-  struct Material3 {
+  /// Places and velocities of three material points of a body: a change of mass leaves them as they are.
+  struct MaterialPoints {
     std::vector<Vec2d> local, place, velocity;
     double spin = 0, fastest = 0;
   };
-  Material3 motion() const {
-    Material3 out;
+  MaterialPoints motion() const {
+    MaterialPoints out;
     const double s = size();
     for (const Vec2d local : {Vec2d{0, 0}, Vec2d{s, 0}, Vec2d{0, s}}) {
       out.local.push_back(local);
@@ -115,9 +115,9 @@ class Caller {
     out.fastest = std::max(out.fastest, s * std::abs(out.spin));
     return out;
   }
-  std::string moves_otherwise(const char* call, const Material3& before) const {
+  std::string moves_otherwise(const char* call, const MaterialPoints& before) const {
     if (!dynamic()) return {};
-    const Material3 now = motion();
+    const MaterialPoints now = motion();
     // A centre of mass away from the body shows the rounding of its place.
     const double far = length(world_.centre(body_) - world_.position(body_)) + size();
     for (std::size_t i = 0; i < before.place.size(); ++i) {
@@ -134,7 +134,7 @@ class Caller {
     return {};
   }
   /// Returns an objection if joints of the body have moved off their anchors, or what it holds.
-  std::string mass_is_wrong(const char* call, const Material3& before) {
+  std::string mass_is_wrong(const char* call, const MaterialPoints& before) {
     if (std::string wrong = moves_otherwise(call, before); !wrong.empty()) return wrong;
     return not_woken(call);
   }
@@ -174,7 +174,7 @@ class Caller {
     return not_woken("set_position");
   }
   std::string impulse() {
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     const Vec2d velocity = world_.velocity(body_), centre = world_.centre(body_);
     const double mass = world_.mass(body_), inertia = world_.inertia(body_);
     const Vec2d change = vector(size()), arm = random_.chance(0.3) ? Vec2d{} : vector(size());
@@ -236,7 +236,7 @@ class Caller {
     return before != wanted ? not_woken("set_locks") : std::string();
   }
   std::string mass() {
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     const double mass = random_.within(0.5, 2) * std::max(world_.mass(body_), 1e-6);
     const MassProperties wanted{mass, random_.chance(0.3) ? Vec2d{} : vector(0.5 * size()),
                                 mass * size() * size() * random_.within(0.1, 1)};
@@ -249,7 +249,7 @@ class Caller {
     return mass_is_wrong("set_mass", before);
   }
   std::string densities() {
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     target_.use_densities(body_);
     if (std::string wrong = mass_by_shapes(); !wrong.empty()) return wrong;
     return mass_is_wrong("use_densities", before);
@@ -361,7 +361,7 @@ class Caller {
     return out;
   }
   std::string add_shape() {
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     ShapeDefinition definition = shape_of(size() * random_.within(0.2, 1));
     definition.position = vector(0.7 * size());
     const std::size_t count = world_.shapes(body_).size();
@@ -372,7 +372,6 @@ class Caller {
   }
 
   std::string material() {
-    const Material before = world_.material(shape_);
     const Material wanted{.friction = random_.pick({0.6, 0.6, 0.0, 1.0}),
                           .restitution = random_.pick({0.0, 0.0, 0.5}),
                           .rolling_resistance = random_.pick({0.0, 0.0, 0.1}),
@@ -383,7 +382,6 @@ class Caller {
         !near(now.rolling_resistance, wanted.rolling_resistance) ||
         !near(now.surface_speed, wanted.surface_speed))
       return answers("set_material", false);
-    static_cast<void>(before);
     return {};
   }
   std::string filter() {
@@ -395,14 +393,14 @@ class Caller {
     return answers("set_filter", world_.filter(shape_) == wanted);
   }
   std::string density() {
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     const double wanted = random_.pick({1.0, 1.0, 0.5, 4.0});
     target_.set_density(shape_, wanted);
     if (!near(world_.density(shape_), wanted)) return answers("set_density", false);
     return moves_otherwise("set_density", before);
   }
   std::string sensor() {
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     const bool wanted = random_.chance(0.4);
     target_.set_sensor(shape_, wanted);
     if (world_.sensor(shape_) != wanted) return answers("set_sensor", false);
@@ -416,7 +414,7 @@ class Caller {
   }
   std::string destroy_shape() {
     if (random_.chance(0.5)) return {};
-    const Material3 before = motion();
+    const MaterialPoints before = motion();
     target_.destroy(shape_);
     if (world_.valid(shape_)) return answers("destroy", false);
     return moves_otherwise("destroy of a shape", before);
@@ -440,7 +438,7 @@ class Caller {
           if constexpr (requires { kind.motor->speed; }) {
             if (kind.motor) kind.motor->speed = number(3);
           }
-          // What a joint was made with stays: its anchors, and the angle that it counts from.
+          // Keeps its anchors, and the angle that it counts from.
           if constexpr (!requires { kind.reference_angle; }) {
             if (random_.chance(0.15)) kind = usual;
           }
@@ -560,7 +558,7 @@ class Caller {
 
   /// Returns an objection if a sleeper lies in a solid shape of the body, which may touch it.
   std::string sleepers_inside() const {
-    // What moves wakes others when it meets them, in a step.
+    // Leaves out bodies that move: they wake others when they meet them, in a step.
     if (!world_.enabled(body_) || world_.type(body_) != BodyType::Static) return {};
     for (const ShapeId own : world_.shapes(body_)) {
       if (world_.sensor(own) || world_.valid(world_.chain(own))) continue;

@@ -199,7 +199,7 @@ class Discs {
     const double closing = dot(impact.normal, a.velocity - (b != nullptr ? b->velocity : Vec2d{}));
     double fastest = 0;
     for (const Disc& disc : discs_) fastest = std::max(fastest, length(disc.velocity));
-    // What touches softly, or without restitution, stays together: a rest, not an impact.
+    // Gives up at discs that touch softly or without restitution: they stay together.
     if (closing > -1e-3 * fastest || e < 0.05) return false;
     const double impulse = -(1 + e) * closing / (a.inverse_mass + (b != nullptr ? b->inverse_mass : 0));
     a.velocity += impulse * a.inverse_mass * impact.normal;
@@ -309,7 +309,7 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
       if (apart > off) off = apart, worst = disc.body;
       wrong = std::max(wrong, length(state.velocity - disc.velocity));
     }
-    // What moves by a twentieth of its size a second falls asleep.
+    // Leaves out slow discs, which fall asleep: by a twentieth of their size a second.
     for (const Disc& disc : discs->discs())
       if (one.sleeping && disc.velocity != Vec2d{} && length(disc.velocity) < 0.3 * disc.radius) return {};
     const bool precise = engine.kind == Engine::Kind::Precise;

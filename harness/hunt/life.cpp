@@ -124,7 +124,7 @@ class OtherMachine {
   VectorWidth width_;
 };
 
-/// What a hook throws, which no engine does.
+/// Exception of a hook, which no engine throws.
 struct Fault {};
 
 /// Returns what is wrong with a world whose hook throws in a step, and tries to change it.
@@ -163,7 +163,7 @@ std::string hooked(const BasicWorld<Real>& world, const Case& one) {
   return {};
 }
 
-/// What the second of two twins does otherwise.
+/// Ways in which the second of two twins is run.
 struct Otherwise {
   bool threads = true, widths = true, restores = true;
 };
@@ -189,12 +189,12 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
     const int calls = calls_of(one, random, step);
     calls_of(one, same, step);
     for (int i = 0; i < calls; ++i) {
-      // What a call answers is judged in the recorded life.
+      // Leaves the answers to the recorded life, which judges them.
       make_call(random, plain, plain), make_call(same, other, other);
     }
     plain.step(dt_of(one, step), one.substeps);
     {
-      // Where numbers are not rounded to the nearest, -(a b) and (-a) b differ, and with them the widths.
+      // Keeps the width where numbers are not rounded to the nearest: -(a b) and (-a) b differ there.
       const OtherMachine narrow(rounding, otherwise.widths && step % 2 == 0 && rounding == FE_TONEAREST
                                               ? VectorWidth::None
                                               : usual);

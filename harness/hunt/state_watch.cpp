@@ -60,7 +60,7 @@ template <class Real>
 std::string StateWatch<Real>::after_step(double dt) {
   if (std::string wrong = impulses(dt); !wrong.empty()) return wrong;
   if (std::string wrong = touches(); !wrong.empty()) return wrong;
-  // What costs as much as a step or more is asked of large worlds less often.
+  // Asks large worlds less often: the rest costs as much as a step or more.
   const std::int64_t between = 1 + world_.counts().shapes / 8;
   if (world_.step_count() % between != 0) return {};
   for (const auto& check :
@@ -73,15 +73,13 @@ std::string StateWatch<Real>::after_step(double dt) {
 template <class Real>
 std::string StateWatch<Real>::counts() const {
   const WorldCounts counts = world_.counts();
-  int bodies = 0, awake = 0, shapes = 0;
+  int bodies = 0, shapes = 0;
   std::set<Key> joints;
   for (const BodyId body : world_.bodies()) {
     ++bodies;
-    if (world_.awake(body)) ++awake;
     shapes += static_cast<int>(world_.shapes(body).size());
     for (const JointId joint : world_.joints(body)) joints.insert(key_of(joint));
   }
-  static_cast<void>(awake);
   if (counts.bodies != bodies || counts.shapes != shapes || counts.joints != static_cast<int>(joints.size()))
     return fmt::format("counts {} bodies, {} shapes, {} joints, and lists {}, {}, {}", counts.bodies,
                        counts.shapes, counts.joints, bodies, shapes, joints.size());
@@ -137,8 +135,8 @@ std::string StateWatch<Real>::touches() {
   return {};
 }
 
-// What touches has begun to, and what has come away has ended. Contacts are found where a step begins, so
-// shapes may have moved as far as a step takes them.
+// Checks that touching pairs have begun to touch, and that pairs far apart have ended. Contacts are found
+// where a step begins, so shapes may have moved as far as a step takes them.
 template <class Real>
 std::string StateWatch<Real>::distances(double dt) {
   struct Placed {
@@ -216,7 +214,7 @@ bool StateWatch<Real>::is_held(BodyId one, BodyId other) const {
   return false;
 }
 
-// What touches or is joined sleeps as a whole.
+// Checks that bodies that touch or are joined sleep as a whole.
 template <class Real>
 std::string StateWatch<Real>::islands() const {
   const auto differs = [&](BodyId a, BodyId b) {
@@ -338,8 +336,11 @@ std::string StateWatch<Real>::boxes() const {
       for (const Aabb<double>& box : {all, world_.box(shape)})
         if (outline.low.x < box.lower.x - slack || outline.low.y < box.lower.y - slack ||
             outline.high.x > box.upper.x + slack || outline.high.y > box.upper.y + slack)
-          return fmt::format("a box of '{}' does not hold its shape, {:.3g}, {:.3g} to {:.3g}, {:.3g}",
-                             world_.name(body), outline.low.x, outline.low.y, outline.high.x, outline.high.y);
+          return fmt::format(
+              "a box of '{}' ends at {:.4g}, {:.4g} and {:.4g}, {:.4g}, its shape at {:.4g}, {:.4g} and "
+              "{:.4g}, {:.4g}",
+              world_.name(body), box.lower.x, box.lower.y, box.upper.x, box.upper.y, outline.low.x,
+              outline.low.y, outline.high.x, outline.high.y);
     }
   }
   return {};
