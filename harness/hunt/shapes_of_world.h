@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "engine/world/world.h"
 #include "harness/hunt/outline.h"
 
@@ -17,8 +19,9 @@ Outline outline_in_body(const BasicWorld<Real>& world, ShapeId shape) {
 template <class Real>
 Outline outline_in_world(const BasicWorld<Real>& world, ShapeId shape) {
   const BodyId body = world.body(shape);
-  return placed(outline_in_body(world, shape),
-                {.position = world.position(body), .angle = world.angle(body)});
+  // The direction of its shapes, which the angle follows: of what turns by many turns a step only roughly.
+  const Vec2d at = world.position(body), along = world.world_point(body, {1, 0}) - at;
+  return placed(outline_in_body(world, shape), {.position = at, .angle = std::atan2(along.y, along.x)});
 }
 
 }  // namespace plumb::harness::hunt

@@ -51,6 +51,7 @@ class StateWatch {
   const BasicWorld<Real>& world_;
   std::map<Key, Before> before_;
   std::set<Pair> open_;
+  std::set<Key> whirled_;      // that have turned too far in a step for their angle to be known
   std::map<Pair, int> wrong_;  // steps on end
 };
 
