@@ -164,8 +164,11 @@ int BasicWorld<Real>::iterations() const {
 template <class Real>
 void BasicWorld<Real>::set_direct_islands(bool on) {
   unlocked(*this);
-  if (on != data_->settings.direct_islands) wake_all();
+  if (on == data_->settings.direct_islands) return;
+  wake_all();
+  hand_over_all(*data_);
   data_->settings.direct_islands = on;
+  data_->topology_changed = true;
 }
 
 template <class Real>

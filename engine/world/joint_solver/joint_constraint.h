@@ -91,7 +91,16 @@ struct JointConstraint {
       // A given length may differ from the placed one.
       if (definition.length) memory = {*definition.length, 1};
     }
+    recall();
     known_h = 0;
+  }
+
+  /// Sets the rule that follows from the memory. A joint that sleeps is read before a step does so.
+  void recall() {
+    if constexpr (kRatchet)
+      if (memory.known != 0) turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
+    if constexpr (kPulley)
+      if (memory.known != 0) axial[0].rule[0].origin = static_cast<Real>(memory.value);
   }
 
   /// Sets springs and bounds for substeps of h, s.
@@ -482,7 +491,7 @@ struct JointConstraint {
   void click(Real now) requires kRatchet {
     const double tooth = kind.tooth_at(now);
     if (tooth > memory.value) memory.value = tooth;
-    turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
+    recall();
   }
 
   /// Sets the length of a rope without a given one to the placed length.
@@ -492,7 +501,7 @@ struct JointConstraint {
       kind.evaluate(pose(bodies), rows);
       memory = {static_cast<double>(rows.axial[0].residual), 1};
     }
-    axial[0].rule[0].origin = static_cast<Real>(memory.value);
+    recall();
   }
 };
 

@@ -477,12 +477,28 @@ void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<
 
 template <class Real>
 void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
+  Parts& p = *parts_;
   const auto finish = [&](auto& blocks) {
     if (blocks.counts().blocks == 0) return;
     share_range(blocks.counts().blocks, kBlocksOfTask, crew,
                 [&](int first, int last) { blocks.finish(first, last, bodies); });
   };
-  std::apply([&](auto&... blocks) { (finish(blocks), ...); }, parts_->lanes);
+  std::apply([&](auto&... blocks) { (finish(blocks), ...); }, p.lanes);
+  // Those that are not side by side likewise: gaps were closed since they were evaluated.
+  for (const JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      if constexpr (One::kAngle != AngleUse::None) {
+        if constexpr (kSideBySide<One>) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+          if (run.sorted)
+            for (int i = run.first.alone; i < run.last.alone; ++i) blocks.alone(i).end_step(bodies);
+          if (run.sorted) return;
+        }
+        for (One& joint : lists[run.colour]) joint.end_step(bodies);
+      }
+    });
+  }
 }
 
 template <class Real>

@@ -221,6 +221,7 @@ void JointSet<Real>::restore(ByteReader& in) {
           constraint.b = s.b;
           constraint.load(*definition, s.centre_a, s.centre_b);
           fields(read, constraint);
+          constraint.recall();
         }
       }
     });
