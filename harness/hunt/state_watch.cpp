@@ -23,6 +23,8 @@ constexpr double kRounding = 2e-5;
 constexpr double kDeep = 0.02, kApart = 0.02;
 // Of the impulse: what a change of momentum along a normal may be off it. Contacts turn with the bodies.
 constexpr double kBalance = 0.05;
+// rad, in a step: beyond it an angle is rounded.
+constexpr double kWhirl = 3;
 // m, m/s, rad/s: the world's limits.
 constexpr double kLargest = 1e12;
 
@@ -58,11 +60,17 @@ void StateWatch<Real>::before_step() {
 
 template <class Real>
 std::string StateWatch<Real>::after_step(double dt) {
-  // Turns of so many a step are not counted to a part of one.
-  for (const BodyId body : world_.bodies())
-    if (const auto before = before_.find(key_of(body));
-        before != before_.end() && std::abs(world_.angle(body) - before->second.angle) > 3)
+  // Turns of so many a step are not counted to a part of one. Of what a joint holds they may be taken back
+  // within the step: as many as its way has sizes.
+  for (const BodyId body : world_.bodies()) {
+    const auto before = before_.find(key_of(body));
+    if (before == before_.end()) continue;
+    const double speed = std::max(length(world_.velocity(body)), length(before->second.velocity));
+    const Aabb<double> box = world_.box(body);
+    if (std::abs(world_.angle(body) - before->second.angle) > kWhirl ||
+        (!world_.joints(body).empty() && dt * speed > kWhirl * length(box.upper - box.lower)))
       whirled_.insert(key_of(body));
+  }
   if (std::string wrong = impulses(dt); !wrong.empty()) return wrong;
   if (std::string wrong = touches(); !wrong.empty()) return wrong;
   // Asks large worlds less often: the rest costs as much as a step or more.
@@ -194,10 +202,11 @@ std::string StateWatch<Real>::distances(double dt) {
           (world_.type(a.body) != BodyType::Dynamic && world_.type(b.body) != BodyType::Dynamic) ||
           (!world_.awake(a.body) && !world_.awake(b.body)))
         continue;
-      // A point in two shapes at once may be taken for the other's, so only pairs that lie alone are judged.
+      // A point in two shapes at once, also of one body, may be taken for the other's, so only pairs that lie
+      // alone are judged.
       const auto meets_others = [&](const Placed& one, const Placed& other) {
         return std::any_of(all.begin(), all.end(), [&](const Placed& third) {
-          return third.body != one.body && third.body != other.body &&
+          return third.shape != one.shape && third.shape != other.shape &&
                  separation(third.outline, one.outline) < one.way + kApart * size_of(one.outline);
         });
       };

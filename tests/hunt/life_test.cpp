@@ -86,6 +86,40 @@ TEST(StateWatch, SeesATouchThatDoesNotEnd) {
   EXPECT_NE(wrong, "");
 }
 
+// Points in two shapes at once may be taken for the other's, whosever they are.
+TEST(StateWatch, JudgesTouchesOfShapesThatLieAlone) {
+  for (const bool alone : {true, false}) {
+    Scenery all;
+    std::vector<ShapeDefinition> shapes{{.geometry = Box{1, 1}}};
+    if (!alone) shapes.push_back({.geometry = Box{1, 1}, .position = {0.3, 0}});
+    all.world.create_body({.type = BodyType::Static, .position = {-5, 8}}, {.geometry = Box{4, 1}});
+    const BodyId body =
+        all.world.create_body({.position = {-5, 12}, .velocity = {0.01, 0}, .gravity_scale = 0}, shapes);
+    std::string wrong;
+    for (int i = 0; i < 4 && wrong.empty(); ++i) {
+      all.world.step(1.0 / 60, 4);
+      all.world.set_position(body, {-5, 8.8}, 0);  // into the shelf, and no step has told
+      all.watch.before_step();
+      wrong = all.watch.after_step(1.0 / 60);
+      all.world.set_position(body, {-5, 12}, 0);
+    }
+    EXPECT_EQ(wrong.find("no touch has begun") != std::string::npos, alone) << wrong;
+  }
+}
+
+// A body on a hinge may turn many times and back in a step that its speed takes it far in.
+TEST(StateWatch, JudgesTheAnglesOfHingesThatDoNotWhirl) {
+  for (const bool whirls : {false, true}) {
+    Scenery all;
+    ASSERT_EQ(all.run(10), "");
+    if (whirls) all.world.set_velocity(all.box, {1e5, 0});
+    all.step();
+    all.world.data().bodies[static_cast<int>(all.box.index)].angle += 0.1;
+    const std::string wrong = all.watch.after_step(1.0 / 60);
+    EXPECT_EQ(wrong.find("turns off") != std::string::npos, !whirls) << wrong;
+  }
+}
+
 TEST(Calls, AWorldThatDoesNotHearThemIsSeen) {
   Scenery deaf, other;
   int wrong = 0;

@@ -382,8 +382,8 @@ TYPED_TEST(Snapshot, AfterEachCallARestoredWorldGoesOnAlike) {
   }
 }
 
-// What a pulley or a ratchet has met since it was made is no part of its definition, and a joint that sleeps
-// is not prepared for a step.
+// The rules of a pulley and a ratchet follow from what they have met since they were made, and a joint that
+// sleeps is not prepared for a step.
 TYPED_TEST(Snapshot, JointsThatSleepReadAsBefore) {
   BasicWorld<TypeParam> world({.gravity = {0, 0}});
   const BodyId ground = world.create_body({.type = BodyType::Static});
