@@ -140,11 +140,14 @@ Finding stick_weighs_masses(const Lab& lab) {
   const double stretch = 0.05;
   Scene stretched = scene;
   stretched.bodies[1].position.x += stretch;
-  const Trace corrected = lab.run(stretched, 1);
-  const auto shift = [&](std::size_t b) {
-    return corrected.last(b).position.x - corrected.first(b).position.x;
+  const auto centre_shift = [&] {
+    const Trace corrected = lab.run(stretched, 1);
+    const auto shift = [&](std::size_t b) {
+      return corrected.last(b).position.x - corrected.first(b).position.x;
+    };
+    return (heavy * shift(0) + light * shift(1)) / (heavy + light);
   };
-  const double centre = (heavy * shift(0) + light * shift(1)) / (heavy + light);
+  const double centre = lab.corrects_positions() ? centre_shift() : 0;
   scene.forces.emplace_back(push("light", {force, 0}));
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), both = force * t / (heavy + light);

@@ -47,6 +47,10 @@ class Lab {
   /// Returns settings with which another engine takes steps and substeps of the same lengths.
   reference::StepSettings plain_settings() const;
 
+  /// Returns false for engines with a tolerance: they refuse joints that begin open, and have no gaps to
+  /// correct.
+  bool corrects_positions() const { return method_.scheme != reference::Scheme::Adaptive; }
+
   double dt() const { return settings_.dt; }          ///< s
   double substep() const { return method_.substep; }  ///< s; 0 if the method adapts its own
   reference::Scheme scheme() const { return method_.scheme; }
