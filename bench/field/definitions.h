@@ -107,6 +107,9 @@ struct Counts {
   int touching = 0;  ///< contacts that the engine itself reports as touching
 };
 
+/// Names of a step's stages and what each takes, ns.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
 /// Names and values of an engine's settings.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 

@@ -13,6 +13,11 @@ std::span<const Engine> engines() {
 #else
       {"box2d", "2.4", "install libbox2d-dev and build again", nullptr},
 #endif
+#ifdef PLUMB_FIELD_BOX2D_V3
+      {"box2d-v3", PLUMB_BOX2D_V3_VERSION, "", create_box2d_v3},
+#else
+      {"box2d-v3", "3", "find_package(box2d 3) found none; docs/adding-an-engine.md builds it", nullptr},
+#endif
 #ifdef PLUMB_FIELD_CHIPMUNK
       {"chipmunk", chipmunk_version(), "", create_chipmunk},
 #else

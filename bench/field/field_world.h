@@ -20,6 +20,7 @@ struct WorldSettings {
   int threads = 1;                                       ///< of engines that share a step among threads
   bool sleeping = false;
   bool continuous = true;
+  bool profiling = false;  ///< of engines that time their stages
 };
 
 /// An engine's world. A call costs one virtual call, which is negligible beside a step.
@@ -39,6 +40,10 @@ class FieldWorld {
   virtual BodyState state(BodyHandle body) const = 0;
   virtual Counts counts() const = 0;
   virtual Settings settings() const = 0;
+  /// Returns the mean wall time of each stage of a step, ns, by its name; nothing unless it is measured.
+  virtual StageTimes profile() const { return {}; }
+  /// Forgets the times so far.
+  virtual void restart_profile() {}
 };
 
 }  // namespace plumb::field

@@ -31,10 +31,12 @@ constexpr const char* kFooter =
     "  plumb_field joint_grid --engine box2d --engine chipmunk --format csv\n"
     "  plumb_field chain_10 --engine plumb --solver soft_steps,direct,xpbd\n"
     "  plumb_field tumbler --engine plumb --threads 1,2\n"
-    "Times are medians over the repetitions; speed is Box2D's time over the engine's. Depths and joints' "
-    "gaps are\n"
-    "the worst and the mean of ten looks at the run, heights and speeds those at its end. See "
-    "docs/speed.md.\n"
+    "  plumb_field tumbler --engine plumb --profile       how the step's time is shared among its stages\n"
+    "Times are medians over the repetitions; speed is Box2D's time (of the third, if it is here) over the "
+    "engine's.\n"
+    "Depths and joints' gaps are the worst and the mean of ten looks at the run, heights and speeds those at "
+    "its end.\n"
+    "See docs/speed.md.\n"
     "Exit codes: 0 ok, 1 an engine failed, 2 usage, 3 an engine that is not in this build, 4 stdout cannot "
     "be\n"
     "written, 130 interrupted.";
@@ -218,6 +220,9 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_flag("--sleeping", options.sleeping, "let bodies at rest sleep");
   app.add_option("--format", options.format, "table, json or csv (table)")
       ->check(CLI::IsMember({"table", "json", "csv"}));
+  app.add_flag(
+      "--profile", plan.settings.profiling,
+      "print what each stage of plumb's step takes, by the wall clock, which costs some 100 ns a step");
   app.add_flag("--quick", plan.quick, "small scenes and few steps; figures mean little");
   app.add_flag("--list", options.list, "name the scenes and the engines, and end");
 }

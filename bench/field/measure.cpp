@@ -34,6 +34,7 @@ class Run {
     built_ = scene.build(builder_, plan.quick);
     for (const Top& top : built_.tops) heights_.push_back(height_of(top));
     advance(scene.warm_up);
+    world_->restart_profile();
   }
 
   /// Measures the mean time of `steps` steps; calls `sample` after each tenth of them.
@@ -64,6 +65,7 @@ class Run {
     out.asked = builder_.inventory().counts();
     out.continuous = settings_.continuous;
     out.allocations_a_step = allocations_a_step_;
+    out.stages = world_->profile();
     const int bodies = out.asked.bodies;
     if (heap::counted() && bodies > 0) out.bytes_a_body = static_cast<double>(builder_.cost().bytes) / bodies;
     if (!built_.tops.empty()) out.height = least_height();

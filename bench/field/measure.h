@@ -48,6 +48,7 @@ struct Measurement {
   int escaped = 0;                   ///< bodies outside the scene's region
   double bytes_a_body = 0;           ///< allocated since the world was empty, over bodies; 0 if not counted
   double allocations_a_step = 0;     ///< over the second half of the steps
+  StageTimes stages;                 ///< mean wall time of each stage of a step, ns; if asked for
 };
 
 /// Runs every scene on every engine `repeat` times, each time in a new world and a process of its own. Within

@@ -23,6 +23,7 @@ std::string pack(const Measurement& found, bool first) {
   out["escaped"] = found.escaped;
   out["bytes_a_body"] = found.bytes_a_body;
   out["allocations_a_step"] = found.allocations_a_step;
+  out["stages"] = found.stages;
   return out.dump();
 }
 
@@ -42,6 +43,7 @@ void unpack(const std::string& text, Measurement& out) {
   found.at("escaped").get_to(out.escaped);
   found.at("bytes_a_body").get_to(out.bytes_a_body);
   found.at("allocations_a_step").get_to(out.allocations_a_step);
+  found.at("stages").get_to(out.stages);
 }
 
 }  // namespace plumb::field

@@ -58,7 +58,9 @@ class PlumbWorld final : public FieldWorld {
                 .solver = solver_of(settings.solver).value_or(Solver::SoftSteps),
                 .iterations = settings.iterations,
                 .quarantine = false,
-                .threads = settings.threads}) {}
+                .threads = settings.threads}) {
+    world_.set_profiling(settings.profiling);
+  }
 
   BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
                          const MassProperties& mass) override {
@@ -126,6 +128,15 @@ class PlumbWorld final : public FieldWorld {
             {"restitution", "the larger"},
             {"joints_between_static_bodies", "left out"}};
   }
+
+  StageTimes profile() const override {
+    const WorldProfile& found = world_.profile();
+    StageTimes out;
+    for (std::size_t i = 0; i < kWorldStages && found.steps > 0; ++i)
+      out.emplace_back(kWorldStageNames[i], found.nanoseconds[i] / static_cast<double>(found.steps));
+    return out;
+  }
+  void restart_profile() override { world_.set_profiling(settings_.profiling); }
 
  private:
   bool sweeps() const {

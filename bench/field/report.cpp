@@ -13,7 +13,8 @@ namespace {
 
 using Ink = harness::Style::Ink;
 
-constexpr const char* kYardstick = "box2d";
+// Engines that times are compared with: the first of them that was measured.
+constexpr const char* kYardsticks[] = {"box2d-v3", "box2d"};
 
 double least(const Measurement& m) { return *std::ranges::min_element(m.step_seconds); }
 double most(const Measurement& m) { return *std::ranges::max_element(m.step_seconds); }
@@ -107,6 +108,17 @@ const std::vector<Column>& columns() {
 
 bool worked(const Measurement& m) { return m.failure.empty(); }
 
+/// Formats the shares of a step's stages, one a line; nothing if they were not measured.
+std::string stages_text(const Measurement& m) {
+  double sum = 0;
+  for (const auto& [name, ns] : m.stages) sum += ns;
+  if (!(sum > 0)) return "";
+  std::string out = fmt::format("  stages of {}, by the wall clock\n", m.engine->name);
+  for (const auto& [name, ns] : m.stages)
+    out += fmt::format("    {:<12} {:>10.2f} us {:>6.1f} %\n", name, ns / 1e3, 100 * ns / sum);
+  return out;
+}
+
 std::string title(const Measurement& m, const harness::Style& style) {
   return fmt::format("{}  {} bodies, {} shapes, {} joints; {} steps{}\n",
                      style.paint(m.scene->name, Ink::Bold), m.asked.bodies, m.asked.shapes, m.asked.joints,
@@ -116,8 +128,9 @@ std::string title(const Measurement& m, const harness::Style& style) {
 }  // namespace
 
 const Measurement* yardstick_of(std::span<const Measurement> all, const Scene& scene) {
-  for (const Measurement& m : all)
-    if (m.engine->name == kYardstick && m.scene->name == scene.name && worked(m)) return &m;
+  for (const char* name : kYardsticks)
+    for (const Measurement& m : all)
+      if (m.engine->name == name && m.scene->name == scene.name && worked(m)) return &m;
   return nullptr;
 }
 
@@ -148,6 +161,7 @@ std::string table(std::span<const Measurement> row, const harness::Style& style)
                            : harness::pad_right("  " + row[i].engine->name, indent + 2) +
                                  style.paint(row[i].failure, Ink::Red)) +
            "\n";
+  for (const Measurement& m : row) out += stages_text(m);
   return out + "\n";
 }
 
@@ -233,6 +247,7 @@ nlohmann::ordered_json result_json(const Measurement& m, const Measurement* yard
   out["allocations_a_step"] = m.allocations_a_step;
   out["quality"] = quality_json(m);
   for (const auto& [name, value] : m.settings) out["settings"][name] = value;
+  for (const auto& [name, ns] : m.stages) out["stages_ns"][name] = ns;
   return out;
 }
 
@@ -252,7 +267,7 @@ std::string json(std::span<const Measurement> all, const Plan& plan) {
                              {"substeps", plan.settings.substeps},
                              {"quick", plan.quick},
                              {"clock", plan.clock == CLOCK_MONOTONIC ? "wall" : "cpu"},
-                             {"yardstick", kYardstick}};
+                             {"yardstick", kYardsticks}};
   out["results"] = nlohmann::ordered_json::array();
   for (const Measurement& m : all) out["results"].push_back(result_json(m, yardstick_of(all, *m.scene)));
   return out.dump(2) + "\n";

@@ -78,6 +78,17 @@ TEST(Program, RunsPlumbWithNumbersOfThreadsBesideEachOther) {
   EXPECT_EQ(run("empty --engine plumb --threads 0").code, 2);
 }
 
+TEST(Program, ProfilesTheStagesOfAStep) {
+  const Ran ran = run("pyramid_10 --quick --repeat 1 --engine plumb --profile --format json", "2>/dev/null");
+  ASSERT_EQ(ran.code, 0);
+  const auto result = nlohmann::json::parse(ran.out)["results"][0];
+  double sum = 0;
+  for (const auto& stage : result["stages_ns"]) sum += stage.get<double>();
+  const double step = 1e9 * result["step_s"].get<double>();
+  EXPECT_GT(sum, 0.3 * step);
+  EXPECT_GT(result["stages_ns"]["solver"].get<double>(), 0);
+}
+
 TEST(Program, AnEngineThatIsMissingHasItsOwnCode) {
   for (const Engine& engine : engines()) {
     const Ran ran = run("empty --quick --repeat 1 --engine " + engine.name);

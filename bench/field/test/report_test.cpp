@@ -37,6 +37,22 @@ TEST(Table, SpeedIsTheYardsticksMedianOverTheEngines) {
   EXPECT_THAT(text, HasSubstr("500000"));  // ns per body
 }
 
+TEST(Table, SpeedIsThatOfTheNewerBox2dIfItWasMeasured) {
+  const Engine newer{"box2d-v3", "3", "", nullptr};
+  const std::vector<Measurement> row{measured(kYardstick, {0.005}), measured(newer, {0.003}),
+                                     measured(kOther, {0.002})};
+  EXPECT_THAT(table(row, {}), HasSubstr("1.50x"));
+}
+
+TEST(Table, StagesHaveTheirShareOfTheStep) {
+  std::vector<Measurement> row{measured(kYardstick, {0.005})};
+  EXPECT_THAT(table(row, {}), Not(HasSubstr("stages")));
+  row[0].stages = {{"solver", 30000}, {"events", 10000}};
+  const std::string text = table(row, {});
+  EXPECT_THAT(text, HasSubstr("solver            30.00 us   75.0 %"));
+  EXPECT_THAT(text, HasSubstr("events            10.00 us   25.0 %"));
+}
+
 TEST(Table, SaysWhereNoiseHidesWhichIsFaster) {
   const std::vector<Measurement> row{measured(kYardstick, {0.005, 0.004, 0.009}),
                                      measured(kOther, {0.002, 0.0041, 0.002})};
