@@ -44,7 +44,7 @@ class Expression {
       op_ = "+-*/^-"[kind - 3];
       const int own = op_ == '^' ? kPower : op_ == '*' || op_ == '/' ? kProduct : kSum;
       add(random, depth), add(random, depth);
-      // The left part of a power, and the right part of the others, need a tighter operator.
+      // A power associates to the right, the other operators to the left.
       const bool right = op_ == '^';
       text_ = inside(0, right ? own + 1 : own) + op_ + inside(1, right ? own : own + 1);
       tight_ = own;

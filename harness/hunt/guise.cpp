@@ -291,7 +291,7 @@ std::string overrun(BasicWorld<Real>& world, double dt, int substeps) {
   world.step(dt, substeps);
   if (std::string wrong = beyond(world); !wrong.empty()) return wrong;
   if (std::string wrong = release_all(world); !wrong.empty()) return wrong;
-  // And one that leaves the world's largest places.
+  // A body that moves beyond the largest coordinates of a world.
   const BodyId runaway = world.create_body(
       {.position = {0.9999 * kLargest, 0}, .velocity = {0.1 * kLargest, 0}}, {.geometry = Circle{1}});
   for (int i = 0; i < 3; ++i) world.step(dt, substeps);

@@ -34,7 +34,7 @@ constexpr std::size_t kFailureKinds = 50;    // of a scene
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// Returns the worst points of a rival for plumb, at most `most`, in their order.
+// Returns at most `most` of the points at which a rival beats plumb by most, in the order of the sweep.
 std::vector<sweep::Dominance::Exception> worst(const Standing& row, std::size_t most) {
   std::vector<sweep::Dominance::Exception> out = row.dominance.exceptions;
   if (out.size() <= most) return out;

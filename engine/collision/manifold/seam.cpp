@@ -138,7 +138,8 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   };
   // The outer surface of crossing walls is not that of the room between them.
   const auto is_in_front = [](const Answer& found) { return found.height > 0; };
-  // The face at the other side of the edge's corner; its seam is at its end if the edge's is at the start.
+  // Returns the adjacent face beyond the edge's first or second corner. The corner with the seam is the
+  // second of the one and the first of the other.
   const auto across = [&](bool at_start) {
     return at_start ? previous_of(shape, edge) : next_of(shape, edge);
   };

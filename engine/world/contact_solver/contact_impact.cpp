@@ -67,9 +67,9 @@ class Impact {
   }
 
  private:
-  // Finds the impulses with which the chosen points are at their rates, and the contact sticks (0) or slips
-  // in a direction. Keeps them if they are the best so far. Returns the speed by which they miss the
-  // conditions.
+  // Solves for impulses at the points in `pushes` that give them their wanted rates, with a contact that
+  // sticks (slip 0) or slips in a direction. Keeps the best solution so far. Returns the speed, m/s, by which
+  // this one violates the conditions.
   double take(const bool (&pushes)[2], int slip) {
     const double(&k)[3][3] = rows_.response;
     const bool sticks = slip == 0 && friction_ > 0;

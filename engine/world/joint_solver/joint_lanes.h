@@ -94,7 +94,8 @@ class JointBlocks {
 
  private:
   static constexpr bool kNarrow = kNarrowLanes<Real>, kWide = kWideLanes<Real>;
-  /// Numbers in a register, or in two: at least four, as the records have that are moved there.
+  /// As many numbers as a register of `kBytes` holds, but at least four (two registers if necessary): records
+  /// of bodies are loaded four numbers at a time.
   template <int kBytes>
   using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;
   template <int kBytes>

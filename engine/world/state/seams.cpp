@@ -233,7 +233,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     edge = record.next[edge & 1];
     const int beside = is_a ? record.shape_b : record.shape_a,
               of_asked = is_a ? record.shape_a : record.shape_b;
-    // A neighbour counts if it has a contact with the shape that moves on it: each is found at that one.
+    // Only shapes that have a contact with the sliding shape count as neighbours, so its list has them all.
     if (of_asked == own && beside != other) look_at(beside);
     if (beside == other && of_asked != own) look_at(of_asked);
   }
