@@ -103,6 +103,22 @@ bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const
   return true;
 }
 
+/// Returns true if an edge comes out of the other shape towards the middle of what touches it, as a wall out
+/// of the floor that it stands in. Then it is part of the union's surface, however deep the points lie. Close
+/// to its ends the test is inconclusive.
+template <class Real>
+bool comes_out(const TouchedSurface<Real>& touched, int edge, const Convex<Real>& other, int other_edges,
+               const Pose<Real>& pose) {
+  const Convex<Real>& shape = touched.shape;
+  const Vec2<Real> first = shape.corners[edge].point, normal = shape.corners[edge].normal;
+  const Vec2<Real> tangent = perpendicular(normal);
+  const Real length = dot(tangent, shape.corners[next_of(shape, edge)].point - first);
+  const Real inset = std::min(2 * kReachOver<Real> * touched.tolerance, Real(0.5) * length);
+  const Real x = std::clamp(dot(tangent, touched.mover - first), inset, length - inset);
+  const Vec2<Real> before = first + (shape.radius + 2 * touched.tolerance) * normal;
+  return !inside(before + x * tangent, other, other_edges, pose, touched.tolerance);
+}
+
 /// Returns true if a normal lies between those of a face and its continuation, around the corner between
 /// them.
 template <class Real>
@@ -120,12 +136,15 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   using Answer = SeamAnswer<Real>;
   const Convex<Real>& shape = touched.shape;
   const Vec2<Real> n = touched.normal;
-  if (touched.apart && hidden(touched, neighbour, neighbour_edges, pose))
-    return {Answer::Kind::Hidden, 0, false, 0};
-  if (shape.count < 2) return {};
   int edge = 0;
   for (int i = 1; i < touched.edges; ++i)
     if (dot(n, shape.corners[i].normal) > dot(n, shape.corners[edge].normal)) edge = i;
+  if (touched.apart && hidden(touched, neighbour, neighbour_edges, pose)) {
+    const bool on_edge = shape.count > 1 && std::fabs(cross(n, shape.corners[edge].normal)) <= kAligned<Real>;
+    if (!on_edge || !comes_out(touched, edge, neighbour, neighbour_edges, pose))
+      return {Answer::Kind::Hidden, 0, false, 0};
+  }
+  if (shape.count < 2) return {};
   const Vec2<Real> first = shape.corners[edge].point, second = shape.corners[next_of(shape, edge)].point;
   const Vec2<Real> own = shape.corners[edge].normal, tangent = perpendicular(own);
   const auto face_at = [&](int face, bool at_start) {
@@ -166,6 +185,7 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   const int other = across(at_start);
   if (other >= touched.edges || other == edge) return {};
   if (!covered(touched, edge, at_start, neighbour, neighbour_edges, pose)) return {};
+  if (comes_out(touched, edge, neighbour, neighbour_edges, pose)) return {};
   if (!beyond(touched, other, !at_start, neighbour, neighbour_edges, pose).found) return {};
   return face_at(other, !at_start);
 }
