@@ -76,6 +76,7 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* room)
       rank_(room),
       first_(room),
       x_(room),
+      guess_(room),
       best_(room),
       wrong_(room) {}
 
@@ -214,11 +215,12 @@ void BoundedRows::apply_all() {
   for (const BoundedRow& row : rows) push(row, row.impulse);
 }
 
-// Solves for the impulses of the free rows, given those of the others.
+// Solves for the impulses of the free rows, given those of the others: the solution next to `guess_`.
 void BoundedRows::find_free() {
-  for (BoundedRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    BoundedRow& row = rows[i];
     if (row.state == BoundedRow::kFree) {
-      row.impulse = 0;
+      row.impulse = guess_[i];
     } else {
       row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
     }
@@ -389,6 +391,17 @@ bool BoundedRows::pivot() {
   return false;
 }
 
+// Begins with the initial impulses, or with the fraction of them that gains no energy.
+void BoundedRows::start_from_guess() {
+  guess_.assign(rows.size(), 0);
+  if (std::any_of(rows.begin(), rows.end(), [](const BoundedRow& row) { return row.impulse != 0; })) {
+    apply_all();
+    shrink();
+    for (std::size_t i = 0; i < rows.size(); ++i) guess_[i] = rows[i].impulse;
+  }
+  best_.assign(guess_.begin(), guess_.end());
+}
+
 void BoundedRows::solve() {
   start_.assign(bodies.begin(), bodies.end());
   find_mobility();
@@ -398,8 +411,9 @@ void BoundedRows::solve() {
     // Rows that move nothing, or whose bounds leave no room, have nothing to solve.
     if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
     if (row.lower >= row.upper) row.state = BoundedRow::kLower;
+    row.impulse = std::min(std::max(row.impulse, row.lower), row.upper);
   }
-  best_.assign(rows.size(), 0);
+  start_from_guess();
   if (!pivot()) descend();
   shrink();
 }

@@ -36,7 +36,9 @@ struct BoundedRow {
   double lower = 0, upper = 0;    ///< N s
   double softening = 0;           ///< fraction of its own mobility that is added to the compliance
   double gap = 0;                 ///< m or rad: closed by `correct`
-  double impulse = 0;             ///< N s, the solution
+  /// N s. Initially a guess: of the solutions that redundant rows leave, the one next to it is found (next to
+  /// 0, the one that shares loads evenly). After solving, the solution.
+  double impulse = 0;
   int block = 0;
   State state = kFree;  ///< initial state; after solving, the final one
 };
@@ -104,6 +106,7 @@ class BoundedRows {
   Work work() const;
   double energy() const;
   void shrink();
+  void start_from_guess();
 
   BlockOrder order_;
   EnvelopeMatrix all_, matrix_;          // of all rows in elimination order; of the free ones
@@ -115,7 +118,7 @@ class BoundedRows {
   std::pmr::vector<int> sequence_;       // rows in elimination order
   std::pmr::vector<int> rank_;           // by place in that order: number of free rows before it
   std::pmr::vector<int> first_;
-  std::pmr::vector<double> x_, best_;
+  std::pmr::vector<double> x_, guess_, best_;
   std::pmr::vector<std::int8_t> wrong_;  // 0, or 1 + the state to change to
   double largest_ = 0;                   // J, the largest v^2 / mobility of a row
 };

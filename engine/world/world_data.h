@@ -328,6 +328,7 @@ struct Scratch {
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
   std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
+  std::vector<int> unparked;  ///< contacts that have come back from sleepers in the step
   std::vector<RestitutionContact<Real>> bounces;
   std::vector<char> apart;         ///< by contact: it is not solved side by side with others
   std::vector<char> joints_apart;  ///< by the joint's slot: likewise

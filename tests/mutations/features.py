@@ -199,7 +199,7 @@ FEATURES = [
     # Ground rules.
     feature("Scenes are one way in", WORLD + "scene/add_scene.cpp", ".break_force = j.break_force,", ".break_force = 0,",
             "world/add_scene"),
-    feature("Constants in one place", WORLD + "step/narrow_phase.cpp",
+    feature("Constants in one place", WORLD + "step/speculative_contact.h",
             "return Real(tuning::kSpeculativeMargin) * smaller +", "return Real(tuning::kSpeculativeMargin) +", "extremes/figures"),
     feature("Handles that know what is gone", WORLD + "world.cpp",
             "if (!data().bodies.holds(body.index, body.generation)) report_gone(",

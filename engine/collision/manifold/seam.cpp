@@ -85,10 +85,7 @@ bool hidden(const TouchedSurface<Real>& touched, const Convex<Real>& other, int 
 }
 
 /// Returns true if the other shape covers an edge at every point of the contact. Near the end at which the
-/// surface continues the test is inconclusive: points are tested a small distance away from it. So it is
-/// where the other shape ends: in the corner of a room a body touches one wall where the next one begins, and
-/// has that one beside it, not the surface that both form outside. All points are tested farther from the end
-/// than the margin can make up for.
+/// surface continues the test is inconclusive: points are tested a small distance away from it.
 template <class Real>
 bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const Convex<Real>& other,
              int other_edges, const Pose<Real>& pose) {
@@ -98,13 +95,28 @@ bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const
   const Real length = dot(tangent, shape.corners[next_of(shape, edge)].point - first);
   const Real inset = std::min(2 * kReachOver<Real> * touched.tolerance, Real(0.5) * length);
   const Real low = at_start ? inset : -length, high = at_start ? 2 * length : length - inset;
-  const Real farther = std::min(3 * touched.tolerance, Real(0.25) * length) * (at_start ? Real(1) : Real(-1));
   const Vec2<Real> before = first + (shape.radius + 2 * touched.tolerance) * normal;
   for (int i = 0; i < touched.count; ++i) {
-    const Real x = std::clamp(dot(tangent, touched.points[i] - first), low, high) + farther;
+    const Real x = std::clamp(dot(tangent, touched.points[i] - first), low, high);
     if (!inside(before + x * tangent, other, other_edges, pose, touched.tolerance)) return false;
   }
   return true;
+}
+
+/// Returns true if an edge comes out of the other shape towards the middle of what touches it, as a wall out
+/// of the floor that it stands in. Then it is part of the union's surface, however deep the points lie. Close
+/// to its ends the test is inconclusive.
+template <class Real>
+bool comes_out(const TouchedSurface<Real>& touched, int edge, const Convex<Real>& other, int other_edges,
+               const Pose<Real>& pose) {
+  const Convex<Real>& shape = touched.shape;
+  const Vec2<Real> first = shape.corners[edge].point, normal = shape.corners[edge].normal;
+  const Vec2<Real> tangent = perpendicular(normal);
+  const Real length = dot(tangent, shape.corners[next_of(shape, edge)].point - first);
+  const Real inset = std::min(2 * kReachOver<Real> * touched.tolerance, Real(0.5) * length);
+  const Real x = std::clamp(dot(tangent, touched.mover - first), inset, length - inset);
+  const Vec2<Real> before = first + (shape.radius + 2 * touched.tolerance) * normal;
+  return !inside(before + x * tangent, other, other_edges, pose, touched.tolerance);
 }
 
 /// Returns true if a normal lies between those of a face and its continuation, around the corner between
@@ -124,22 +136,23 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   using Answer = SeamAnswer<Real>;
   const Convex<Real>& shape = touched.shape;
   const Vec2<Real> n = touched.normal;
-  if (touched.apart && hidden(touched, neighbour, neighbour_edges, pose))
-    return {Answer::Kind::Hidden, 0, false, 0};
-  if (shape.count < 2) return {};
   int edge = 0;
   for (int i = 1; i < touched.edges; ++i)
     if (dot(n, shape.corners[i].normal) > dot(n, shape.corners[edge].normal)) edge = i;
+  if (touched.apart && hidden(touched, neighbour, neighbour_edges, pose)) {
+    const bool on_edge = shape.count > 1 && std::fabs(cross(n, shape.corners[edge].normal)) <= kAligned<Real>;
+    if (!on_edge || !comes_out(touched, edge, neighbour, neighbour_edges, pose))
+      return {Answer::Kind::Hidden, 0, false, 0};
+  }
+  if (shape.count < 2) return {};
   const Vec2<Real> first = shape.corners[edge].point, second = shape.corners[next_of(shape, edge)].point;
   const Vec2<Real> own = shape.corners[edge].normal, tangent = perpendicular(own);
   const auto face_at = [&](int face, bool at_start) {
     const Corner<Real>& corner = shape.corners[face];
     return Answer{Answer::Kind::Face, face, at_start, dot(corner.normal, touched.mover - corner.point)};
   };
-  // The outer surface of crossing walls is not that of the room between them.
-  const auto is_in_front = [](const Answer& found) { return found.height > 0; };
-  // Returns the adjacent face beyond the edge's first or second corner. The corner with the seam is the
-  // second of the one and the first of the other.
+  // Returns the adjacent face beyond the edge's first or second corner. The corner with the seam is the second
+  // of the one and the first of the other.
   const auto across = [&](bool at_start) {
     return at_start ? previous_of(shape, edge) : next_of(shape, edge);
   };
@@ -159,7 +172,6 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
       const Continuation<Real> on = beyond(touched, face, face_at_start, neighbour, neighbour_edges, pose);
       if (!on.found || between(shape.corners[face].normal, n, on.normal, face_at_start)) return;
       const Answer found = face_at(face, face_at_start);
-      if (!is_in_front(found)) return;
       if (answer.kind == Answer::Kind::Own || found.height > answer.height) answer = found;
     };
     look(edge, at_start);
@@ -174,9 +186,9 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   const int other = across(at_start);
   if (other >= touched.edges || other == edge) return {};
   if (!covered(touched, edge, at_start, neighbour, neighbour_edges, pose)) return {};
+  if (comes_out(touched, edge, neighbour, neighbour_edges, pose)) return {};
   if (!beyond(touched, other, !at_start, neighbour, neighbour_edges, pose).found) return {};
-  const Answer found = face_at(other, !at_start);
-  return is_in_front(found) ? found : Answer{};
+  return face_at(other, !at_start);
 }
 
 template <class Real>

@@ -142,8 +142,10 @@ template <class Number, class Pair, class Contact, class Real>
   const Number before = c.tangent_impulse;
   rub_within_bound(pair, c, c.tangent_mass);
   // Friction begins to act if it grows by more than its previous value and by a sixteenth of the load.
-  // Smaller growth is resolved within a few substeps; at a tenth, a block within 1 % of its tipping point
-  // begins to rock.
+  // Smaller growth is resolved within a few substeps. From a 64th to a sixteenth no scenario's error of
+  // position changes by more than 1 % (speeds of what has just been laid down fall from 5e-4 to 3e-5 m/s); at
+  // a tenth, a block within 1 % of its tipping point begins to rock; at a quarter two scenarios miss their
+  // bounds.
   const Number change = c.tangent_impulse - before, some = Real(0.0625) * normal_sum(c);
   if (const auto fresh = change * change > before * before + some * some; any(fresh)) [[unlikely]]
     begin_friction<Number, Real>(pair, c, fresh, at_p, at_q);

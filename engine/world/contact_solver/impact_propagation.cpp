@@ -239,8 +239,11 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     until += Real(kAtOnce) * h;
     for (int k = 0; k < c.count; ++k) {
       if (coming.time[k] == kNever<Real> || coming.time[k] > until) continue;
-      room.struck.push_back(
-          StruckPoint<Real>{&bounces[i], k, coming.time[k], coming.wanted[k], coming.before[k], 0});
+      room.struck.push_back(StruckPoint<Real>{.bounce = &bounces[i],
+                                              .point = k,
+                                              .time = coming.time[k],
+                                              .wanted = coming.wanted[k],
+                                              .before = coming.before[k]});
     }
   }
   room.looked.clear();

@@ -59,25 +59,56 @@ void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
   struck.swap(room.grouped);
 }
 
-// Returns the largest factor, at most 1, on a round's impulses with which they gain no energy. Scaled by k
-// they change it by k (before + k (after - before) / 2).
+// Returns how fast a contact's bodies slide over each other, against the surfaces' own speed, m/s.
 template <class Real>
-Real energy_scale(const BodyMotion<Real>* motion, std::span<const StruckPoint<Real>> struck) {
-  Real before = 0, after = 0;
+Real sliding_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c) {
+  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  return dot(Vec2<Real>{c.normal.y, -c.normal.x}, b.velocity - a.velocity) +
+         c.arm_tangent_b * b.angular_velocity - c.arm_tangent_a * a.angular_velocity - c.surface_speed;
+}
+
+template <class Real>
+void push_along(BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Real friction) {
+  const Vec2<Real> t{c.normal.y, -c.normal.x};
+  motion[c.body_a].apply(-friction * t, -friction * c.arm_tangent_a);
+  motion[c.body_b].apply(friction * t, friction * c.arm_tangent_b);
+}
+
+// Returns the work that a round's impulses would do at the velocities before it, if these lasted.
+template <class Real>
+Real work_before(std::span<const StruckPoint<Real>> struck) {
+  Real work = 0;
+  for (const StruckPoint<Real>& at : struck) work += at.impulse * at.before + at.friction * at.sliding;
+  return work;
+}
+
+// Does the same for the present velocities.
+template <class Real>
+Real work_of(const BodyMotion<Real>* motion, std::span<const StruckPoint<Real>> struck) {
+  Real work = 0;
   for (const StruckPoint<Real>& at : struck) {
-    before += at.impulse * at.before;
-    after += at.impulse * velocity_along_normal(motion, *at.bounce->contact, at.point);
+    const ContactConstraint<Real>& c = *at.bounce->contact;
+    work += at.impulse * velocity_along_normal(motion, c, at.point);
+    if (at.friction != 0) work += at.friction * sliding_of(motion, c);
   }
+  return work;
+}
+
+// Returns the largest factor, at most 1, on a round's impulses with which they gain no energy, given their
+// work at the velocities before and after. Scaled by k they change it by k (before + k (after - before) / 2).
+template <class Real>
+Real energy_scale(Real before, Real after) {
   return before + after > 0 ? -2 * before / (after - before) : Real(1);
 }
 
-// Solves lambda >= 0 with n.v >= wanted by sequential impulses, such that no energy is gained.
+// Solves lambda >= 0 with n.v >= wanted by sequential impulses, and Coulomb's friction with it, such that no
+// energy is gained. Friction comes after the normals, which then follow it where it turns bodies: both ends
+// of what lands flat leave at their speeds.
 template <class Real>
 void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Real fastest, int& looks) {
-  bool changes = true;
-  for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
-    looks -= static_cast<int>(struck.size());
-    changes = false;
+  // Returns true if a normal impulse changes.
+  const auto press = [&] {
+    bool changes = false;
     for (StruckPoint<Real>& at : struck) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
       const Real missing = at.wanted - velocity_along_normal(motion, c, at.point);
@@ -87,28 +118,37 @@ void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Rea
       push(motion, c, at.point, change);
       at.impulse = impulse;
     }
+    return changes;
+  };
+  const auto rub = [&] {
+    for (StruckPoint<Real>& at : struck) {
+      const ContactConstraint<Real>& c = *at.bounce->contact;
+      const Real most = c.friction * at.impulse;
+      if (!(most > 0) && at.friction == 0) continue;
+      const Real friction = std::clamp(at.friction - c.tangent_mass * sliding_of(motion, c), -most, most);
+      push_along(motion, c, friction - at.friction);
+      at.friction = friction;
+    }
+  };
+  bool changes = true, rubs = false;
+  for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
+    looks -= static_cast<int>(struck.size());
+    changes = press();
   }
-  const Real scale = energy_scale<Real>(motion, struck);
+  for (StruckPoint<Real>& at : struck) rubs = rubs || at.bounce->contact->friction * at.impulse > 0;
+  changes = rubs;
+  for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
+    looks -= static_cast<int>(struck.size());
+    rub();
+    changes = press();
+  }
+  const Real scale = energy_scale(work_before<Real>(struck), work_of<Real>(motion, struck));
   if (scale == 1) return;
   for (StruckPoint<Real>& at : struck) {
     push(motion, *at.bounce->contact, at.point, (scale - 1) * at.impulse);
-    at.impulse *= scale;
+    push_along(motion, *at.bounce->contact, (scale - 1) * at.friction);
+    at.impulse *= scale, at.friction *= scale;
   }
-}
-
-// Applies friction to a point after its impact. Returns its impulse along the tangent.
-template <class Real>
-Real rub(BodyMotion<Real>* motion, const StruckPoint<Real>& at) {
-  const ContactConstraint<Real>& c = *at.bounce->contact;
-  BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
-  const Vec2<Real> t{c.normal.y, -c.normal.x};
-  const Real sliding = dot(t, b.velocity - a.velocity) + c.arm_tangent_b * b.angular_velocity -
-                       c.arm_tangent_a * a.angular_velocity - c.surface_speed;
-  const Real most = c.friction * at.impulse;
-  const Real friction = std::clamp(-c.tangent_mass * sliding, -most, most);
-  a.apply(-friction * t, -friction * c.arm_tangent_a);
-  b.apply(friction * t, friction * c.arm_tangent_b);
-  return friction;
 }
 
 template <class Real>
@@ -128,14 +168,13 @@ void shift(BodyMotion<Real>& moving, Rotation<Real>& rotation, Vec2<Real> way, R
   if (turn != 0) moving.turned += turn, rotation = turned_by(rotation, turn);
 }
 
-// Applies friction to a point after its impact and corrects the displacement. Both impulses act only from the
-// time of impact on, not over the whole substep.
+// Corrects the displacement: impulses act only from the time of impact on, not over the whole substep.
 template <class Real>
 void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
                    ImpactScratch<Real>& room) {
   const ContactConstraint<Real>& c = *at.bounce->contact;
   const Vec2<Real> t{c.normal.y, -c.normal.x};
-  const Real friction = rub(motion, at);
+  const Real friction = at.friction;
   note_impact(at);
   const Vec2<Real> way = -at.time * (at.impulse * c.normal + friction * t);
   const auto move_back = [&](int body, Real sign, Real angular) {
@@ -169,7 +208,7 @@ class JointedRound {
     for (const StruckPoint<Real>& at : struck_) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
       if (&c != last) add_block(c.body_a, c.body_b, 0);
-      ++room_.sizes.back();
+      room_.sizes.back() += c.friction > 0 ? 2 : 1;
       last = &c;
     }
     return system_.order(room_.blocks, room_.sizes) <= kJointsCost;
@@ -177,12 +216,6 @@ class JointedRound {
 
   void resolve() {
     exchange();
-    bool rubs = false;
-    for (const StruckPoint<Real>& at : struck_) rubs = (rub(motion_, at) != 0) || rubs;
-    if (rubs) {
-      add_joint_rows();
-      solve();
-    }
     for (const typename ImpactScratch<Real>::Link& link : room_.links) {
       BodyMotion<Real>& moving = motion_[link.body];
       if (!has_mass(moving)) continue;
@@ -267,14 +300,29 @@ class JointedRound {
       row.wanted = at.wanted, row.upper = std::numeric_limits<double>::infinity();
       row.block = block;
       system_.rows.push_back(row);
+      if (!(c.friction > 0)) continue;
+      row.linear_b = Vec2d{row.linear_b.y, -row.linear_b.x}, row.linear_a = -row.linear_b;
+      row.angular_a = -double(c.arm_tangent_a), row.angular_b = c.arm_tangent_b;
+      row.wanted = c.surface_speed;
+      row.lower = -c.friction * at.impulse, row.upper = -row.lower;
+      row.impulse = 0;
+      system_.rows.push_back(row);
     }
   }
 
+  // Reads the impulses of the contacts' rows, which begin with the one of index `row`.
+  void read_impulses(std::size_t row) {
+    for (StruckPoint<Real>& at : struck_) {
+      at.impulse = static_cast<Real>(system_.rows[row++].impulse);
+      if (at.bounce->contact->friction > 0) at.friction = static_cast<Real>(system_.rows[row++].impulse);
+    }
+  }
+
+  // Solves the rows from the velocities before the round.
   void solve() {
     for (std::size_t i = 0; i < room_.links.size(); ++i) {
-      const BodyMotion<Real>& from = motion_[room_.links[i].body];
-      system_.bodies[i].velocity = from.velocity.template as<double>();
-      system_.bodies[i].spin = from.angular_velocity;
+      system_.bodies[i].velocity = room_.links[i].velocity.template as<double>();
+      system_.bodies[i].spin = room_.links[i].spin;
     }
     system_.solve();
     for (std::size_t i = 0; i < room_.links.size(); ++i) {
@@ -285,16 +333,22 @@ class JointedRound {
     }
   }
 
+  // Solves normals without friction first, and then with the bounds of friction that follow from them.
   void exchange() {
-    add_joint_rows();
-    const std::size_t first = system_.rows.size();
-    add_contact_rows();
-    solve();
-    for (std::size_t i = 0; i < struck_.size(); ++i)
-      struck_[i].impulse = static_cast<Real>(system_.rows[first + i].impulse);
-    const Real scale = energy_scale<Real>(motion_, struck_);
+    constexpr int kRenewals = 4;  // of the bounds: the third changes them by 1 % where bars strike corners
+    const bool rubs = std::any_of(struck_.begin(), struck_.end(), [](const StruckPoint<Real>& at) {
+      return at.bounce->contact->friction > 0;
+    });
+    for (int renewal = 0; renewal <= (rubs ? kRenewals : 0); ++renewal) {
+      add_joint_rows();
+      const std::size_t first = system_.rows.size();
+      add_contact_rows();
+      solve();
+      read_impulses(first);
+    }
+    const Real scale = energy_scale(work_before<Real>(struck_), work_of<Real>(motion_, struck_));
     if (scale == 1) return;
-    for (StruckPoint<Real>& at : struck_) at.impulse *= scale;
+    for (StruckPoint<Real>& at : struck_) at.impulse *= scale, at.friction *= scale;
     for (const auto& link : room_.links) {
       BodyMotion<Real>& body = motion_[link.body];
       body.velocity = link.velocity + scale * (body.velocity - link.velocity);
@@ -315,6 +369,8 @@ template <class Real>
 void resolve_round(BodyMotion<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
                    ImpactScratch<Real>& room) {
   group_struck(motion, room);
+  for (StruckPoint<Real>& at : room.struck)
+    if (at.bounce->contact->friction > 0) at.sliding = sliding_of(motion, *at.bounce->contact);
   const std::span<StruckPoint<Real>> all(room.struck);
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
     while (end < all.size() && all[end].group == all[first].group) ++end;

@@ -14,11 +14,13 @@ template <class Real>
 struct StruckPoint {
   RestitutionContact<Real>* bounce = nullptr;
   int point = 0;
-  Real time = 0;     ///< s, since the start of the substep
-  Real wanted = 0;   ///< m/s, target velocity along the normal
-  Real before = 0;   ///< m/s, velocity along the normal before the round
-  Real impulse = 0;  ///< N s
-  int group = 0;     ///< the same for points that share a body, directly or through others
+  Real time = 0;      ///< s, since the start of the substep
+  Real wanted = 0;    ///< m/s, target velocity along the normal
+  Real before = 0;    ///< m/s, velocity along the normal before the round
+  Real impulse = 0;   ///< N s
+  Real friction = 0;  ///< N s, along the tangent
+  Real sliding = 0;   ///< m/s, along the tangent before the round, against the surfaces' own speed
+  int group = 0;      ///< the same for points that share a body, directly or through others
 };
 
 /// Impact times of a contact's points, for the present motion of its bodies; infinity: none.

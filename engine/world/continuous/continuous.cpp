@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "engine/core/room.h"
 #include "engine/geometry/convex_bounds.h"
+#include "engine/world/continuous/joined_stops.h"
 #include "engine/world/continuous/rebound.h"
+#include "engine/world/continuous/swept_bodies.h"
 #include "engine/world/continuous/swept_pair.h"
 #include "engine/world/continuous/toi_events.h"
 #include "engine/world/state/constants.h"
@@ -47,45 +46,6 @@ class ContactsAhead {
   std::array<int, 8> edges_;
 };
 
-// Sets the arm of a body hinged to a non-dynamic one: it moves on an arc about the hinge, not on a straight
-// line.
-template <class Real>
-void set_arm(const WorldData<Real>& w, SweptBody& flight) {
-  const BodyRecord<Real>& record = w.bodies[flight.body];
-  if (record.type != BodyType::Dynamic || flight.turn == 0 || record.lock_x || record.lock_y) return;
-  for_each_edge(w.joints, record.first_joint, [&](int edge, const JointRecord& joint) {
-    const bool is_a = (edge & 1) == 0;
-    if (!joint.active || w.is_dynamic(is_a ? joint.body_b : joint.body_a)) return;
-    const auto* hinge = std::get_if<RevoluteDefinition>(&w.joint_set.definition(joint.slot));
-    if (hinge != nullptr)
-      flight.arm = (is_a ? hinge->anchor_a : hinge->anchor_b) - record.centre.template as<double>();
-  });
-}
-
-// Stores the whole swept AABB of a fast body in the tree, so that queries of others find it.
-template <class Real>
-void insert_swept_aabb(WorldData<Real>& w, SweptBody& flight) {
-  const int body = flight.body;
-  flight.shown = true;
-  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    if (w.shapes[shape].proxy == kNone) continue;
-    DynamicTree<Real>& tree = w.tree_of(w.bodies[body].type);
-    tree.enlarge(w.shapes[shape].proxy, merged(way_of(w, flight), tree.box(w.shapes[shape].proxy)));
-  }
-}
-
-// Restores the fat AABB, and adds the shapes to the move buffer.
-template <class Real>
-void restore_fat_aabb(WorldData<Real>& w, int body, Real dt) {
-  for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    if (w.shapes[shape].proxy == kNone) continue;
-    w.tree_of(w.bodies[body].type).enlarge(w.shapes[shape].proxy, fat_aabb(w, shape, dt));
-    w.enlarged[body] = 1;
-    if (!w.shapes[shape].moved) append(w.move_buffer, shape);
-    w.shapes[shape].moved = true;
-  }
-}
-
 // Orders a heap with the earliest time of impact on top. No two entries are equal.
 bool is_later(const ToiEvent& a, const ToiEvent& b) {
   return a.fraction != b.fraction ? a.fraction > b.fraction
@@ -102,19 +62,6 @@ void expect(WorldData<Real>& w, const ToiEvent& meeting) {
 template <class Real>
 void look_ahead(WorldData<Real>& w, int place, double from, ImpactSearch& search) {
   expect(w, first_toi_event(w, place, from, search));
-}
-
-// Returns the index of a body's flight. If it has none, adds one with the motion that the solver found.
-template <class Real>
-int flight_place(WorldData<Real>& w, int body, double dt) {
-  int& place = w.scratch.swept_body_places[body];
-  if (place == kNone) {
-    place = static_cast<int>(w.scratch.swept_bodies.size());
-    w.scratch.swept_bodies.push_back(flight_of(w, body, dt));
-    set_arm(w, w.scratch.swept_bodies.back());
-    w.scratch.swept_bodies.back().covered = true;
-  }
-  return place;
 }
 
 // Returns the flight of the body that is hit, or null if the body is static.
@@ -178,98 +125,6 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
     });
   }
   queue.clear();
-}
-
-// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. The
-// solver lists bodies in the order of `awake`; what is not among them flies freely, by the mean of its
-// velocities.
-template <class Real>
-double twice_work_on(const WorldData<Real>& w, int body, double dt) {
-  const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
-  const BodyMotion<Real>& motion = w.motion[body];
-  const BodyRecord<Real>& record = w.bodies[body];
-  const auto work = [&](Vec2<Real> gain, Real spin_gain) {
-    return 2 * static_cast<double>(record.mass * dot(gain, motion.moved) +
-                                   record.inertia * spin_gain * motion.turned);
-  };
-  const auto place_of = [&](int each) { return w.bodies[each].awake_index; };
-  const auto found = std::lower_bound(
-      kicks.begin(), kicks.end(), place_of(body),
-      [&](const VelocityIncrement<Real>& kick, int place) { return place_of(kick.body) < place; });
-  if (found != kicks.end() && found->body == body) return work(found->velocity, found->spin) / w.last_h;
-  const Real inverse = static_cast<Real>(1 / dt);
-  return 2 *
-         work(motion.velocity - inverse * motion.moved, motion.angular_velocity - inverse * motion.turned) /
-         dt;
-}
-
-// Takes from bodies that are stopped together at a fraction of the step the work of forces in the rest of it:
-// these do none on what does not move. Otherwise a mechanism that hangs on what stops it would fall faster
-// from step to step without falling. What contacts have given them stays, with its momentum.
-template <class Real>
-void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt) {
-  double work = 0, after = 0;
-  for (const int place : places) {
-    const int body = w.scratch.swept_bodies[place].body;
-    if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is that after an impact
-    const BodyRecord<Real>& record = w.bodies[body];
-    const BodyMotion<Real>& motion = w.motion[body];
-    work += twice_work_on(w, body, dt);
-    after += static_cast<double>(record.mass * length_squared(motion.velocity) +
-                                 record.inertia * motion.angular_velocity * motion.angular_velocity);
-  }
-  const double most = after - (1 - fraction) * work;
-  if (!(work > 0 && most >= 0)) return;
-  const Real keep = static_cast<Real>(std::sqrt(most / after));
-  for (const int place : places) {
-    BodyMotion<Real>& motion = w.motion[w.scratch.swept_bodies[place].body];
-    motion.velocity *= keep, motion.angular_velocity *= keep;
-  }
-}
-
-// Sets how far bodies that are to be stopped together have to move for their joints to be as they are between
-// the step's ends. Each was followed along its own way, turning uniformly, which opens a joint by an arm
-// times the turn squared. The first body stays where it is, and the others follow it from joint to joint.
-template <class Real>
-void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double fraction) {
-  std::vector<SweptBody>& flights = w.scratch.swept_bodies;
-  for (std::size_t next = 0; next < places.size(); ++next) {
-    SweptBody& flight = flights[places[next]];
-    flight.shift = {};
-    if (next == 0 || flight.changed || flight.arm != Vec2d{}) continue;
-    for_each_edge(w.joints, w.bodies[flight.body].first_joint, [&](int edge, const JointRecord& joint) {
-      const bool is_a = (edge & 1) == 0;
-      const int other_place = w.scratch.swept_body_places[is_a ? joint.body_b : joint.body_a];
-      const auto placed = places.begin() + static_cast<std::ptrdiff_t>(next);
-      if (!joint.active || flight.shift != Vec2d{} ||
-          std::find(places.begin(), placed, other_place) == placed)
-        return;
-      const SweptBody& other = flights[other_place];
-      Vec2d arm = w.bodies[flight.body].centre.template as<double>(),
-            other_arm = w.bodies[other.body].centre.template as<double>();
-      const bool holds = std::visit(
-          [&](const auto& kind) {
-            if constexpr (requires { kind.anchor_a; }) {
-              arm = (is_a ? kind.anchor_a : kind.anchor_b) - arm;
-              other_arm = (is_a ? kind.anchor_b : kind.anchor_a) - other_arm;
-              return true;
-            }
-            return false;
-          },
-          w.joint_set.definition(joint.slot));
-      if (!holds) return;
-      // Between the anchors, in the other body's frame.
-      const auto between = [&](double at) {
-        const Vec2d way = flight.start_at(at) + flight.rotation_at(at) * arm - other.start_at(at);
-        return other.rotation_at(at).inverse() * way - other_arm;
-      };
-      const Vec2d wanted = (1 - fraction) * between(0) + fraction * between(1);
-      flight.shift = other.shift + other.rotation_at(fraction) * (wanted - between(fraction));
-      const BodyLocks locks = w.bodies[flight.body].locks();
-      if (locks.x) flight.shift.x = 0;
-      if (locks.y) flight.shift.y = 0;
-    });
-  }
 }
 
 // Stops a body and all bodies connected to it by joints, so that they stay together. Those that have to move

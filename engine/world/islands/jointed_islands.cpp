@@ -31,6 +31,9 @@ class RowMaker {
 
   void make() {
     island_.system.rows.clear(), island_.ties.clear();
+    // Friction holds loads as it came to do so. Joints alone share redundant loads evenly.
+    remembers_ = hold_ && std::any_of(island_.contacts.begin(), island_.contacts.end(),
+                                      [](const ContactConstraint<Real>* c) { return c->friction > 0; });
     for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_)
       add_joint(island_.joints[block_]);
     island_.contact_row = static_cast<int>(island_.ties.size());
@@ -71,6 +74,7 @@ class RowMaker {
     const double guess = island_.impulses[place], applied = hold_ ? 0 : guess;
     row.lower = lower - applied, row.upper = upper - applied;
     row.state = state_of(guess, lower, upper);
+    row.impulse = remembers_ ? guess : 0;
     row.wanted -= row.compliance * applied;
     island_.system.rows.push_back(row);
     island_.ties.push_back(tie);
@@ -188,13 +192,20 @@ class RowMaker {
   const double h_;
   const bool hold_, close_;
   int block_ = 0;
-  bool rigid_ = false;
+  bool rigid_ = false, remembers_ = false;
 };
 
 // Updates bounds that depend on other impulses: Coulomb friction, and pairs of rows bounded as a vector.
-// Returns true if a bound has changed so much that another solve is needed.
+// Returns true if a bound has changed so much that another solve is needed. Bounds of friction go a part of
+// the way: where friction decides the pressure of other contacts (a belt round a drum), bounds that follow it
+// all the way make it swing for ever.
 template <class Real>
-bool renew_bounds(JointedIsland<Real>& island, bool hold) {
+bool renew_bounds(JointedIsland<Real>& island, bool hold, int pass) {
+  // Of 210 belts of 2 to 16 links (masses 1:1 to 1:500, at 0.3 to 0.98 of what friction holds) 7 creep by
+  // more than 1e-8 m/s, by 7e-4 m/s at most. Renewed once and all the way 176 creep, by up to 0.14 m/s; 8
+  // times by a half 17, 24 times by a half 10; 32 times by a fifth none, but a bound that begins takes all of
+  // them.
+  const double follow = pass < 8 ? 0.5 : 0.2;
   bool changed = false;
   auto& rows = island.system.rows;
   const auto total = [&](int i) { return rows[i].impulse + (hold ? 0 : island.impulses[i]); };
@@ -213,7 +224,8 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold) {
     if (tie.first >= 0) {
       double pressure = 0;
       for (int k = 0; k < tie.count; ++k) pressure += std::max(total(tie.first + k), 0.0);
-      set(i, tie.friction * pressure);
+      const double last = rows[i].upper + (hold ? 0 : island.impulses[i]);
+      set(i, last + follow * (tie.friction * pressure - last));
     } else if (tie.pair && tie.most < std::numeric_limits<Real>::infinity()) {
       const double x = total(i - 1), y = total(i), size = std::hypot(x, y), most = tie.most;
       if (size > most * 1.001) set(i - 1, most * std::abs(x) / size), set(i, most * std::abs(y) / size);
@@ -224,7 +236,7 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold) {
 
 template <class Real>
 void solve(JointedIsland<Real>& island, bool hold) {
-  constexpr int kRenewals = 1;
+  constexpr int kRenewals = 32;
   const auto load = [&] {
     for (std::size_t i = 0; i < island.links.size(); ++i) {
       BoundedBody& body = island.system.bodies[i];
@@ -233,7 +245,7 @@ void solve(JointedIsland<Real>& island, bool hold) {
   };
   load();
   island.system.solve();
-  for (int i = 0; i < kRenewals && renew_bounds(island, hold); ++i) {
+  for (int i = 0; i < kRenewals && renew_bounds(island, hold, i); ++i) {
     load();
     island.system.solve();
   }

@@ -193,6 +193,7 @@ void unpark_contact(WorldData<Real>& w, int contact) {
     enter_near(w, contact);
   } else if (record.home == ContactHome::Parked) {
     const int parked = record.index;
+    if (w.stepping) append(w.scratch.unparked, contact);
     const ContactConstraint<Real> constraint = w.parked[parked];
     enter_graph(w, contact, constraint);
     leave_parked(w, parked);

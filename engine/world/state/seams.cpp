@@ -45,7 +45,9 @@ Side<Real> side_of(const WorldData<Real>& w, const ContactRecord& contact, bool 
   touched.normal = of_b ? -(to_b.rotation * manifold.normal) : manifold.normal;
   touched.count = manifold.count;
   const Convex<Real> mover = w.convex(side.mover);
-  const Vec2<Real> middle = Real(0.5) * (mover.corners[0].point + mover.corners[mover.count / 2].point);
+  Vec2<Real> middle{};
+  for (int i = 0; i < mover.count; ++i)
+    middle += (1 / static_cast<Real>(mover.count)) * mover.corners[i].point;
   const Pose<Real> from = of_b ? to_b : b_in_a;
   touched.mover = from.position + from.rotation * middle;
   Real least = manifold.points[0].separation, size = 0;
@@ -164,6 +166,14 @@ ContactManifold<Real> on_face(const WorldData<Real>& w, const ContactRecord& con
   return seen_from_other(found, b_in_a);
 }
 
+// Returns the least separation of a manifold's points, 0 if none overlaps.
+template <class Real>
+Real deepest_of(const ContactManifold<Real>& manifold) {
+  Real deepest = 0;
+  for (int k = 0; k < manifold.count; ++k) deepest = std::min(deepest, manifold.points[k].separation);
+  return deepest;
+}
+
 // Returns true if the contact's bodies slide along a face of one of them rather than approach it. If four
 // corners meet in a point, each body could belong to a surface with an internal edge there; the motion
 // decides which.
@@ -245,9 +255,12 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     if (sides[i].answer.kind != Kind::Face) continue;
     if (w.is_dynamic(sides[i].body) && !slides_along(w, contact, sides[i])) continue;
     const ContactManifold<Real> found = on_face(w, contact, sides[i], b_in_a, reach);
-    Real deepest = 0;
-    for (int k = 0; k < found.count; ++k) deepest = std::min(deepest, found.points[k].separation);
-    return deepest < -widest ? manifold : found;
+    if (found.count == 0) {
+      // Nothing in front of the face: a body that lies in the shape keeps a contact.
+      const bool overlaps = deepest_of(manifold) < -2 * sides[i].touched.tolerance;
+      return overlaps ? manifold : found;
+    }
+    return deepest_of(found) < -widest ? manifold : found;
   }
   return manifold;
 }

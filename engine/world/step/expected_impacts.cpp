@@ -77,20 +77,21 @@ Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   return first;
 }
 
-// Leaves bodies whose first impact is with two or more dynamic bodies at once to the solver, which resolves
-// simultaneous impacts together. Impacts one after the other are placed at their times in flight: those
-// after a body's first may not come about, or at another time. Without restitution bodies stay together and
-// press on others within the step, which contacts alone pass on: such impacts with several are the solver's.
+// Leaves bodies whose first impact is with two or more others at once to the solver, which resolves
+// simultaneous impacts together: a bar that falls flat on two posts leaves both at its speed. Impacts one
+// after the other are placed at their times in flight: those after a body's first may not come about, or at
+// another time. Without restitution dynamic bodies stay together and press on others within the step, which
+// contacts alone pass on: such impacts with several are the solver's.
 template <class Real>
 void leave_simultaneous(WorldData<Real>& w, Real dt) {
   std::vector<char>& met = w.scratch.expecting;
   std::vector<Real>& earliest = w.scratch.impacts.earliest;  // by body
   if (earliest.size() < w.motion.size()) make_room(earliest, static_cast<int>(w.motion.size()));
-  const auto is_dynamic = [&](const ContactConstraint<Real>& c) {
-    return w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
+  const auto counts = [&](const ContactConstraint<Real>& c) {
+    return c.restitution > 0 || (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b));
   };
   for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
-    if (!is_dynamic(impact.constraint)) continue;
+    if (!counts(impact.constraint)) continue;
     const Real time = time_until(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
       const bool first = met.size() <= static_cast<std::size_t>(body) || !met[body];
@@ -101,7 +102,7 @@ void leave_simultaneous(WorldData<Real>& w, Real dt) {
   for (const int body : w.scratch.expecting_bodies) met[body] = 0;
   w.scratch.expecting_bodies.clear();
   for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
-    if (!is_dynamic(impact.constraint)) continue;
+    if (!counts(impact.constraint)) continue;
     const Real time = time_until(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
       if (impact.constraint.restitution > 0 && time > earliest[body] + Real(kAtOnce) * dt) continue;

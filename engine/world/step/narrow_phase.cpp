@@ -5,7 +5,6 @@
 
 #include "engine/collision/manifold/contact_manifold.h"
 #include "engine/core/room.h"
-#include "engine/math/small_turn.h"
 #include "engine/scene/error.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
@@ -14,23 +13,13 @@
 #include "engine/world/state/sleeping.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/lasting_contact.h"
+#include "engine/world/step/recycled_manifold.h"
 #include "engine/world/step/speculative_contact.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
 namespace {
-
-// Returns the speculative margin: a fraction of the smaller shape's extent, plus the possible approach in the
-// step.
-template <class Real>
-Real speculative_margin(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b,
-                        Real dt) {
-  const Real smaller = std::min(extent_a, extent_b);
-  const Real closing = dt * (size_of(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
-                             std::abs(b.angular_velocity) * extent_b);
-  return Real(tuning::kSpeculativeMargin) * smaller +
-         std::min(closing, Real(tuning::kSpeculativeMarginMost) * smaller);
-}
 
 // Returns true if the fat AABBs do not overlap. Tests the tight ones first: these lie in the fat ones, and
 // are already loaded.
@@ -41,72 +30,6 @@ bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
     return w.tree_of(w.bodies[body].type).box(w.shapes[shape].proxy);
   };
   return !stored(contact.shape_a, contact.body_a).overlaps(stored(contact.shape_b, contact.body_b));
-}
-
-// Builds a speculative constraint at the predicted impact; separations are the present ones.
-template <class Real>
-void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                 const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
-                                 Real (&impulse)[2]) {
-  prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, impulse);
-  const Real closed = dot(c.normal, at.closed);
-  for (int i = 0; i < c.count; ++i)
-    c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
-}
-
-// Builds the constraint of shapes that are apart and meet in the step. A point that its tangent, followed
-// back to the start, would put inside of the other shape was not there: no overlap is to be pushed out.
-template <class Real>
-void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
-                     const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]) {
-  prepare_speculative_contact(w, contact, at, c, impulse);
-  for (int i = 0; i < c.count; ++i) c.separation[i] = std::max(c.separation[i], Real(0));
-}
-
-// rad, turn of a body in a step up to which its manifolds are recycled: the series below then leave 1e-9 of
-// an arm.
-constexpr double kRecycleTurn = 1.0 / 32;
-
-// Recycles the manifold of bodies that move as one, as the filling of a drum: turns it with body a, and
-// charges only what b has moved against a. Returns false if that is too much.
-// Not inlined: contacts at rest would pay for its registers.
-template <class Real>
-[[gnu::noinline]] bool turn_manifold(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_b,
-                                     ContactConstraint<Real>& c) {
-  const Vec2<Real> shift = b.moved - a.moved, n = c.normal;
-  // Sine of a's turn, and 1 less its cosine.
-  const Real turn = a.turned, squared = turn * turn;
-  const Real sine = turn - turn * squared * (Real(1) / 6);
-  const Real bend = Real(0.5) * squared * (1 - squared * (Real(1) / 12));
-  const Vec2<Real> after{n.x - sine * n.y - bend * n.x, n.y + sine * n.x - bend * n.y};
-  // The mean of the normals before and after. Turned together the bodies keep the arms and move by a chord:
-  // `middle` times that is the sine times the arms' difference.
-  const Vec2<Real> middle = Real(0.5) * (n + after);
-  const Real relative_turn = b.turned - turn;
-  const Real closed = dot(middle, shift) + (c.arm_b[0] - c.arm_a[0]) * sine;
-  const Real slid = cross(middle, shift) - (c.arm_tangent_b - c.arm_tangent_a) * sine;
-  c.recycle_budget -= std::abs(closed) + std::abs(slid) + std::abs(relative_turn) * extent_b;
-  if (c.recycle_budget < 0 || std::abs(turn) > Real(kRecycleTurn)) return false;
-  c.normal = after;
-  for (int i = 0; i < c.count; ++i) c.separation[i] += closed + c.arm_b[i] * relative_turn;
-  return true;
-}
-
-// Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
-// that. What they have left of the budget is first spent on all of their motion, with the normal as it is: a
-// normal that follows each tremor of a light body swings the load of a heavy one on it.
-template <class Real>
-bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
-  const Vec2<Real> shift = b.moved - a.moved;
-  const Real all = size_of(shift) + std::abs(a.turned) * extent_a + std::abs(b.turned) * extent_b;
-  if (!(all <= c.recycle_budget)) return turn_manifold(a, b, extent_b, c);
-  c.recycle_budget -= all;
-  const Real closed = dot(c.normal, shift);
-  for (int i = 0; i < c.count; ++i) {
-    c.separation[i] += closed + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
-  }
-  return true;
 }
 
 // Updates the load estimate: most of a load, and all of it if the load pressed the shapes into each other.
@@ -245,104 +168,6 @@ template <class Real, class IdAt>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
 }
 
-// Deviation of a body's turning points from their tangents in half a step, as a fraction of its half width,
-// up to which contacts are taken at the middle of the step. Continuous collision stops bodies that are deeper
-// than half of it between the step's ends.
-constexpr double kLastingBend = 1.0 / 64;
-
-// Returns the contact at the middle of the step, if the bodies go on as they move and turn little enough.
-template <class Real>
-SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
-  SpeculativeContact<Real> at;
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Real half = Real(0.5) * dt;
-  at.closed = half * (b.velocity - a.velocity);
-  at.turned_a = half * a.angular_velocity, at.turned_b = half * b.angular_velocity;
-  const auto bends = [&](int body, Real turn) {
-    return w.is_dynamic(body) &&
-           Real(0.5) * turn * turn * w.extents[body] > Real(kLastingBend) * w.bodies[body].half_width;
-  };
-  if (bends(contact.body_a, at.turned_a) || bends(contact.body_b, at.turned_b)) return at;
-  at.between = between_bodies(w, contact) + at.closed;
-  at.rotation = turned_by(w.rotation[contact.body_a], at.turned_a);
-  const Rotation<Real> to_a = at.rotation.inverse(), q = turned_by(w.rotation[contact.body_b], at.turned_b);
-  const Pose<Real> b_in_a{to_a * at.between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
-  const Real reach =
-      speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-  at.manifold = collide_shapes(w, contact, b_in_a, reach, size_of(at.closed));
-  return at;
-}
-
-// Returns a lasting contact at the middle of the step: points that press then neither part nor close by more
-// than a recycled manifold tolerates. Normal and arms turn within the step, as where a disc rolls over
-// another or a block pivots on its corner. Those of the middle leave an error of second order; with those of
-// the start, forces would lag by half a step.
-template <class Real>
-SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                         const ContactConstraint<Real>& c, Real dt) {
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
-  const Real half = Real(0.5) * dt, near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
-  const Real along = half * dot(c.normal, b.velocity - a.velocity);
-  bool lasts = false;
-  Real deepest = 0;
-  for (int i = 0; i < c.count; ++i) {
-    deepest = std::min(deepest, c.now[i]);
-    if (c.now[i] > near) continue;
-    const Real change = along + half * (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
-    if (std::abs(change) > near) return {};
-    lasts = true;
-  }
-  if (!lasts) return {};
-  SpeculativeContact<Real> at = contact_at_middle(w, contact, dt);
-  for (int i = 0; i < at.manifold.count; ++i)
-    if (at.manifold.points[i].separation < deepest - near) return {};
-  return at;
-}
-
-// Returns true if shapes without a contact may touch at the middle of the step, sliding rather than
-// approaching: their distance along the present normal is a bound. Without points they are farther apart than
-// they may approach, unless the speculative margin is too small for that.
-template <class Real>
-bool may_arrive(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
-                Real near, Real dt) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Vec2<Real> closed = Real(0.5) * dt * (b.velocity - a.velocity);
-  const Real turned = Real(0.5) * dt *
-                      (std::abs(a.angular_velocity) * w.extents[contact.body_a] +
-                       std::abs(b.angular_velocity) * w.extents[contact.body_b]);
-  if (manifold.count == 0)
-    return size_of(closed) + turned >
-           Real(0.5 * tuning::kSpeculativeMarginMost / tuning::kRecycleDistance) * near;
-  Real apart = manifold.points[0].separation;
-  if (manifold.count == 2) apart = std::min(apart, manifold.points[1].separation);
-  const Real along = dot(w.rotation[contact.body_a] * manifold.normal, closed);
-  return std::abs(along) <= near + turned && apart <= near + turned;
-}
-
-// Returns the contact with a surface that a loaded body slides onto, at the middle of the step: what
-// supports it by then does so together with the lasting contacts of that time.
-template <class Real>
-SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                          const ContactManifold<Real>& manifold, Real dt) {
-  if (w.scratch.loaded[contact.body_a] == 0 && w.scratch.loaded[contact.body_b] == 0) return {};
-  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
-  const Real near = Real(tuning::kRecycleDistance) * smaller;
-  if (!may_arrive(w, contact, manifold, near, dt)) return {};
-  SpeculativeContact<Real> at = contact_at_middle(w, contact, dt);
-  bool touches = false;
-  const Vec2<Real> n = at.rotation * at.manifold.normal;
-  for (int i = 0; i < at.manifold.count; ++i) {
-    const ContactManifoldPoint<Real>& point = at.manifold.points[i];
-    if (point.separation > near) continue;
-    const Vec2<Real> arm = at.rotation * point.point;
-    const Real closed =
-        dot(n, at.closed) + cross(arm - at.between, n) * at.turned_b - cross(arm, n) * at.turned_a;
-    if (std::abs(closed) > near || point.separation < -near) return {};
-    touches = true;
-  }
-  return touches ? at : SpeculativeContact<Real>{};
-}
-
 // Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight if
 // it gets none.
 template <class Real>
@@ -375,20 +200,7 @@ int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
 template <class Real>
 bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt, Real h,
            ContactConstraint<Real>& c) {
-  if (const SpeculativeContact<Real> lasting = lasting_contact(w, contact, c, dt);
-      lasting.manifold.count > 0) {
-    const Real deepest = std::min({c.now[0], c.count == 2 ? c.now[1] : Real(0), Real(0)});
-    prepare_speculative_contact(w, contact, lasting, c, c.now);
-    // Points leave their tangents on the way back to the start. What that may be is no overlap to push out.
-    const auto bend = [&](int body, int shape, Real turn) {
-      return Real(0.5) * turn * turn * std::max(w.extents[body] - w.forms[shape].radius, Real(0));
-    };
-    const Real bends = bend(contact.body_a, contact.shape_a, lasting.turned_a) +
-                       bend(contact.body_b, contact.shape_b, lasting.turned_b);
-    for (int i = 0; i < c.count; ++i)
-      if (c.separation[i] < deepest) c.separation[i] = std::min(deepest, c.separation[i] + bends);
-    return true;
-  }
+  if (renew_lasting(w, contact, dt, c)) return true;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.outlook == Outlook::Meets) {
@@ -625,13 +437,24 @@ void enter(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   if (touching || w.contacts[id].touching) update_touching(w, constraint_of(w, w.contacts[id]), touching);
 }
 
+// Begins the step of contacts whose bodies this update has woken: what strikes a sleeper may throw it at what
+// it lies beside within the step.
+template <class Real>
+void begin_unparked(WorldData<Real>& w, Real dt) {
+  for (const int id : w.scratch.unparked) {
+    if (w.contacts[id].home != ContactHome::Graph) continue;
+    if (begin_step(w, constraint_of(w, w.contacts[id]), dt)) append(w.scratch.bouncing, id);
+  }
+  w.scratch.unparked.clear();
+}
+
 }  // namespace
 
 template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
-  scratch.bouncing.clear(), scratch.parted_contacts.clear();
+  scratch.bouncing.clear(), scratch.parted_contacts.clear(), scratch.unparked.clear();
   clear_expected_impacts(w);
   if (w.near.empty() && w.graph.empty()) return;
   try {
@@ -658,6 +481,7 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
     }
   });
   for (const ContactConstraint<Real>& c : scratch.left_impacts) enter(w, c);
+  begin_unparked(w, dt);
 }
 
 template <class Real>

@@ -158,9 +158,33 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
   return speculative_contact_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
 }
 
-template SpeculativeContact<float> find_speculative_contact(const WorldData<float>&, const ContactRecord&,
-                                                            const ContactManifold<float>&, float, float);
-template SpeculativeContact<double> find_speculative_contact(const WorldData<double>&, const ContactRecord&,
-                                                             const ContactManifold<double>&, double, double);
+template <class Real>
+void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                 const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
+                                 Real (&impulse)[2]) {
+  prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, impulse);
+  const Real closed = dot(c.normal, at.closed);
+  for (int i = 0; i < c.count; ++i)
+    c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
+}
+
+template <class Real>
+void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
+                     const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]) {
+  prepare_speculative_contact(w, contact, at, c, impulse);
+  for (int i = 0; i < c.count; ++i) c.separation[i] = std::max(c.separation[i], Real(0));
+}
+
+#define PLUMB_FOR(Real)                                                                                    \
+  template SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>&, const ContactRecord&, \
+                                                             const ContactManifold<Real>&, Real, Real);    \
+  template void prepare_speculative_contact(const WorldData<Real>&, const ContactRecord&,                  \
+                                            const SpeculativeContact<Real>&, ContactConstraint<Real>&,     \
+                                            Real(&)[2]);                                                   \
+  template void prepare_meeting(const WorldData<Real>&, const ContactRecord&,                              \
+                                const SpeculativeContact<Real>&, ContactConstraint<Real>&, Real(&)[2]);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
 
 }  // namespace plumb

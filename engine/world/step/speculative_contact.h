@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/state/constants.h"
 #include "engine/world/world_data.h"
 
 namespace plumb {
@@ -41,5 +44,30 @@ template <class Real>
 SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                                   const ContactManifold<Real>& closest, Real dt,
                                                   Real substep);
+
+/// Returns the speculative margin: a fraction of the smaller shape's extent, plus the possible approach in
+/// the step.
+template <class Real>
+Real speculative_margin(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b,
+                        Real dt) {
+  const Real smaller = std::min(extent_a, extent_b);
+  const Real closing = dt * (size_of(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
+                             std::abs(b.angular_velocity) * extent_b);
+  return Real(tuning::kSpeculativeMargin) * smaller +
+         std::min(closing, Real(tuning::kSpeculativeMarginMost) * smaller);
+}
+
+/// Builds a speculative constraint at the predicted impact; separations are the present ones. `impulse` gets
+/// the impulses that points keep.
+template <class Real>
+void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                 const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
+                                 Real (&impulse)[2]);
+
+/// Does so for shapes that are apart and meet in the step. A point that its tangent, followed back to the
+/// start, would put inside of the other shape was not there: no overlap is to be pushed out.
+template <class Real>
+void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
+                     const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]);
 
 }  // namespace plumb

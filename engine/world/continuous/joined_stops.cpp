@@ -1,0 +1,107 @@
+#include "engine/world/continuous/joined_stops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "engine/world/state/contacts.h"
+
+namespace plumb {
+namespace {
+
+// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. The
+// solver lists bodies in the order of `awake`; what is not among them flies freely, by the mean of its
+// velocities.
+template <class Real>
+double twice_work_on(const WorldData<Real>& w, int body, double dt) {
+  const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
+  const BodyMotion<Real>& motion = w.motion[body];
+  const BodyRecord<Real>& record = w.bodies[body];
+  const auto work = [&](Vec2<Real> gain, Real spin_gain) {
+    return 2 * static_cast<double>(record.mass * dot(gain, motion.moved) +
+                                   record.inertia * spin_gain * motion.turned);
+  };
+  const auto place_of = [&](int each) { return w.bodies[each].awake_index; };
+  const auto found = std::lower_bound(
+      kicks.begin(), kicks.end(), place_of(body),
+      [&](const VelocityIncrement<Real>& kick, int place) { return place_of(kick.body) < place; });
+  if (found != kicks.end() && found->body == body) return work(found->velocity, found->spin) / w.last_h;
+  const Real inverse = static_cast<Real>(1 / dt);
+  return 2 *
+         work(motion.velocity - inverse * motion.moved, motion.angular_velocity - inverse * motion.turned) /
+         dt;
+}
+
+}  // namespace
+
+template <class Real>
+void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt) {
+  double work = 0, after = 0;
+  for (const int place : places) {
+    const int body = w.scratch.swept_bodies[place].body;
+    if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is that after an impact
+    const BodyRecord<Real>& record = w.bodies[body];
+    const BodyMotion<Real>& motion = w.motion[body];
+    work += twice_work_on(w, body, dt);
+    after += static_cast<double>(record.mass * length_squared(motion.velocity) +
+                                 record.inertia * motion.angular_velocity * motion.angular_velocity);
+  }
+  const double most = after - (1 - fraction) * work;
+  if (!(work > 0 && most >= 0)) return;
+  const Real keep = static_cast<Real>(std::sqrt(most / after));
+  for (const int place : places) {
+    BodyMotion<Real>& motion = w.motion[w.scratch.swept_bodies[place].body];
+    motion.velocity *= keep, motion.angular_velocity *= keep;
+  }
+}
+
+template <class Real>
+void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double fraction) {
+  std::vector<SweptBody>& flights = w.scratch.swept_bodies;
+  for (std::size_t next = 0; next < places.size(); ++next) {
+    SweptBody& flight = flights[places[next]];
+    flight.shift = {};
+    if (next == 0 || flight.changed || flight.arm != Vec2d{}) continue;
+    for_each_edge(w.joints, w.bodies[flight.body].first_joint, [&](int edge, const JointRecord& joint) {
+      const bool is_a = (edge & 1) == 0;
+      const int other_place = w.scratch.swept_body_places[is_a ? joint.body_b : joint.body_a];
+      const auto placed = places.begin() + static_cast<std::ptrdiff_t>(next);
+      if (!joint.active || flight.shift != Vec2d{} ||
+          std::find(places.begin(), placed, other_place) == placed)
+        return;
+      const SweptBody& other = flights[other_place];
+      Vec2d arm = w.bodies[flight.body].centre.template as<double>(),
+            other_arm = w.bodies[other.body].centre.template as<double>();
+      const bool holds = std::visit(
+          [&](const auto& kind) {
+            if constexpr (requires { kind.anchor_a; }) {
+              arm = (is_a ? kind.anchor_a : kind.anchor_b) - arm;
+              other_arm = (is_a ? kind.anchor_b : kind.anchor_a) - other_arm;
+              return true;
+            }
+            return false;
+          },
+          w.joint_set.definition(joint.slot));
+      if (!holds) return;
+      // Between the anchors, in the other body's frame.
+      const auto between = [&](double at) {
+        const Vec2d way = flight.start_at(at) + flight.rotation_at(at) * arm - other.start_at(at);
+        return other.rotation_at(at).inverse() * way - other_arm;
+      };
+      const Vec2d wanted = (1 - fraction) * between(0) + fraction * between(1);
+      flight.shift = other.shift + other.rotation_at(fraction) * (wanted - between(fraction));
+      const BodyLocks locks = w.bodies[flight.body].locks();
+      if (locks.x) flight.shift.x = 0;
+      if (locks.y) flight.shift.y = 0;
+    });
+  }
+}
+
+#define PLUMB_FOR(Real)                                                                       \
+  template void take_unmoved_work(WorldData<Real>&, const std::vector<int>&, double, double); \
+  template void find_shifts(WorldData<Real>&, const std::vector<int>&, double);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb
