@@ -230,8 +230,8 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
 }
 
 // Returns true if nothing in an island moves faster than forces make it in 8 substeps: friction then decides
-// what stays at rest, else only how fast it slows. With 1, one belt in 300 creeps; without a limit bodies in a
-// drum would cost three times as much.
+// what stays at rest, else only how fast it slows. With 1, one belt in 300 creeps; without a limit bodies in
+// a drum would cost three times as much.
 template <class Real>
 bool may_rest(const JointedIsland<Real>& island, bool hold) {
   double speed = 0, gain = 0;
