@@ -136,11 +136,10 @@ void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Rea
     changes = press();
   }
   for (StruckPoint<Real>& at : struck) rubs = rubs || at.bounce->contact->friction * at.impulse > 0;
-  changes = rubs;
-  for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
+  if (rubs) rub();
+  for (int sweep = 0; rubs && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
     looks -= static_cast<int>(struck.size());
-    rub();
-    changes = press();
+    rubs = press();
   }
   const Real scale = energy_scale(work_before<Real>(struck), work_of<Real>(motion, struck));
   if (scale == 1) return;
@@ -335,7 +334,7 @@ class JointedRound {
 
   // Solves normals without friction first, and then with the bounds of friction that follow from them.
   void exchange() {
-    constexpr int kRenewals = 4;  // of the bounds: the third changes them by 1 % where bars strike corners
+    constexpr int kRenewals = 1;  // of the bounds; each costs a solution
     const bool rubs = std::any_of(struck_.begin(), struck_.end(), [](const StruckPoint<Real>& at) {
       return at.bounce->contact->friction > 0;
     });
