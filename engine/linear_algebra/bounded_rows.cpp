@@ -37,6 +37,21 @@ double coupling(std::span<const BoundedBody> bodies, const BoundedRow& r, const 
   return sum;
 }
 
+// Returns the mobility of a row, J M^-1 J^T: 0 where axes are locked along it but for the rounding of its
+// direction, whose square may be as small as numbers get.
+double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {
+  constexpr double kRounding = 1e-30;
+  const double along = coupling(bodies, row, row);
+  const auto most = [](const BoundedBody& body, Vec2d linear, double angular) {
+    return std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear) +
+           body.inverse_inertia * angular * angular;
+  };
+  const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
+  if (a.inverse_mass.x == a.inverse_mass.y && b.inverse_mass.x == b.inverse_mass.y) return along;
+  const double bound = most(a, row.linear_a, row.angular_a) + most(b, row.linear_b, row.angular_b);
+  return along > kRounding * bound ? along : 0;
+}
+
 // Couples a row with `count` rows of another block, all of which have the same bodies.
 void couple(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow* s, int count,
             double* out) {
@@ -129,7 +144,7 @@ void BoundedRows::find_mobility() {
   block_first_.assign(blocks + 1, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const BoundedRow& row = rows[i];
-    mobility_[i] = coupling(bodies, row, row);
+    mobility_[i] = mobility_of(bodies, row);
     assert(mobility_[i] >= 0);
     assert(row.block >= 0 && row.block < blocks);
     const double speed = std::max(std::abs(along(row)), std::abs(row.wanted));
@@ -165,7 +180,7 @@ void BoundedRows::assemble() {
     couple_with(row.block);
     for (const int other : order_.neighbours(row.block)) couple_with(other);
     if (row.coupled_compliance != 0) all_.at(place, place - 1) += row.coupled_compliance;
-    all_.at(place, place) += row.compliance + mobility_[i] * (kSharing + row.softening);
+    all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * (kSharing + row.softening));
   }
 }
 
