@@ -302,6 +302,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
 
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
+  if (w.scratch.direct_count == 0) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     if (island.system.rows.empty()) return;  // solved by iterations
     std::size_t next = 0;
