@@ -19,6 +19,12 @@ constexpr int kRefinements = 2;
 constexpr double kExact = 1e-11, kSlack = 1e-9;
 // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
 constexpr int kPivots = 4;
+// Largest number of rows of a small system, which is factorised as the rows come, on the stack: at most 700
+// multiplications, about what finding an order of elimination costs.
+constexpr int kSmallRows = 16;
+// Least pivot, relative to its diagonal, of a system that needs no regularisation: with a thousandth of it
+// the refinements would leave 1e-9.
+constexpr double kWell = 1e-4;
 // Rounds of descent after that, the iterations in each, and the last iterations if the rounds do not
 // converge.
 constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
@@ -35,6 +41,21 @@ double coupling(std::span<const BoundedBody> bodies, const BoundedRow& r, const 
   if (r.b == s.a) sum += coupling(bodies[r.b], r.linear_b, r.angular_b, s.linear_a, s.angular_a);
   if (r.b == s.b) sum += coupling(bodies[r.b], r.linear_b, r.angular_b, s.linear_b, s.angular_b);
   return sum;
+}
+
+// Returns the mobility of a row, J M^-1 J^T: 0 where axes are locked along it but for the rounding of its
+// direction, whose square may be as small as numbers get.
+double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {
+  constexpr double kRounding = 1e-30;
+  const double along = coupling(bodies, row, row);
+  const auto most = [](const BoundedBody& body, Vec2d linear, double angular) {
+    return std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear) +
+           body.inverse_inertia * angular * angular;
+  };
+  const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
+  if (a.inverse_mass.x == a.inverse_mass.y && b.inverse_mass.x == b.inverse_mass.y) return along;
+  const double bound = most(a, row.linear_a, row.angular_a) + most(b, row.linear_b, row.angular_b);
+  return along > kRounding * bound ? along : 0;
 }
 
 // Couples a row with `count` rows of another block, all of which have the same bodies.
@@ -56,6 +77,57 @@ void couple(std::span<const BoundedBody> bodies, const BoundedRow& r, const Boun
   for (int k = 0; k < count; ++k)
     out[k] = at_a ? x * s[k].linear_a.x + y * s[k].linear_a.y + turn * s[k].angular_a
                   : x * s[k].linear_b.x + y * s[k].linear_b.y + turn * s[k].angular_b;
+}
+
+// A symmetric matrix of few rows, each stored from its first entry to the diagonal, all of the same width.
+struct SmallMatrix {
+  double value[kSmallRows][kSmallRows];  // not initialised
+  double inverse_pivot[kSmallRows];
+  int first[kSmallRows];
+
+  // Factorises the first `count` rows, L D L^T, in place. Returns false if a pivot is small.
+  bool factorise(int count) {
+    for (int i = 0; i < count; ++i) {
+      double* const row = value[i];
+      const double diagonal = row[i];
+      for (int j = first[i] + 1; j < i; ++j)
+        for (int k = std::max(first[i], first[j]); k < j; ++k) row[j] -= row[k] * value[j][k];
+      double pivot = diagonal;
+      for (int j = first[i]; j < i; ++j) {
+        const double l = row[j] * inverse_pivot[j];
+        pivot -= l * row[j];
+        row[j] = l;
+      }
+      if (!(pivot > kWell * diagonal)) return false;
+      inverse_pivot[i] = 1 / pivot;
+    }
+    return true;
+  }
+
+  void solve(int count, double* x) const {
+    for (int i = 0; i < count; ++i)
+      for (int j = first[i]; j < i; ++j) x[i] -= value[i][j] * x[j];
+    for (int i = 0; i < count; ++i) x[i] *= inverse_pivot[i];
+    for (int i = count - 1; i >= 0; --i)
+      for (int j = first[i]; j < i; ++j) x[j] -= value[i][j] * x[i];
+  }
+};
+
+// Copies the rows and columns `which`, in ascending order.
+void gather(const SmallMatrix& from, const int* which, int size, SmallMatrix& to) {
+  for (int k = 0; k < size; ++k) {
+    const double* const row = from.value[which[k]];
+    int first = 0;
+    while (which[first] < from.first[which[k]]) ++first;
+    to.first[k] = first;
+    for (int l = first; l <= k; ++l) to.value[k][l] = row[which[l]];
+  }
+}
+
+// Returns whether two rows act on a dynamic body in common.
+bool are_neighbours(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow& s) {
+  return ((r.a == s.a || r.a == s.b) && bodies[r.a].is_dynamic()) ||
+         ((r.b == s.a || r.b == s.b) && bodies[r.b].is_dynamic());
 }
 
 }  // namespace
@@ -125,23 +197,35 @@ void BoundedRows::find_mobility() {
   }));
   assert(std::all_of(rows.begin(), rows.end(), [](const BoundedRow& row) { return row.compliance >= 0; }));
   mobility_.resize(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    mobility_[i] = mobility_of(bodies, rows[i]);
+    assert(mobility_[i] >= 0);
+  }
+}
+
+// Finds the largest energy v^2 / mobility of a row.
+void BoundedRows::find_largest() {
   largest_ = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double speed = std::max(std::abs(along(rows[i])), std::abs(rows[i].wanted));
+    if (speed * speed > largest_ * mobility_[i] && mobility_[i] > 0) largest_ = speed * speed / mobility_[i];
+  }
+}
+
+// Finds the first row of each block.
+void BoundedRows::find_blocks() {
   const int blocks = static_cast<int>(order_.sequence().size());
   block_first_.assign(blocks + 1, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const BoundedRow& row = rows[i];
-    mobility_[i] = coupling(bodies, row, row);
-    assert(mobility_[i] >= 0);
-    assert(row.block >= 0 && row.block < blocks);
-    const double speed = std::max(std::abs(along(row)), std::abs(row.wanted));
-    if (mobility_[i] > 0) largest_ = std::max(largest_, speed * speed / mobility_[i]);
-    block_first_[row.block + 1] = static_cast<int>(i) + 1;
+    assert(rows[i].block >= 0 && rows[i].block < blocks);
+    block_first_[rows[i].block + 1] = static_cast<int>(i) + 1;
   }
   for (int block = 0; block < blocks; ++block)
     block_first_[block + 1] = std::max(block_first_[block + 1], block_first_[block]);
 }
 
 void BoundedRows::assemble() {
+  find_blocks();
   sequence_.clear(), first_.clear();
   for (const int block : order_.sequence()) {
     block_place_[block] = static_cast<int>(sequence_.size());
@@ -166,7 +250,7 @@ void BoundedRows::assemble() {
     couple_with(row.block);
     for (const int other : order_.neighbours(row.block)) couple_with(other);
     if (row.coupled_compliance != 0) all_.at(place, place - 1) += row.coupled_compliance;
-    all_.at(place, place) += row.compliance + mobility_[i] * (kSharing + row.softening);
+    all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * (kSharing + row.softening));
   }
 }
 
@@ -393,8 +477,8 @@ bool BoundedRows::pivot() {
 
 // Begins with the initial impulses, or with the fraction of them that gains no energy.
 void BoundedRows::start_from_guess() {
-  guess_.assign(rows.size(), 0);
-  if (std::any_of(rows.begin(), rows.end(), [](const BoundedRow& row) { return row.impulse != 0; })) {
+  if (std::any_of(guess_.begin(), guess_.end(), [](double impulse) { return impulse != 0; })) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = guess_[i];
     apply_all();
     shrink();
     for (std::size_t i = 0; i < rows.size(); ++i) guess_[i] = rows[i].impulse;
@@ -402,17 +486,112 @@ void BoundedRows::start_from_guess() {
   best_.assign(guess_.begin(), guess_.end());
 }
 
+// Sets the states of rows that have nothing to solve: those that move nothing, or whose bounds leave no room.
+void BoundedRows::set_fixed() {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    BoundedRow& row = rows[i];
+    if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
+    if (row.lower >= row.upper) row.state = BoundedRow::kLower;
+    guess_[i] = std::min(std::max(row.impulse, row.lower), row.upper);
+  }
+}
+
+// Runs block pivots on a system of few rows that are far from dependent: without an order of elimination,
+// regularisation and refinement. Returns false, with the bodies as they were, if it is none, or if the pivots
+// do not end.
+bool BoundedRows::solve_small() {
+  const int count = static_cast<int>(rows.size());
+  if (count > kSmallRows) return false;
+  if (count == 1 && rows[0].lower == -std::numeric_limits<double>::infinity() &&
+      rows[0].upper == std::numeric_limits<double>::infinity()) {
+    BoundedRow& row = rows[0];
+    row.impulse = (row.wanted - along(row)) / (mobility_[0] * (1 + row.softening) + row.compliance);
+    push(row, row.impulse);
+    return true;
+  }
+  SmallMatrix all, part;
+  int begin[kSmallRows + 1], blocks = 0;
+  bool bounded = false;
+  for (int i = 0; i < count; ++i) {
+    const BoundedRow& row = rows[i];
+    if (i == 0 || row.block != rows[i - 1].block) begin[blocks++] = i;
+    bounded = bounded || row.lower > -std::numeric_limits<double>::infinity() ||
+              row.upper < std::numeric_limits<double>::infinity();
+  }
+  begin[blocks] = count;
+  for (int block = 0; block < blocks; ++block) {
+    const int from = begin[block];
+    int first = from;
+    for (int other = 0; other < block; ++other) {
+      const int start = begin[other], size = begin[other + 1] - start;
+      const bool coupled = are_neighbours(bodies, rows[from], rows[start]);
+      if (coupled) first = std::min(first, start);
+      if (start < first) continue;
+      for (int i = from; i < begin[block + 1]; ++i) {
+        if (coupled) {
+          couple(bodies, rows[i], &rows[start], size, all.value[i] + start);
+        } else {
+          std::fill_n(all.value[i] + start, size, 0.0);
+        }
+      }
+    }
+    for (int i = from; i < begin[block + 1]; ++i) {
+      const BoundedRow& row = rows[i];
+      double* const to = all.value[i];
+      all.first[i] = first;
+      for (int j = from; j < i; ++j) to[j] = coupling(bodies, row, rows[j]);
+      if (row.coupled_compliance != 0) to[i - 1] += row.coupled_compliance;
+      to[i] = mobility_[i] * (1 + row.softening) + row.compliance;
+    }
+  }
+  if (bounded) find_largest();
+  int which[kSmallRows];
+  double x[kSmallRows];
+  for (int pivots = 0; pivots < kPivots; ++pivots) {
+    int size = 0;
+    bool held = false;
+    for (int i = 0; i < count; ++i) {
+      BoundedRow& row = rows[i];
+      if (row.state == BoundedRow::kFree) {
+        row.impulse = 0, which[size++] = i;
+      } else {
+        row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
+        held = held || row.impulse != 0;
+      }
+    }
+    if (held) apply_all();
+    for (int k = 0; k < size; ++k) x[k] = residual(which[k]);
+    if (bounded) gather(all, which, size, part);
+    SmallMatrix& free = bounded ? part : all;  // without bounds all rows are free, and stay so
+    const bool well = free.factorise(size);
+    if (well) {
+      free.solve(size, x);
+      for (int k = 0; k < size; ++k) {
+        rows[which[k]].impulse = x[k];
+        push(rows[which[k]], x[k]);
+      }
+      if (!bounded) return true;
+      if (count_wrong() == 0) {
+        if (held) shrink();
+        return true;
+      }
+      for (int i = 0; i < count; ++i)
+        if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
+    }
+    std::copy(start_.begin(), start_.end(), bodies.begin());
+    if (!well) return false;
+  }
+  return false;
+}
+
 void BoundedRows::solve() {
   start_.assign(bodies.begin(), bodies.end());
   find_mobility();
+  guess_.resize(rows.size());
+  set_fixed();
+  if (solve_small()) return;
+  find_largest();
   assemble();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    BoundedRow& row = rows[i];
-    // Rows that move nothing, or whose bounds leave no room, have nothing to solve.
-    if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
-    if (row.lower >= row.upper) row.state = BoundedRow::kLower;
-    row.impulse = std::min(std::max(row.impulse, row.lower), row.upper);
-  }
   start_from_guess();
   if (!pivot()) descend();
   shrink();

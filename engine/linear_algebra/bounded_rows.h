@@ -88,6 +88,8 @@ class BoundedRows {
   double along(const BoundedRow& row) const;
   void push(const BoundedRow& row, double impulse);
   void find_mobility();
+  void find_largest();
+  void find_blocks();
   void assemble();
   void factorise();
   void find_free();
@@ -96,6 +98,8 @@ class BoundedRows {
   bool matters(int row, double speed, double share) const;
   int count_wrong();
   bool pivot();
+  void set_fixed();
+  bool solve_small();
   void descend();
   void sweep(int passes);
   void minimise_free();

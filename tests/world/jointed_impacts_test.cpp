@@ -112,6 +112,35 @@ TYPED_TEST(JointedImpacts, OfADoublePendulumFollowFromItsMassMatrix) {
   }
 }
 
+// A rod at the limit of its hinge turns away from it when a ball meets it, which slows it down: the limit has
+// no part in that, and Newton's law for the rod alone holds. A limit that insisted on the rate at which it
+// opens would make the rod a wall, and the energy grow.
+TYPED_TEST(JointedImpacts, OfARodThatLeavesItsLimitFollowFromTheRodAlone) {
+  constexpr double kSpin = 1, kSpeed = 2;
+  for (const double restitution : {1.0, 0.5}) {
+    for (const double ball_mass : {0.02, 0.1}) {
+      for (const double below : {0.6, 1.3}) {
+        Struck<TypeParam> it(1, restitution, -below, ball_mass, -kSpeed);
+        auto& world = it.world;
+        const BodyId rod = it.rods[0];
+        world.change(world.joints(rod)[0],
+                     RevoluteDefinition{.anchor_b = {0, kLength / 2}, .limits = Range{0, 1}});
+        world.set_angular_velocity(rod, kSpin), world.set_velocity(rod, {kSpin * kLength / 2, 0});
+        world.set_position(it.ball, {kThickness / 2 + kRadius + 1e-3, -below}, 0);
+        const double before = energy_of(world);
+        world.step();
+        const double inertia = kLength * kLength / 3;  // of 1 kg about its end
+        const double closing = kSpeed + kSpin * below;
+        const double blow = (1 + restitution) * closing / (1 / ball_mass + below * below / inertia);
+        ASSERT_GT(kSpin - blow * below / inertia, 0);  // it goes on
+        EXPECT_NEAR(world.angular_velocity(rod), kSpin - blow * below / inertia, 5e-3) << ball_mass;
+        EXPECT_NEAR(world.velocity(it.ball).x, -kSpeed + blow / ball_mass, 1e-2) << ball_mass;
+        EXPECT_LT(energy_of(world), before * (1 + 1e-3)) << ball_mass << ' ' << below;
+      }
+    }
+  }
+}
+
 // Chains of rods, hinged or welded, that fly freely between balls; all bounces. The rods turn by up to 10
 // rad/s after it, which the joints follow to 0.5 % of the energy in steps of 1/60 s. Without joints in the
 // impacts a chain keeps 64 % on average.

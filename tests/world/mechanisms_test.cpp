@@ -227,6 +227,43 @@ TYPED_TEST(Mechanisms, DrawnAtRandomGainNoEnergy) {
   EXPECT_LE(15 * open, cases);  // of 10,000 draws 3 % open by more than 1 % of their shortest link
 }
 
+// An axis is locked in flight: a lock is a wall, which does no work, whatever it stops. The chain goes on
+// with less, and none of its joints opens.
+TYPED_TEST(Mechanisms, LockedInFlightTheyGainNoEnergy) {
+  for (const Ties ties :
+       {Ties::Hinges, Ties::Limits, Ties::Welds, Ties::SoftWelds, Ties::Sliders, Ties::Rods})
+    for (const int locks : {1, 2, 4, 5, 6, 7}) {
+      const Plan plan{.layout = Layout::Chain, .ties = ties, .count = 5, .speed = 6};
+      auto m = test::build<TypeParam>(plan, 2);
+      const double start = m.energy();
+      m.world.set_locks(m.bodies[2], (locks & 1) != 0, (locks & 2) != 0, (locks & 4) != 0);
+      for (int i = 0; i < 60; ++i) {
+        m.world.step();
+        ASSERT_LT(m.energy(), 1.001 * start) << plan.text() << ", locks " << locks << ", step " << i;
+        ASSERT_LT(m.gap(), 0.01 * m.size) << plan.text() << ", locks " << locks << ", step " << i;
+      }
+    }
+}
+
+// Drawn at random as above, and a quarter of their bodies locked along some axes.
+TYPED_TEST(Mechanisms, DrawnAtRandomWithLockedAxesGainNoEnergy) {
+  const char* more = std::getenv("PLUMB_PROPERTY_CASES");
+  const std::uint64_t cases = 60 * (more != nullptr ? std::strtoull(more, nullptr, 10) : 1);
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+    Draw draw(seed), locks(seed + 77);
+    const Plan plan = test::draw_plan(draw);
+    auto m = test::build<TypeParam>(plan, seed);
+    for (const BodyId body : m.bodies) {
+      if (!locks.one_in(4)) continue;
+      const int which = 1 + locks.below(7);
+      m.world.set_locks(body, (which & 1) != 0, (which & 2) != 0, (which & 4) != 0);
+    }
+    const Verdict v = test::run_mechanism(m, 120);
+    ASSERT_FALSE(v.lost) << "seed " << seed << ": " << plan.text();
+    EXPECT_LT(v.growth, 0.02) << "seed " << seed << ": " << plan.text();
+  }
+}
+
 // A straight bridge between two hooks pulls at them with a force that only rounding limits. The iterations
 // that take it over, as soon as its hinges have brakes, must not start from that.
 TYPED_TEST(Mechanisms, LeftToIterationsTheyGainNoEnergy) {

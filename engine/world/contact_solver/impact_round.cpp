@@ -267,7 +267,9 @@ class JointedRound {
     room_.sizes.push_back(rows);
   }
 
-  // Adds the joints' rows, which must keep their rates from before the round.
+  // Adds the joints' rows, which must keep their rates from before the round. A limit may stop what moves
+  // away from it: kept at its rate, it would do work, and two contacts that press it in turn would open it
+  // ever faster.
   void add_joint_rows() {
     system_.rows.clear();
     int block = 0;
@@ -280,6 +282,7 @@ class JointedRound {
         row.a = link_a, row.b = link_b, row.block = block;
         row.wanted = dot(row.linear_a, a.velocity.template as<double>()) + row.angular_a * a.spin +
                      dot(row.linear_b, b.velocity.template as<double>()) + row.angular_b * b.spin;
+        if (row.lower == 0) row.wanted = std::min(row.wanted, 0.0);
         system_.rows.push_back(row);
       }
       ++block;

@@ -84,6 +84,9 @@ void choose_jointed(WorldData<Real>& w) {
     if (!w.is_dynamic(body)) continue;
     const int root = s.island_of[body];
     s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
+    // Along a locked axis a body has infinite mass, of which iterations know nothing.
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (record.lock_x || record.lock_y) s.heaviest[root] = std::numeric_limits<Real>::infinity();
   }
   const auto root_of = [&](const JointRecord& joint) {
     return s.island_of[w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b];
@@ -299,6 +302,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
 
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
+  if (w.scratch.direct_count == 0) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     if (island.system.rows.empty()) return;  // solved by iterations
     std::size_t next = 0;

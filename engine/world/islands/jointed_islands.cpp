@@ -335,10 +335,17 @@ void prepare_jointed_islands(WorldData<Real>& w) {
 template <class Real>
 void begin_jointed_substep(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    for (JointedLink& link : w.scratch.jointed[i].links) {
+    JointedIsland<Real>& island = w.scratch.jointed[i];
+    for (std::size_t k = 0; k < island.links.size(); ++k) {
+      JointedLink& link = island.links[k];
       const BodyMotion<Real>& motion = w.motion[link.body];
       link.before = motion.velocity.template as<double>();
       link.spin_before = motion.angular_velocity;
+      if (!is_dynamic(motion)) continue;
+      // A locked axis stands still from now on. Reflected at it, the others would follow what it had.
+      const Vec2d mobility = island.system.bodies[k].inverse_mass;
+      if (mobility.x == 0) link.before.x = 0;
+      if (mobility.y == 0) link.before.y = 0;
     }
   }
 }

@@ -80,7 +80,8 @@ template <class Joint, class Real>
       Joint& joint = joints[i];
       if constexpr (Joint::kPlainHinge)
         if (joint.held) continue;
-      if (joint.with_island && pass != JointSweep::Relax) continue;
+      // Ratchets note the teeth that they pass.
+      if (joint.with_island && (pass != JointSweep::Relax || !(step.looks || Joint::kRatchet))) continue;
       JointVelocities<Real> v = velocities_of(bodies, joint);
       run(joint, v);
       v.store(bodies.motion[joint.a], bodies.motion[joint.b]);

@@ -26,6 +26,8 @@ struct JointStep {
   Real stiffest = std::numeric_limits<Real>::infinity();
   Real stiff_rate = 0;  ///< 1/s, at which such springs close their error
   Real warm_start = 1;  ///< ratio of this substep's length to the previous step's: impulses scale with it
+  /// Evaluates joints that are solved with their island, too: what reads a step's joints needs the last pose.
+  bool looks = true;
 };
 
 /// Returns the stiffest spring that sequential impulses with warm starting solve as it is: h (c + h k) over

@@ -75,6 +75,14 @@ const std::vector<char>& joints_apart(WorldData<Real>& w) {
   return apart;
 }
 
+// Returns true if a joint is solved neither as part of an articulated body nor with its island.
+template <class Real>
+bool any_joint_swept(const WorldData<Real>& w) {
+  std::size_t apart = static_cast<std::size_t>(w.scratch.trees.hinges);
+  for (int i = 0; i < w.scratch.jointed_count; ++i) apart += w.scratch.jointed[i].joints.size();
+  return static_cast<std::size_t>(w.joint_set.active_count()) > apart;
+}
+
 // Contacts with restitution that a thread takes at a time: some microseconds of work.
 constexpr int kBouncesOfTask = 128;
 
@@ -123,6 +131,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const SolverBodies<Real> bodies = w.solver_bodies();
   prepare_direct_islands(w);
   if (jointed) w.joint_set.prepare(bodies, joints, joints_apart(w), &w.crew);
+  const bool swept = jointed && any_joint_swept(w);
   collect_restitution_contacts(w);
   SoftContacts<Real>& passes = w.scratch.passes;
   passes.begin(w.graph, bodies.motion, contacts_apart(w), w.crew);
@@ -151,17 +160,18 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     note_free_velocities(w);
     if (place_first) place();
     if (strikes) note_blows(w);
-    if (jointed) w.joint_set.warm_start(bodies, joints, &w.crew);
+    if (swept) w.joint_set.warm_start(bodies, joints, &w.crew);
     if (!place_first) place();
     let_pass(std::span<Bounce>(w.scratch.bounces));
     if (bounces) passes.take_bounces(bodies.motion);
     if (!repeat) passes.warm_start(bodies.motion, contacts);
-    if (jointed) w.joint_set.solve(bodies, joints, &w.crew);
+    if (swept) w.joint_set.solve(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, true);
     passes.solve(bodies.motion, contacts);
     hold_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
+    joints.looks = substep + 1 == substeps;
     if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
