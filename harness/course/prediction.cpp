@@ -30,6 +30,27 @@ constexpr double kEqual = 0.01, kRounding = 1e-6;
 
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
 
+// s: turns a speed into a length, three steps. Some mistakes change velocities, and corrections of positions
+// hide them; a longer time would weigh the step in which a contact is found.
+constexpr double kSteps = 0.05;
+
+// Ways to build an engine of a chapter that are right, as far as its checks go: a mistake's motion may depend
+// on them.
+std::vector<const char*> ways(int chapter) {
+  switch (chapter) {
+    case 1:
+      return {"", ", one sweep", ", moves before, one sweep"};
+    case 2:
+      return {""};
+    case 3:
+      return {"", ", one sweep", ", moves before", ", moves before, one sweep"};
+    case 4:
+      return {"", ", one sweep", ", clipped", ", clipped, moves before"};
+    default:
+      return {"", ", one sweep", ", clipped", ", by positions"};
+  }
+}
+
 struct Attempt {
   Finding finding;
   std::vector<Recorded> runs;
@@ -47,14 +68,16 @@ std::optional<Attempt> attempt(const Check& check, const reference::Backend& eng
   return out;
 }
 
-// Adds up the squared distances of the bodies' places in two runs.
+// Adds up the squared distances of the bodies' places, and of their velocities, in two runs.
 double distance(const Trace& a, const Trace& b) {
   double sum = 0;
   for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k)
     for (std::size_t i = 0; i < std::min(a.states[k].size(), b.states[k].size()); ++i) {
       const Vec2d way = a.states[k][i].position - b.states[k][i].position;
       const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
-      sum += dot(way, way) + turn * turn;
+      const Vec2d speed = kSteps * (a.states[k][i].velocity - b.states[k][i].velocity);
+      const double spin = kSteps * kLever * (a.states[k][i].angular_velocity - b.states[k][i].angular_velocity);
+      sum += dot(way, way) + turn * turn + dot(speed, speed) + spin * spin;
     }
   return sum;
 }
@@ -162,12 +185,16 @@ bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::s
 }
 
 // Returns true if the mistake of a name would fail a check.
-bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predictions,
+bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predictions, int chapter,
                    const std::string& name, std::size_t check) {
+  const std::vector<const char*> built = ways(chapter);
   return std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
-    if (name != mistake.name) return false;
-    const auto& run = predictions.of(mistake.planted, check);
-    return run && run->finding.verdict == Verdict::Fail;
+    return name == mistake.name && std::any_of(built.begin(), built.end(), [&](const char* way) {
+             const auto& right = predictions.of(way, check);
+             const auto& run = predictions.of(std::string(mistake.planted) + way, check);
+             return run && run->finding.verdict == Verdict::Fail &&
+                    (!right || right->finding.verdict != Verdict::Fail);
+           });
   });
 }
 
@@ -180,6 +207,18 @@ bool better(const Fit& a, const Fit& b) {
   return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
 }
 
+// Returns true if an engine that is built in this way, or answers contacts once a step, fails alike without
+// the mistake: it needs none to explain it.
+bool fails_without(const Predictable& mistake, const std::string& way, const Finding& wrong,
+                   Predictions& predictions, std::size_t check) {
+  if (std::string_view(mistake.planted) == "one_sweep") return false;
+  const auto alike = [&](const std::string& built) {
+    const auto& right = predictions.of(built, check);
+    return right && right->finding.verdict == Verdict::Fail && same_readings(wrong, right->finding);
+  };
+  return (!way.empty() && alike(way)) || alike(way + ", one sweep");
+}
+
 // Returns the mistakes that fit, the best first, one for each name.
 std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
                       const std::vector<Outcome>& chapter, std::size_t check, const std::string& named) {
@@ -190,11 +229,12 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   for (const Predictable& mistake : mistakes) {
     const bool belongs = std::string_view(mistake.chapters).find(digit) != std::string_view::npos;
     if (!belongs && named != mistake.name) continue;
-    for (const char* sweeps : {"", ", one sweep"}) {
-      const std::string planted = std::string(mistake.planted) + sweeps;
+    for (const char* way : ways(outcome.chapter->number)) {
+      const std::string planted = std::string(mistake.planted) + way;
       const auto& wrong = predictions.of(planted, check);
       if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
+      if (fails_without(mistake, way, wrong->finding, predictions, check)) continue;
       if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
       const double share = predictions.off(check, wrong->runs);
       if (!std::isfinite(share) || share > kSamePath) continue;
@@ -275,15 +315,20 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   finding.says = describe(finding.readings);
 }
 
-}  // namespace
-
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named) {
+bool has_a_learners_engine(const Lab& lab) {
   using reference::Scheme;
   const Scheme scheme = lab.scheme();
-  if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
-      scheme != Scheme::VelocityVerlet)
-    return;
-  const std::vector<Predictable> mistakes = predictable_mistakes();
+  return scheme == Scheme::SemiImplicitEuler || scheme == Scheme::ExplicitEuler ||
+         scheme == Scheme::VelocityVerlet;
+}
+
+}  // namespace
+
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named,
+                    const std::string& without) {
+  if (!has_a_learners_engine(lab)) return;
+  std::vector<Predictable> mistakes = predictable_mistakes();
+  std::erase_if(mistakes, [&](const Predictable& mistake) { return without == mistake.planted; });
   Predictions predictions(lab, chapter);
   std::vector<std::vector<Fit>> found(chapter.size());
   std::set<std::string> alone;
@@ -305,8 +350,9 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     }
     // Blames no second mistake for what the first one does as well.
     if (found[i].empty() && !finding.mistake.empty() && finding.mistake != known &&
-        fails_as_well(mistakes, predictions, known, i)) {
+        fails_as_well(mistakes, predictions, chapter[i].chapter->number, known, i)) {
       finding.mistake.clear();
+      finding.explained = true;
       finding.says = fmt::format("{}, which is named above, spoils this as well.", known);
     }
     finding.computed = std::any_of(found[i].begin(), found[i].end(),
@@ -318,12 +364,21 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   for (std::size_t i = 0; i < chapter.size() && chapter[i].finding.mistake != known; ++i) {
     Finding& finding = chapter[i].finding;
     if (finding.verdict != Verdict::Fail || !finding.mistake.empty() || !found[i].empty()) continue;
-    if (!fails_as_well(mistakes, predictions, known, i)) continue;
+    if (!fails_as_well(mistakes, predictions, chapter[i].chapter->number, known, i)) continue;
     finding.mistake = known;
     finding.says = std::find_if(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
                      return known == mistake.name;
                    })->says;
   }
+}
+
+bool may_spoil(const Lab& lab, const Outcome& outcome, const std::string& name) {
+  std::vector<Predictable> mistakes = predictable_mistakes();
+  std::erase_if(mistakes, [&](const Predictable& mistake) { return name != mistake.name; });
+  if (mistakes.empty() || !has_a_learners_engine(lab)) return true;
+  const std::vector<Outcome> alone{outcome};
+  Predictions predictions(lab, alone);
+  return fails_as_well(mistakes, predictions, outcome.chapter->number, name, 0);
 }
 
 }  // namespace plumb::course

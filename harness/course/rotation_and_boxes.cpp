@@ -195,21 +195,34 @@ Body upright(Crate crate) {
   return body;
 }
 
+// Says that a pair's order matters: right if `first` comes first in the scene, or not.
+std::string either_order(const char* motion, bool right_if_first, const char* first) {
+  return fmt::format(
+      "{} rightly if {} comes {} in the scene, and wrongly if it comes {}: the two may come in either order. The "
+      "normal points from a to b; where n . (xb - xa) is below 0, take -n.",
+      motion, first, right_if_first ? "first" : "second", right_if_first ? "second" : "first");
+}
+
 // Lets two boxes of 2 kg and 1 kg with fixed rotation collide along x, at different heights.
 Finding upright_boxes_collide(const Lab& lab) {
   const double u = 2, heavy = 2, light = 1, j = 2 * u / (1 / heavy + 1 / light);
   const Body a = upright(
       {.name = "a", .position = {-2, 0.2}, .velocity = {u, 0}, .mass = heavy, .width = 0.6, .height = 1});
   const Body b = upright({.name = "b", .position = {0, 0}, .mass = light, .width = 0.8, .height = 0.9});
-  const Trace trace = lab.run(scene_of("upright", {}, {a, b}), 1.5);
+  const Trace trace = lab.run(scene_of("upright", {}, {a, b}), 1.5),
+              turned = lab.run(scene_of("upright", {}, {b, a}), 1.5);
   const double spin =
       std::max(std::abs(trace.last(0).angular_velocity), std::abs(trace.last(1).angular_velocity));
   const double after_a = u - j / heavy, after_b = j / light;
+  const auto right = [&](const BodyState& s) { return std::abs(s.velocity.x - after_b) <= 0.002 * u; };
   return Judgement()
       .read("vx of 2 kg", "m/s", trace.last(0).velocity.x, after_a, 0.002 * u)
       .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, after_b, 0.002 * u)
       .read("vy of 1 kg", "m/s", trace.last(1).velocity.y, 0, 0.002 * u)
       .read("largest spin", "rad/s", spin, 0, 1e-9)
+      .read("vx of 1 kg, if it comes first in the scene", "m/s", turned.last(0).velocity.x, after_b, 0.002 * u)
+      .mistake_if(right(trace.last(1)) != right(turned.last(0)), "order_of_pair",
+                  either_order("The boxes collide", right(trace.last(1)), "2 kg"))
       .mistake("no_collision", {u, 0, 0, 0},
                "The boxes go through each other: they overlap if they do so along x and along y.")
       .mistake_if(spin > 1e-9, "fixed_rotation_ignored",
@@ -233,11 +246,18 @@ Finding least_overlap(const Lab& lab) {
   const double v = 2, x = 2.1;
   const Body platform = fixed(make(Crate{.name = "platform", .width = 4, .height = 1}));
   const Body box = upright({.position = {x, 1.5}, .velocity = {0, -v}, .width = 0.8, .height = 0.6});
-  const Trace trace = lab.run(scene_of("edge", {}, {box, platform}), 1);
+  const Trace trace = lab.run(scene_of("edge", {}, {box, platform}), 1),
+              turned = lab.run(scene_of("edge", {}, {platform, box}), 1);
+  const auto right = [&](const BodyState& s) {
+    return std::abs(s.velocity.y - v) <= 0.002 * v && std::abs(s.velocity.x) <= 0.002 * v;
+  };
   return Judgement()
       .read("vx after landing on the edge", "m/s", trace.last(0).velocity.x, 0, 0.002 * v)
       .read("vy after landing on the edge", "m/s", trace.last(0).velocity.y, v, 0.002 * v)
       .read("x of the box", "m", trace.last(0).position.x, x, 0.01)
+      .read("vy after landing, the platform first in the scene", "m/s", turned.last(1).velocity.y, v, 0.002 * v)
+      .mistake_if(right(trace.last(0)) != right(turned.last(1)), "order_of_pair",
+                  either_order("The box lands", right(trace.last(0)), "the box"))
       .mistake_if(trace.still(0), "starts_at_rest",
                   "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
       .mistake_if(

@@ -16,7 +16,8 @@ constexpr std::pair<const char*, const char*> kScaled[] = {
     {"gravity_twice", "gravity*2"},
     {"rest_length_ignored", "rest length of a spring*0"},
     {"spring_pushes", "stiffness of a spring*-1"}};
-constexpr std::string_view kOneSweep = ", one sweep";
+constexpr std::string_view kOneSweep = ", one sweep", kMovesBefore = ", moves before",
+                           kClipped = ", clipped", kByPositions = ", by positions";
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
@@ -58,15 +59,21 @@ double StudentWorld::inertia(const Body& body) const {
 
 StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, reference::Scheme scheme)
     : scene_(scene), dt_(dt), mistake_(std::move(mistake)), scheme_(scheme) {
+  const auto built = [this](std::string_view how) {
+    const std::size_t at = mistake_.find(how);
+    if (at != std::string::npos) mistake_.erase(at, how.size());
+    return at != std::string::npos;
+  };
+  once_ = built(kOneSweep);
+  moves_before_ = built(kMovesBefore);
+  clipped_ = built(kClipped);
+  by_positions_ = built(kByPositions) && !scene_.joints.empty();
+  once_ = once_ || moves_before_ || is("one_sweep");
   for (const auto& [name, scaled] : kScaled)
     if (is(name)) mistake_ = scaled;
   if (const std::size_t star = mistake_.find('*'); star != std::string::npos) {
     quantity_ = mistake_.substr(0, star);
     factor_ = std::stod(mistake_.substr(star + 1));
-  }
-  if (mistake_.ends_with(kOneSweep)) {
-    once_ = true;
-    mistake_.resize(mistake_.size() - kOneSweep.size());
   }
   // Sweeps mend what a single answer gets wrong: these are made by who has none yet.
   for (const char* name :
@@ -93,6 +100,9 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     bodies_.push_back(rigid);
   }
   bodies_.push_back({});
+  if (is("mass_of_the_first_for_all"))
+    for (Rigid& rigid : bodies_)
+      if (rigid.inverse_mass > 0) rigid.inverse_mass = 1 / scene_.bodies.front().mass;
   if (is("starts_at_rest"))
     for (Rigid& rigid : bodies_) rigid.velocity = {};
 }
@@ -179,6 +189,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
     if (is("drag_along_x_only")) return add({c * b.velocity.x, 0});
+    if (is("drag_by_magnitude")) return add({c * std::abs(b.velocity.x), c * std::abs(b.velocity.y)});
     add(times("drag") * c * b.velocity);
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
     const Vec2d way = b.position - spring->anchor_a;
@@ -191,6 +202,9 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_not_unit")) tension *= length(way);
     if (is("spring_mass_not_divided")) tension /= b.inverse_mass;
     if (is("spring_divided_by_mass_twice")) tension *= b.inverse_mass;
+    if (is("spring_along_x_only")) return add({-tension / length(way) * way.x, 0});
+    if (is("spring_by_components"))
+      return add({-spring->stiffness * (way.x - rest), -spring->stiffness * (way.y - rest)});
     add(-tension / length(way) * way);
   }
 }
@@ -236,7 +250,11 @@ void StudentWorld::accelerate() {
     if (is("force_without_dt")) force_dt = 1;
     if (is("force_per_frame")) force_dt = 1.0 / 60;
     if (is("force_dt_twice")) force_dt = dt_ * dt_;
+    if (is("force_as_impulse")) force_dt = steps_ == 0 ? 1 : 0;
+    if (is("force_replaces_gravity") && b.force != Vec2d{}) fall = {};
     const Vec2d gain = dt * fall + force_dt * inverse * b.force;
+    if (is("force_sets_velocity") && b.force != Vec2d{}) b.velocity = {};
+    if (is("force_moves_positions")) b.position += force_dt * inverse * b.force;
     if (is("constant_speed")) b.velocity = b.body->velocity;
     b.velocity += gain;
     if (is("damping")) b.velocity *= 0.99;
@@ -309,6 +327,8 @@ void StudentWorld::prepare(Touch& touch) const {
     touch.bounce = restitution(touch) * length(relative_velocity(touch));
   if (is("bounce_sign")) touch.bounce = -touch.bounce;
   if (is("one_plus_forgotten") && touch.bounce > 0) touch.bounce += closing;
+  if (is("bounce_with_gravity_taken_off") && touch.bounce > 0)
+    touch.bounce = std::max(0.0, touch.bounce - 2 * restitution(touch) * length(scene_.gravity) * dt_);
   if (is("correction_adds_energy")) touch.bounce += 0.2 * touch.depth / dt_;
 }
 
@@ -419,6 +439,9 @@ void StudentWorld::answer(Touch& touch) {
   if (is("same_direction_for_both")) share_a = -share_a;
   if (is("no_rotation")) spin_a = spin_b = 0;
   if (is("r_cross_n_flipped")) spin_a = -spin_a, spin_b = -spin_b;
+  if (is("first_spins_backwards")) spin_a = -spin_a;
+  if (is("second_spins_backwards")) spin_b = -spin_b;
+  spin_a *= times("spin of an impulse"), spin_b *= times("spin of an impulse");
   if (is("first_never_spins") || is("spin_not_changed")) spin_a = 0;
   if (is("second_never_spins") || is("spin_not_changed")) spin_b = 0;
   if (is("second_arm_for_both") || is("arms_swapped")) spin_a = cross(arm_b, n);
@@ -452,9 +475,14 @@ void StudentWorld::answer(Touch& touch) {
            (a.velocity - b.velocity);
   a.velocity -= share_a * push;
   b.velocity += share_b * push;
-  const bool once = is("spin_by_impulse_alone");
-  a.spin -= (once && a.inverse_inertia > 0 ? 1 : a.inverse_inertia) * spin_a * j;
-  b.spin += (once && b.inverse_inertia > 0 ? 1 : b.inverse_inertia) * spin_b * j;
+  const auto for_spin = [this](const Rigid& body) {
+    if (body.inverse_inertia == 0) return 0.0;
+    if (is("spin_by_impulse_alone")) return 1.0;
+    if (is("spin_by_mass")) return body.inverse_mass;
+    return is("spin_times_inertia") ? 1 / body.inverse_inertia : body.inverse_inertia;
+  };
+  a.spin -= for_spin(a) * spin_a * j;
+  b.spin += for_spin(b) * spin_b * j;
   rub(touch);
 }
 
@@ -479,26 +507,40 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_without_normal")) most = mu;
   if (is("friction_without_mu")) most = touch.sum;
   const double against = is("friction_backwards") ? -sliding : sliding;
-  const double sum = std::clamp(touch.sum_across - against / k, -most, most);
+  if (is("friction_each_time")) touch.sum_across = 0;
+  double least = -most;
+  if (is("friction_one_sign")) least = 0;
+  if (is("friction_other_sign")) least = std::exchange(most, 0) * -1;
+  const double sum = std::clamp(touch.sum_across - against / k, least, most);
   const double j = sum - std::exchange(touch.sum_across, sum);
+  if (is("friction_never_spins")) return apply_impulse(touch.a, touch.b, {}, {}, j * t);
   apply_impulse(touch.a, touch.b, is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a,
                 is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b, j * t);
 }
 
+bool StudentWorld::removes_overlaps() const {
+  return !is("sinks") && !is("turned_every_step") && !is("ignores_slow");
+}
+
 void StudentWorld::push_out() {
-  if (is("correction_split_evenly")) {
-    for (const Touch& touch : touches()) {
-      const Vec2d push = kPushShare / 2 * std::max(0.0, touch.depth - kSlop) * touch.normal;
-      bodies_[touch.a].position -= push;
-      bodies_[touch.b].position += push;
-    }
-    return;
-  }
-  if (is("sinks") || is("turned_every_step") || is("ignores_slow")) return;
+  if (!removes_overlaps()) return;
+  const double least = moves_before_ ? 0 : kSlop, part = moves_before_ ? 1 : kPushShare;
   for (const Touch& touch : touches()) {
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
-    const Vec2d push =
-        kPushShare * std::max(0.0, touch.depth - kSlop) / (a.inverse_mass + b.inverse_mass) * touch.normal;
+    const auto reach = [this](const Rigid& body) {
+      return body.body->shapes[0].geometry.index() == 0 ? radius(body) : 0;
+    };
+    if (is("circles_stay_in_each_other") && reach(a) > 0 && reach(b) > 0) continue;
+    if (is("only_circles_are_pushed_out") && (reach(a) == 0 || reach(b) == 0)) continue;
+    double deep = std::max(0.0, touch.depth - least);
+    if (is("pushed_by_the_distance")) deep = reach(a) + reach(b) - touch.depth;
+    if (is("pushed_by_the_radius")) deep = reach(a) + reach(b);
+    if (is("correction_split_evenly")) {
+      a.position -= part / 2 * deep * touch.normal;
+      b.position += part / 2 * deep * touch.normal;
+      continue;
+    }
+    const Vec2d push = part * deep / (a.inverse_mass + b.inverse_mass) * touch.normal;
     double share_a = a.inverse_mass, share_b = b.inverse_mass;
     const bool both = share_a > 0 && share_b > 0;
     if (is("correction_shares_swapped") && both) std::swap(share_a, share_b);
@@ -511,100 +553,6 @@ void StudentWorld::push_out() {
   }
 }
 
-StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
-  return std::visit(
-      [&](const auto& j) -> Ends {
-        Ends out{find_body(scene_, j.body_a).value_or(bodies_.size() - 1),
-                 find_body(scene_, j.body_b).value_or(bodies_.size() - 1),
-                 {},
-                 {},
-                 {}};
-        if constexpr (requires { j.anchor_a; }) {
-          const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
-          const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
-          const Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
-          out.arm_a = is("anchor_not_turned") ? anchor_a : a.to_world(anchor_a);
-          out.arm_b = is("anchor_not_turned") ? anchor_b : b.to_world(anchor_b);
-          out.gap = b.position + out.arm_b - a.position - out.arm_a;
-        }
-        return out;
-      },
-      joint);
-}
-
-// A stick as one row along it, a hinge as two, x and y, one after the other.
-void StudentWorld::solve(const Joint& joint) {
-  Ends e = ends(joint);
-  if (is("lever_forgotten")) e.arm_a = e.arm_b = {};
-  Rigid &a = bodies_[e.a], &b = bodies_[e.b];
-  const bool stick = std::holds_alternative<DistanceJoint>(joint);
-  const double gap = length(e.gap);
-  for (const Vec2d n : {stick ? 1 / gap * e.gap : Vec2d{1, 0}, Vec2d{0, 1}}) {
-    const double speed = dot(b.velocity_at(e.arm_b) - a.velocity_at(e.arm_a), n);
-    const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
-    double k = a.inverse_mass + b.inverse_mass;
-    if (!is("joint_without_rotation")) k += a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
-    if (is("joint_masses_in_place_of_inverses"))
-      k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
-    if (stick && is("stick_only_pulls") && (speed < 0 || gap < std::get<DistanceJoint>(joint).length)) break;
-    if (stick && is("stick_only_pushes") && (speed > 0 || gap > std::get<DistanceJoint>(joint).length)) break;
-    if (n.x == 0 && is("hinge_along_x_only") && !stick) break;
-    if (n.y == 0 && is("hinge_along_y_only") && !stick) continue;
-    if (is("stick_masses_ignored")) {
-      a.velocity += speed / 2 * n;
-      b.velocity -= speed / 2 * n;
-    } else if (is("stick_one_body_only")) {
-      b.velocity -= speed * n;
-    } else if (is("stick_other_body_only")) {
-      if (a.inverse_mass > 0) a.velocity += speed * n;
-    } else if (is("stick_pulls_the_second_only")) {
-      b.velocity -= b.inverse_mass * speed / k * n;
-      b.spin -= b.inverse_inertia * sb * speed / k;
-    } else if (is("stick_pulls_the_first_only")) {
-      a.velocity += a.inverse_mass * speed / k * n;
-      a.spin += a.inverse_inertia * sa * speed / k;
-    } else if (is("joint_never_spins")) {
-      a.velocity += a.inverse_mass * speed / k * n;
-      b.velocity -= b.inverse_mass * speed / k * n;
-    } else if (is("joint_spins_the_first_only") || is("joint_spins_the_second_only")) {
-      const bool first = is("joint_spins_the_first_only");
-      apply_impulse(e.a, e.b, first ? e.arm_a : Vec2d{}, first ? Vec2d{} : e.arm_b, -speed / k * n);
-    } else if (is("joint_arms_swapped") || is("joint_first_arm_for_both") ||
-               is("joint_second_arm_for_both")) {
-      apply_impulse(e.a, e.b, is("joint_first_arm_for_both") ? e.arm_a : e.arm_b,
-                    is("joint_second_arm_for_both") ? e.arm_b : e.arm_a, -speed / k * n);
-    } else {
-      apply_impulse(e.a, e.b, e.arm_a, e.arm_b, -times("impulse of a joint") * speed / k * n);
-    }
-    if (stick) break;
-  }
-}
-
-void StudentWorld::correct(const Joint& joint) {
-  const Ends e = ends(joint);
-  Rigid &a = bodies_[e.a], &b = bodies_[e.b];
-  Vec2d error = e.gap;
-  if (const auto* stick = std::get_if<DistanceJoint>(&joint))
-    error *= 1 - times("length of a stick") * stick->length / length(e.gap);
-  const double size = length(error);
-  if (size == 0) return;
-  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
-  if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
-  const Vec2d n = 1 / size * error;
-  const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
-  const double k =
-      a.inverse_mass + b.inverse_mass + a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
-  const double push = times("correction of a joint") * kPushShare * size / k;
-  const double turn = is("correction_turns_backwards") ? -push : is("correction_never_turns") ? 0 : push;
-  if (!is("correction_of_the_second_end_only")) {
-    a.position += a.inverse_mass * push * n;
-    a.angle += a.inverse_inertia * sa * turn;
-  }
-  if (is("correction_of_the_first_end_only")) return;
-  b.position -= b.inverse_mass * push * n;
-  b.angle -= b.inverse_inertia * sb * turn;
-}
-
 void StudentWorld::step() {
   if (is("answers_before_the_step")) before_step_ = truly();
   if (is("first_step_twice") && steps_ == 0) advance();
@@ -612,28 +560,60 @@ void StudentWorld::step() {
   ++steps_;
 }
 
+void StudentWorld::solve_velocities(std::vector<Touch>& found) {
+  for (Touch& touch : found) {
+    prepare(touch);
+    bodies_[touch.a].touched = bodies_[touch.b].touched = true;
+  }
+  joint_sums_.assign(scene_.joints.size(), {});
+  const bool joints = !is("joint_ignored") && !by_positions_;
+  for (int sweep = 0; sweep < (is("too_few_iterations") || is("one_sweep") ? 1 : kSweeps); ++sweep) {
+    for (std::size_t i = 0; joints && i < scene_.joints.size(); ++i) solve(scene_.joints[i], i);
+    if (sweep == 0 || !once_) answer_all(found);
+  }
+  touched_ = touched_ || !found.empty();
+}
+
+// Moves everything, then joined points together and overlapping bodies apart; velocities are displacements
+// over the step.
+void StudentWorld::move_by_positions() {
+  const std::vector<Rigid> before = bodies_;
+  move();
+  const bool few = is("too_few_iterations") || is("one_sweep");
+  for (int sweep = 0; sweep < (few ? 1 : kSweeps / 2); ++sweep) {
+    if (!is("joint_ignored"))
+      for (const Joint& joint : scene_.joints) correct(joint, 1);
+    push_out();
+  }
+  if (is("velocity_not_from_positions")) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Rigid& b = bodies_[i];
+    if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
+    b.velocity = 1 / dt_ * (b.position - before[i].position);
+    if (!is("spin_not_from_positions")) b.spin = (b.angle - before[i].angle) / dt_;
+    b.before = b.velocity;
+  }
+}
+
 void StudentWorld::advance() {
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
   accelerate();
+  if (by_positions_) {
+    move_by_positions();
+    std::vector<Touch> found = touches();
+    return solve_velocities(found);
+  }
+  const bool moves_now = moves_before_ && !moves_first;
+  if (moves_now) move();
   std::vector<Touch> found = touches();
-  for (Touch& touch : found) {
-    prepare(touch);
-    bodies_[touch.a].touched = bodies_[touch.b].touched = true;
-  }
-  const bool joints = !is("joint_ignored");
-  for (int sweep = 0; sweep < (is("too_few_iterations") ? 1 : kSweeps); ++sweep) {
-    for (const Joint& joint : scene_.joints)
-      if (joints) solve(joint);
-    if (sweep == 0 || !once_) answer_all(found);
-  }
-  touched_ = touched_ || !found.empty();
-  if (!moves_first) move();
+  solve_velocities(found);
+  if (!moves_first && !moves_now) move();
   push_out();
-  if (joints && !is("no_position_correction"))
-    for (int sweep = 0; sweep < (is("too_few_iterations") ? 1 : kSweeps / 4); ++sweep)
-      for (const Joint& joint : scene_.joints) correct(joint);
+  if (is("joint_ignored") || is("no_position_correction")) return;
+  for (int sweep = 0; sweep < (is("too_few_iterations") || is("one_sweep") ? 1 : kSweeps / 4); ++sweep)
+    for (const Joint& joint : scene_.joints) correct(joint, kPushShare);
 }
 
 }  // namespace plumb::course

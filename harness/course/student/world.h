@@ -30,9 +30,11 @@ struct Touch {
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
-  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5"; ", one sweep"
-  /// after it answers contacts once a step. `scheme` is semi-implicit Euler, explicit Euler or velocity
-  /// Verlet.
+  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5". After it may stand
+  /// how the engine is built: ", one sweep" answers contacts once a step; ", moves before" moves bodies before
+  /// it looks for contacts, answers those once and removes their whole overlap, as in chapter 1; ", clipped"
+  /// clips the sides of boxes; ", by positions" holds joints by positions. `scheme` is semi-implicit Euler,
+  /// explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler);
 
@@ -56,7 +58,9 @@ class StudentWorld {
   std::vector<Touch> touches() const;
   void touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
+  void touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
+  void touch_clipped(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   double restitution(const Touch& touch) const;
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
@@ -64,8 +68,11 @@ class StudentWorld {
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
   void push_out();
-  void solve(const Joint& joint);
-  void correct(const Joint& joint);
+  void solve_velocities(std::vector<Touch>& found);
+  void move_by_positions();
+  void solve(const Joint& joint, std::size_t index);
+  void correct(const Joint& joint, double share);
+  bool removes_overlaps() const;
   void apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse);
 
   struct Ends {
@@ -81,6 +88,8 @@ class StudentWorld {
   reference::Scheme scheme_;
   bool touched_ = false;  ///< there was a contact
   bool once_ = false;     ///< contacts are answered once a step
+  bool moves_before_ = false, clipped_ = false, by_positions_ = false;
+  std::vector<Vec2d> joint_sums_;  ///< N s, of each joint's one or two rows in this step
   long steps_ = 0;
   std::vector<BodyState> before_step_;  ///< the states before the last step
   std::vector<Rigid> bodies_;           ///< the scene's, then the world
