@@ -122,8 +122,8 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
     for (Outcome& outcome : outcomes) {
       Finding& finding = outcome.finding;
       const bool runs_differ = finding.mistake == kRunsDiffer;
-      const bool seen =
-          finding.verdict == Verdict::Fail && !runs_differ && look_at_flights(outcome.runs, finding);
+      const bool seen = finding.verdict == Verdict::Fail && !runs_differ && !finding.computed &&
+                        look_at_flights(outcome.runs, finding);
       if (!named.empty() && finding.mistake != named) finding.follows = named;
       // Names no second mistake by what is seen of it if the first could give the same.
       const bool certain = runs_differ || seen || finding.computed || finding.explained;

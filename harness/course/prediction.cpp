@@ -28,6 +28,9 @@ constexpr double kClearly = 5;
 // Paths nearer than this fit equally well: with contacts, and in free flight, where only rounding differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
 
+// Returns true if the motion is the method's to rounding, however the engine is built.
+bool moves_exactly(const Recorded& run) { return flies_freely(run) && forces_are_constant(run.scene); }
+
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
 
 // s: turns a speed into a length, three steps. Some mistakes change velocities, and corrections of positions
@@ -116,8 +119,10 @@ bool static_moves(const std::vector<Recorded>& runs) {
 struct Fit {
   const Predictable* mistake;
   double off;  // distance of the paths over that from the right ones
-  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
-  int verdicts = 0, readings = 0;
+  // Other checks of the chapter that pass, and that it would fail; that fail, and that it would pass, with one
+  // of them; and that fail with other readings.
+  int too_many = 0, too_few = 0, readings = 0;
+  const Check* unexplained = nullptr;
   double elsewhere = 0;  ///< largest `off` of the other checks that fail
   int signs = 0;         ///< checks that see a mistake in its motion, and not in that of the engine
 };
@@ -145,8 +150,12 @@ class Predictions {
           seen.verdict == Verdict::Broken)
         continue;
       const auto& predicted = of(planted, i);
-      if (!predicted || predicted->finding.verdict != seen.verdict)
-        ++fit.verdicts;
+      if (!predicted)
+        ++fit.readings;
+      else if (predicted->finding.verdict != seen.verdict && seen.verdict == Verdict::Fail)
+        ++fit.too_few, fit.unexplained = chapter_[i].check;
+      else if (predicted->finding.verdict != seen.verdict)
+        ++fit.too_many;
       else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
         ++fit.readings;
       else if (seen.verdict == Verdict::Fail)
@@ -155,6 +164,9 @@ class Predictions {
     }
     fit.signs += sees_another(check, of(planted, check)->finding);
   }
+
+  // Returns the largest distance of two free flights that count as the same.
+  double rounding() const { return std::max(kRounding, 4 * lab_.rounding(1, 1)); }
 
   // Returns true if a check sees a mistake in the motion that was predicted, and not in the engine's.
   bool sees_another(std::size_t check, const Finding& predicted) const {
@@ -204,7 +216,7 @@ bool finite(const Finding& finding) {
 }
 
 bool better(const Fit& a, const Fit& b) {
-  return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
+  return std::tie(a.too_few, a.readings, a.off) < std::tie(b.too_few, b.readings, b.off);
 }
 
 // Returns true if an engine that is built in this way, or answers contacts once a step, fails alike without
@@ -226,6 +238,7 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   const Outcome& outcome = chapter[check];
   if (!predictions.of("", check)) return out;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
+  const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), moves_exactly);
   for (const Predictable& mistake : mistakes) {
     const bool belongs = std::string_view(mistake.chapters).find(digit) != std::string_view::npos;
     if (!belongs && named != mistake.name) continue;
@@ -237,9 +250,10 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
       if (fails_without(mistake, way, wrong->finding, predictions, check)) continue;
       if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
       const double share = predictions.off(check, wrong->runs);
-      if (!std::isfinite(share) || share > kSamePath) continue;
-      out.push_back({&mistake, share});
-      predictions.refute(planted, check, out.back());
+      if (!std::isfinite(share) || share > (exact ? predictions.rounding() : kSamePath)) continue;
+      Fit fit{&mistake, share};
+      predictions.refute(planted, check, fit);
+      if (fit.too_many == 0) out.push_back(fit);
     }
   }
   std::stable_sort(out.begin(), out.end(), better);
@@ -255,13 +269,13 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
 // Drops the mistakes that fit clearly worse than the best, here or in the other checks.
 void narrow(std::vector<Fit>& found, const Outcome& outcome) {
   if (!found.empty()) {
-    const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
+    const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), moves_exactly);
     const Fit best = found.front();
     const double most = kClearly * std::max(best.off, exact ? kRounding : kEqual);
     // The other checks refute a mistake unless its motion here fits clearly better than that of the best.
     const double least = best.off / kClearly;
     std::erase_if(found, [&](const Fit& fit) {
-      const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
+      const bool worse = fit.too_few > best.too_few || fit.readings > best.readings;
       return fit.off > most || (worse && (fit.off >= least || best.off <= (exact ? kRounding : kEqual)));
     });
     // So do their motions there, if none is refuted by figures.
@@ -287,6 +301,7 @@ void choose(std::vector<Fit>& found, const std::string& known, const std::set<st
   keep([&](const Fit& fit) { return alone.contains(fit.mistake->name); });
 }
 
+// Names the mistake that fits, describes several, or takes back a name whose motion is another.
 void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>& found, Finding& finding) {
   const auto computed = [&](const std::string& name) {
     return std::any_of(mistakes.begin(), mistakes.end(),
@@ -296,9 +311,18 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   // is better evidence.
   const bool among = std::any_of(found.begin(), found.end(),
                                  [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
-  const bool close = found.size() == 1 && found.front().off <= kEqual;
+  const bool close = !found.empty() && std::all_of(found.begin(), found.end(), [](const Fit& fit) {
+    return fit.off <= kEqual;
+  });
   if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
     return;
+  if (found.size() == 1 && found.front().too_few > 0) {
+    const Fit& fit = found.front();
+    finding.mistake.clear();
+    finding.says = fmt::format("Here it moves as with {}, which does not explain {}: {}", fit.mistake->name,
+                               fit.unexplained->name, fit.mistake->says);
+    return;
+  }
   if (found.size() == 1) {
     if (finding.mistake != found.front().mistake->name) finding.says = found.front().mistake->says;
     finding.mistake = found.front().mistake->name;

@@ -378,6 +378,10 @@ Finding lands_flat(const Lab& lab) {
     narrow.shapes.front().geometry = Box{side, 2};
     return right(lab.run(scene_of("narrow", {}, {box, narrow}), 0.8));
   };
+  // Each corner once: the second one undoes part of what the first one got.
+  const double first = (1 + e) * v / 2.5, second = ((1 + e) * v + first / 2) / 2.5;
+  const bool each_once = std::abs(trace.last(0).velocity.y - (first + second - v)) <= 0.005 * v &&
+                         std::abs(std::abs(trace.last(0).angular_velocity) - 3 * (second - first) / side) <= 0.02;
   const bool not_clipped = !right(trace) && !trace.still(0) && trace.last(0).velocity.y > -0.99 * v &&
                            trace.last(0).angular_velocity != 0 && lands_on_its_width();
   return Judgement()
@@ -386,6 +390,9 @@ Finding lands_flat(const Lab& lab) {
       .read("spin of a tall box after landing", "rad/s", standing.last(0).angular_velocity, 0, 0.02)
       .mistake_if(trace.still(0), "starts_at_rest",
                   "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
+      .mistake_if(each_once, "too_few_iterations",
+                  "The box spins after a flat landing, as if each corner were solved once, one after the other: go "
+                  "over all contacts 10 to 30 times a step.")
       .mistake_if(
           not_clipped, "not_clipped",
           "The box lands flat on ground of its own width and tips on wider ground: clip the side that "
@@ -402,9 +409,8 @@ Finding lands_flat(const Lab& lab) {
           "back. Keep the sum of each contact's impulses from becoming negative, not each impulse by "
           "itself, and go over the contacts several times.")
       .mistake_if(std::abs(trace.last(0).angular_velocity) > 0.02, "one_corner",
-                  "It spins after a flat landing: only one corner gets an impulse, or each only once. A flat "
-                  "landing has two "
-                  "contact points; go over them several times.")
+                  "It spins after a flat landing: only one corner gets an impulse, or one more than the other. A "
+                  "flat landing has two contact points; go over them several times.")
       .finding();
 }
 
