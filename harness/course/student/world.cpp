@@ -80,7 +80,7 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
        {"one_body_only", "inverse_mass_forgotten", "masses_in_place_of_inverses", "masses_swapped",
         "masses_ignored", "effective_mass_forgotten", "normal_not_unit", "whole_velocity",
         "r_cross_n_flipped", "no_rotation", "effective_mass_without_rotation", "both_corners_take_all",
-        "impulse_backwards", "each_turned", "sinks", "turned_every_step"})
+        "impulse_backwards", "each_turned", "turned_every_step"})
     once_ = once_ || is(name);
   for (const Body& body : scene_.bodies) {
     Rigid rigid{.position = body.position, .velocity = body.velocity, .force = {}, .angle = body.angle};
