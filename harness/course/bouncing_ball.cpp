@@ -233,10 +233,11 @@ Finding bounces(const Lab& lab) {
   return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(
           right(in_order) != right(turned), "order_of_pair",
-          fmt::format("The ball bounces if the floor comes {} in the scene, and not if it comes {}: the two may "
-                      "come in either order. A normal points from a to b; turn it, or swap the two, if the box "
-                      "comes first.",
-                      right(in_order) ? "after it" : "before it", right(in_order) ? "before it" : "after it"))
+          fmt::format("The bounce is right if the floor comes {} in the scene, and wrong if it comes {}. Does the "
+                      "normal point the same way in both, or is something taken from one of the two alone, "
+                      "as restitution, arm, velocity or impulse?",
+                      right(in_order) ? "after the ball" : "before the ball",
+                      right(in_order) ? "before it" : "after it"))
       .mistake_if(bounces_fast, "threshold_too_high", kThreshold)
       .mistake_if(
           std::abs(end.velocity.y - 2) <= 2 * tolerance && along > 0.05 && std::abs(along - 1) > tolerance,
@@ -426,6 +427,14 @@ Finding settles(const Lab& lab) {
   }
   const double tolerance = kGravity * lab.dt() * lab.dt() + 0.02 * r;
   const double speed = trace.last(0).velocity.y;
+  // The first bounce leaves e of the speed, and so e^2 of the height.
+  double bounced = 0;
+  bool fell = false;
+  for (const auto& states : trace.states) {
+    fell = fell || states[0].position.y < 1.05 * r;
+    if (fell) bounced = std::max(bounced, states[0].position.y - r);
+  }
+  const double impact = std::sqrt(2 * kGravity), due = 0.25;
   return Judgement()
       .read("highest above the floor from 2.7 s on", "m", high, 0, tolerance)
       .read("deepest in the floor from 2.7 s on", "m", low, 0, tolerance)
@@ -433,6 +442,7 @@ Finding settles(const Lab& lab) {
       .read("y of the floor", "m", trace.last(1).position.y, -0.5, 1e-9)
       .read("vy of the floor", "m/s", trace.last(1).velocity.y, 0, 1e-9)
       .read("least change of vy in a step on the way up", "g dt", least_gain_above(lab, trace, r), 1, 0.01)
+      .read("height of the first bounce", "m", bounced, due, 3 * impact * lab.dt() * 0.5)
       .mistake_if(
           std::abs(trace.last(1).position.y + 0.5) > 1e-9 || std::abs(trace.last(1).velocity.y) > 1e-9,
           "static_moves",
@@ -447,9 +457,9 @@ Finding settles(const Lab& lab) {
       .mistake_if(high > 0.5, "never_loses_energy",
                   "The ball keeps bouncing: each bounce should leave half of the speed.")
       .mistake_if(high > tolerance, "restless",
-                  "The ball keeps bouncing on the floor: gravity adds g dt of speed each step, and that must "
-                  "not bounce. "
-                  "Take restitution as 0 below about 2 g dt.")
+                  "The ball does not come to rest on the floor. Often the g dt of speed that gravity adds each step "
+                  "bounces: take restitution as 0 below about 2 g dt. Or correcting its position leaves it a "
+                  "velocity.")
       .finding();
 }
 

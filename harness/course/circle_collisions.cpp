@@ -121,8 +121,11 @@ Finding equal_masses_swap(const Lab& lab) {
   for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
   const bool caught = distance(trace, trace.states.size() - 1) < 0.9 * reach && nearest < reach / 4;
   Judgement judgement;
+  const Trace mirrored = head_on(lab, {.position = {1, 0}, .velocity = {w, 0}, .radius = r},
+                                 {.position = {-2, 0}, .velocity = {u, 0}, .radius = r}, 2);
   judgement.read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
-      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing);
+      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing)
+      .read("vx of the first, if it is on the right", "m/s", mirrored.last(0).velocity.x, u, kShare * closing);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) {
     return std::abs(t.last(0).velocity.x - w) + std::abs(t.last(1).velocity.x - u);

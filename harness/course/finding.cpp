@@ -93,7 +93,8 @@ Finding Judgement::finding() const {
     least = off;
     nearest = &mistake;
   }
-  if (nearest == nullptr && !otherwise_.empty()) nearest = &otherwise_.front();
+  out.fallback = nearest == nullptr && !otherwise_.empty();
+  if (out.fallback) nearest = &otherwise_.front();
   if (nearest == nullptr) {
     out.says = describe(readings_);
     return out;

@@ -748,6 +748,67 @@ std::vector<Predictable> predictable_mistakes() {
        "Correcting a joint's positions moves 10 kg and 1 kg equally far: each moves by its inverse mass."},
       {"correction_masses_swapped", "correction_shares_swapped", "5",
        "Correcting a joint's positions moves the heavy end more: each moves by its inverse mass."},
+      {"masses_swapped", "masses_swapped", "14", "Each body gets the other's inverse mass."},
+      {"one_body_only", "one_body_only", "1",
+       "Only the first of two bodies gets an impulse: the second gets the opposite one, and the two may come in "
+       "either order."},
+      {"other_body_only", "one_body_only", "1",
+       "Only the second of two bodies gets an impulse: the first gets the opposite one, and the two may come in "
+       "either order."},
+      {"restitution_of_the_first", "restitution_of_one", "13",
+       "The restitution of the first of the two counts: \"contact_rules\" says maximum, of both."},
+      {"restitution_of_the_second", "restitution_of_one", "13",
+       "The restitution of the second of the two counts: \"contact_rules\" says maximum, of both."},
+      {"threshold_without_dt", "threshold_too_high", "1",
+       "Speeds below 2 g do not bounce: restitution is 0 below 2 g dt, with the step, or below the scene's "
+       "\"restitution_threshold\"."},
+      {"one_plus_in_bounce", "one_plus_in_bounce", "134",
+       "They part at 1 + e times the speed at which they met: the speed after is -e vn, and 1 + e belongs to the "
+       "impulse alone."},
+      {"velocities_scaled_after", "whole_velocity_scaled", "134",
+       "The whole velocity is multiplied by e: only its part along the normal is."},
+      {"velocity_of_the_first_alone", "relative_velocity", "134",
+       "The velocity of the first of two bodies alone is used: the impulse depends on the relative velocity, (vb - "
+       "va) . n."},
+      {"velocity_of_the_second_alone", "relative_velocity", "134",
+       "The velocity of the second of two bodies alone is used: the impulse depends on the relative velocity, (vb - "
+       "va) . n."},
+      {"first_arm_for_both", "arm_of_the_other", "1", kArmOfTheOther},
+      {"second_arm_for_both", "arm_of_the_other", "1", kArmOfTheOther},
+      {"first_arm_everywhere", "arm_of_the_other", "14", kArmOfTheOther},
+      {"second_arm_everywhere", "arm_of_the_other", "14", kArmOfTheOther},
+      {"normal_by_arctangent", "normal_not_turned", "3",
+       "The normal is right if the second circle is on the right, and reversed if it is on the left: it is (xb - "
+       "xa)/|xb - xa|, and not taken from the arctangent of dy/dx."},
+      {"inverse_mass_whole", "inverse_mass_whole", "234",
+       "The inverse mass is rounded down to a whole number, so that forces and impulses do nothing to more than 1 "
+       "kg: divide as real numbers, 1.0/m."},
+      {"forces_a_step_late", "forces_a_step_late", "2",
+       "Forces act a step late: the step that computes them adds them."},
+      {"force_turned", "force_turned", "4",
+       "The force turns with the body: in the frame \"world\" it keeps its direction, in \"body\" it turns."},
+      {"inertia_not_inverted", "inertia_not_inverted", "45",
+       "Torques are multiplied by the inertia: divide, w changes by torque dt/I and r x j/I."},
+      {"centre_turned_backwards", "box_frame", "4",
+       "A circle is looked for in the wrong frame of a turned box: rotate its centre by minus the box's angle, find "
+       "the nearest point, and rotate that by plus the angle."},
+      {"centre_not_turned", "box_frame", "4",
+       "A circle is looked for in the wrong frame of a turned box: rotate its centre by minus the box's angle, find "
+       "the nearest point, and rotate that by plus the angle."},
+      {"tangent_mixed_up", "tangent_wrong", "4",
+       "The tangent of friction is not at a right angle to the normal: it is (-ny, nx)."},
+      {"joint_row_only_pulls", "joint_one_sign", "5", kOneSign},
+      {"joint_row_only_pushes", "joint_one_sign", "5", kOneSign},
+      {"length_of_the_start", "length_of_the_start", "5",
+       "A stick keeps the length that it has at the start: take \"length\" from the scene."},
+      {"world_has_mass", "world_has_mass", "5",
+       "The end named \"world\" has a mass: its inverse mass and inertia are 0, so that it takes no velocity."},
+      {"forces_after_contacts", "forces_too_late", "15",
+       "Forces and gravity change velocities after joints and contacts are solved: they come first, so that joints "
+       "and contacts can answer them before bodies move."},
+      {"arm_of_impulse_not_turned", "anchor_not_turned", "5",
+       "The anchor does not turn with the body: turn \"anchor_a\" and \"anchor_b\" by the body's angle to get r, for "
+       "impulses as well."},
       {"restitution*2", "restitution_twice", "13",
        "The motion is that of an engine in which the restitution is used twice."},
       {"torque*0.5", "torque_halved", "4",

@@ -314,7 +314,8 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   const bool close = !found.empty() && std::all_of(found.begin(), found.end(), [](const Fit& fit) {
     return fit.off <= kEqual;
   });
-  if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
+  const bool seen = finding.observed && !finding.fallback && !finding.mistake.empty();
+  if (seen && (among || (!computed(finding.mistake) && !close)))
     return;
   if (found.size() == 1 && found.front().too_few > 0) {
     const Fit& fit = found.front();

@@ -198,8 +198,8 @@ Body upright(Crate crate) {
 // Says that a pair's order matters: right if `first` comes first in the scene, or not.
 std::string either_order(const char* motion, bool right_if_first, const char* first) {
   return fmt::format(
-      "{} rightly if {} comes {} in the scene, and wrongly if it comes {}: the two may come in either order. The "
-      "normal points from a to b; where n . (xb - xa) is below 0, take -n.",
+      "{} rightly if {} comes {} in the scene, and wrongly if it comes {}. Does the normal point from a to b in both "
+      "orders? Where n . (xb - xa) is below 0, take -n. Or is something taken from one of the two alone?",
       motion, first, right_if_first ? "first" : "second", right_if_first ? "second" : "first");
 }
 
@@ -318,7 +318,8 @@ Finding ball_hits_rod(const Lab& lab) {
       .mistake_if(
           passes, "point_velocity",
           "A rod that turns into a ball at rest does not push it: the speed at which two close is that "
-          "of their points, v + w x r, which is (vx - w ry, vy + w rx).")
+          "of their points, v + w x r, which is (vx - w ry, vy + w rx). Or the ball is not found where the rod has "
+          "turned: rotate its centre by minus the rod's angle.")
       .mistake("r_cross_n_flipped", {v - j / m, j / rod_mass, -w}, kFlipped)
       .otherwise_if(trace.last(1).angular_velocity > -0.2 * w, "r_cross_n_flipped", kFlipped)
       .mistake(

@@ -51,6 +51,12 @@ void StudentWorld::solve(const Joint& joint, std::size_t index) {
     if (is("joint_point_velocity_flipped")) return body.velocity - cross(body.spin, arm);
     return body.velocity_at(arm);
   };
+  if (is("arm_of_impulse_not_turned"))
+    std::visit(
+        [&](const auto& j) {
+          if constexpr (requires { j.anchor_a; }) e.arm_a = j.anchor_a, e.arm_b = j.anchor_b;
+        },
+        joint);
   for (const Vec2d n : {stick ? 1 / gap * e.gap : Vec2d{1, 0}, Vec2d{0, 1}}) {
     const double speed = dot(velocity_at(b, e.arm_b) - velocity_at(a, e.arm_a), n);
     const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
@@ -64,8 +70,8 @@ void StudentWorld::solve(const Joint& joint, std::size_t index) {
     if (n.x == 0 && is("hinge_along_x_only") && !stick) break;
     if (n.y == 0 && is("hinge_along_y_only") && !stick) continue;
     double j = -times("impulse of a joint") * speed / k;
-    if (is("joint_only_pulls")) j = std::min(j, 0.0);
-    if (is("joint_only_pushes")) j = std::max(j, 0.0);
+    if (is("joint_only_pulls") || is("joint_row_only_pulls")) j = std::min(j, 0.0);
+    if (is("joint_only_pushes") || is("joint_row_only_pushes")) j = std::max(j, 0.0);
     if (is("joint_sum_only_pulls") || is("joint_sum_only_pushes")) {
       double& sum = stick || n.y == 0 ? joint_sums_[index].x : joint_sums_[index].y;
       const double whole = is("joint_sum_only_pulls") ? std::min(sum + j, 0.0) : std::max(sum + j, 0.0);
@@ -104,21 +110,28 @@ void StudentWorld::solve(const Joint& joint, std::size_t index) {
 }
 
 // Moves the ends of a joint together by `share` of its error.
-void StudentWorld::correct(const Joint& joint, double share) {
+void StudentWorld::correct(const Joint& joint, std::size_t index, double share) {
   Ends e = ends(joint);
   if (by_positions_ && is("lever_forgotten")) e.arm_a = e.arm_b = {};
   Rigid &a = bodies_[e.a], &b = bodies_[e.b];
   Vec2d error = e.gap;
   if (by_positions_ && is("lever_forgotten")) error = b.position - a.position;
   if (const auto* stick = std::get_if<DistanceJoint>(&joint))
-    error *= 1 - times("length of a stick") * stick->length / length(e.gap);
+    error *= 1 - times("length of a stick") *
+                     (is("length_of_the_start") ? first_lengths_[index] : stick->length) / length(e.gap);
   else if (is("hinge_along_x_only"))
     error.y = 0;
   else if (is("hinge_along_y_only"))
     error.x = 0;
+  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
+  if (is("joint_row_only_pulls") || is("joint_row_only_pushes")) {
+    const bool pulls = is("joint_row_only_pulls");
+    if (stick && too_long != pulls) return;
+    if (!stick) error = pulls ? Vec2d{std::max(error.x, 0.0), std::max(error.y, 0.0)}
+                              : Vec2d{std::min(error.x, 0.0), std::min(error.y, 0.0)};
+  }
   const double size = length(error);
   if (size == 0) return;
-  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
   if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
   const Vec2d n = 1 / size * error;
   const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/course/student/world.h"
 
@@ -41,6 +42,7 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   }
   if (is("tangent")) n = {-n.y, n.x};
   if (is("y_of_normal_flipped")) n.y = -n.y;
+  if (is("normal_by_arctangent") && way.x < 0) n = -n;
   if (is("normal_flipped")) n = -n;
   out.push_back({a, b, bodies_[a].position + ra / d * rim, n, is("normal_flipped") ? 0 : ra + rb - d});
 }
@@ -50,7 +52,9 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const double r = radius(c);
   const Box size = this->box(b);
   const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
-  const Vec2d local = q.inverse() * (c.position - b.position);
+  Vec2d local = q.inverse() * (c.position - b.position);
+  if (is("centre_turned_backwards")) local = q * (c.position - b.position);
+  if (is("centre_not_turned")) local = c.position - b.position;
   const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
                       std::clamp(local.y, -size.height / 2, size.height / 2)};
   const Vec2d way = q * (nearest - local);
@@ -174,6 +178,11 @@ std::vector<Touch> StudentWorld::touches() const {
       }
       if (!round_a && !round_b && !is("falls_through_boxes")) touch_boxes(a, b, out);
     }
+  }
+  for (Touch& touch : out) {  // a is the one that comes first in the scene
+    if (touch.a < touch.b) continue;
+    std::swap(touch.a, touch.b);
+    touch.normal = -touch.normal;
   }
   return out;
 }

@@ -93,13 +93,19 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
       rigid.position += Vec2d{box->width / 2, -box->height / 2};
     if (body.type == BodyType::Dynamic) {
       rigid.inverse_mass = 1 / body.mass;
-      if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = 1 / inertia(body);
+      if (is("inverse_mass_whole")) rigid.inverse_mass = std::floor(1 / body.mass);
+      if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = is("inertia_not_inverted") ? inertia(body) : 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
     }
     bodies_.push_back(rigid);
   }
   bodies_.push_back({});
+  if (is("world_has_mass")) bodies_.back().inverse_mass = 1;
+  for (const Joint& joint : scene_.joints) {
+    const Ends e = ends(joint);
+    first_lengths_.push_back(length(e.gap));
+  }
   if (is("mass_of_the_first_for_all"))
     for (Rigid& rigid : bodies_)
       if (rigid.inverse_mass > 0) rigid.inverse_mass = 1 / scene_.bodies.front().mass;
@@ -165,7 +171,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   };
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
-    add(times("force") * push->force +
+    const Vec2d given = is("force_turned") ? b.to_world(push->force) : push->force;
+    add(times("force") * given +
         (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
     Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
     if (is("lever_from_origin")) arm += b.position;
@@ -173,8 +180,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("point_turned_backwards"))
       arm = Rotation<double>{std::cos(b.angle), -std::sin(b.angle)} * push->point;
     arm *= times("arm of a force");
-    double turns = cross(arm, push->force);
-    if (is("dot_for_cross")) turns = dot(arm, push->force);
+    double turns = cross(arm, given);
+    if (is("dot_for_cross")) turns = dot(arm, given);
     if (is("only_rx_fy")) turns = arm.x * push->force.y;
     if (is("only_ry_fx")) turns = -arm.y * push->force.x;
     if (is("sum_for_cross")) turns = arm.x * push->force.y + arm.y * push->force.x;
@@ -250,6 +257,7 @@ void StudentWorld::accelerate() {
     if (is("force_without_dt")) force_dt = 1;
     if (is("force_per_frame")) force_dt = 1.0 / 60;
     if (is("force_dt_twice")) force_dt = dt_ * dt_;
+    if (is("forces_a_step_late")) std::swap(b.force, b.pending);
     if (is("force_as_impulse")) force_dt = steps_ == 0 ? 1 : 0;
     if (is("force_replaces_gravity") && b.force != Vec2d{}) fall = {};
     const Vec2d gain = dt * fall + force_dt * inverse * b.force;
@@ -307,6 +315,8 @@ double StudentWorld::restitution(const Touch& touch) const {
 Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
   const auto at_point = [&](const Rigid& body) {
     const Vec2d arm = touch.point - (is("contact_arm_from_origin") ? Vec2d{} : body.position);
+    if (is("first_arm_everywhere")) return body.velocity_at(touch.point - bodies_[touch.a].position);
+    if (is("second_arm_everywhere")) return body.velocity_at(touch.point - bodies_[touch.b].position);
     if (is("spin_not_in_velocity")) return body.velocity;
     if (is("point_velocity_flipped")) return body.velocity - cross(body.spin, arm);
     return body.velocity_at(arm);
@@ -315,16 +325,21 @@ Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
   const bool both = bodies_[touch.a].inverse_mass > 0 && bodies_[touch.b].inverse_mass > 0;
   if (is("velocity_of_the_first_only") && both) return -a;
   if (is("velocity_of_the_second_only") && both) return b;
+  if (is("velocity_of_the_first_alone")) return -a;
+  if (is("velocity_of_the_second_alone")) return b;
   if (is("velocities_added")) return a + b;
   return b - a;
 }
 
 void StudentWorld::prepare(Touch& touch) const {
   const double closing = dot(relative_velocity(touch), touch.normal);
-  const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
+  double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
+  if (is("threshold_without_dt")) slow = 2 * length(scene_.gravity);
   if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
   if (is("bounce_of_whole_speed") && touch.bounce > 0)
     touch.bounce = restitution(touch) * length(relative_velocity(touch));
+  if (is("one_plus_in_bounce") && closing < -slow) touch.bounce = -(1 + restitution(touch)) * closing;
+  if (is("velocities_scaled_after") && closing < -slow) touch.bounce = -closing;
   if (is("bounce_sign")) touch.bounce = -touch.bounce;
   if (is("one_plus_forgotten") && touch.bounce > 0) touch.bounce += closing;
   if (is("bounce_with_gravity_taken_off") && touch.bounce > 0)
@@ -360,15 +375,18 @@ void StudentWorld::answer_all(std::vector<Touch>& found) {
 
 void StudentWorld::answer(Touch& touch) {
   Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
-  const Vec2d n = touch.normal, arm_a = touch.point - a.position, arm_b = touch.point - b.position;
+  const Vec2d n = touch.normal;
+  Vec2d arm_a = touch.point - a.position, arm_b = touch.point - b.position;
+  if (is("first_arm_everywhere")) arm_b = arm_a;
+  if (is("second_arm_everywhere")) arm_a = arm_b;
   const double closing = dot(relative_velocity(touch), n);
   if (is("ignores_slow") && closing > -4 * length(scene_.gravity) * dt_) return;
+  Rigid& moves = a.inverse_mass > 0 ? a : b;
   if (is("both_turned") && closing < 0) {
-    a.velocity = -a.velocity;
+    moves.velocity = -moves.velocity;
     return;
   }
   if (is("velocity_sign_lost") && closing < 0) {
-    Rigid& moves = a.inverse_mass > 0 ? a : b;
     const bool upright = std::abs(n.y) > std::abs(n.x);
     double& v = upright ? moves.velocity.y : moves.velocity.x;
     v = restitution(touch) * std::abs(v);
@@ -379,17 +397,17 @@ void StudentWorld::answer(Touch& touch) {
     return;
   }
   if (is("wrong_axis") && closing < 0) {
-    Vec2d& v = (a.inverse_mass > 0 ? a : b).velocity;
+    Vec2d& v = moves.velocity;
     (std::abs(n.y) > std::abs(n.x) ? v.x : v.y) *= -restitution(touch);
     touch.bounce = closing;
     return;
   }
   if (is("whole_velocity_scaled") && closing < 0) {
-    a.velocity *= -restitution(touch);
+    moves.velocity *= -restitution(touch);
     return;
   }
   if (is("turned_every_step")) {
-    a.velocity -= (1 + restitution(touch)) * dot(a.velocity, n) * n;
+    moves.velocity -= (1 + restitution(touch)) * dot(moves.velocity, n) * n;
     return;
   }
   if (is("each_turned") && closing < 0) {
@@ -465,7 +483,6 @@ void StudentWorld::answer(Touch& touch) {
   touch.sum = sum;
   Vec2d push = j * n;
   if (is("along_wall_changed") && j > 0 && touch.sum == j) {
-    Rigid& moves = a.inverse_mass > 0 ? a : b;
     const Vec2d along{-n.y, n.x};
     moves.velocity -= (1 - restitution(touch)) * dot(moves.velocity, along) * along;
   }
@@ -497,7 +514,8 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_minimum")) mu = std::min(mu_a, mu_b);
   if (is("friction_maximum")) mu = std::max(mu_a, mu_b);
   if (mu == 0 || is("friction_ignored")) return;
-  const Vec2d t{-touch.normal.y, touch.normal.x}, arm_a = touch.point - a.position,
+  const Vec2d across{-touch.normal.y, touch.normal.x}, mixed{-touch.normal.x, touch.normal.y};
+  const Vec2d t = is("tangent_mixed_up") ? mixed : across, arm_a = touch.point - a.position,
                                                   arm_b = touch.point - b.position;
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
   const double k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a * spin_a +
@@ -572,6 +590,10 @@ void StudentWorld::solve_velocities(std::vector<Touch>& found) {
     if (sweep == 0 || !once_) answer_all(found);
   }
   touched_ = touched_ || !found.empty();
+  if (is("velocities_scaled_after"))
+    for (const Touch& touch : found)
+      if (touch.bounce > 0)
+        for (const std::size_t i : {touch.a, touch.b}) bodies_[i].velocity *= restitution(touch);
 }
 
 // Moves everything, then joined points together and overlapping bodies apart; velocities are displacements
@@ -582,7 +604,7 @@ void StudentWorld::move_by_positions() {
   const bool few = is("too_few_iterations") || is("one_sweep");
   for (int sweep = 0; sweep < (few ? 1 : kSweeps / 2); ++sweep) {
     if (!is("joint_ignored"))
-      for (const Joint& joint : scene_.joints) correct(joint, 1);
+      for (std::size_t i = 0; i < scene_.joints.size(); ++i) correct(scene_.joints[i], i, 1);
     push_out();
   }
   if (is("velocity_not_from_positions")) return;
@@ -599,7 +621,8 @@ void StudentWorld::advance() {
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
-  accelerate();
+  const bool late = is("forces_after_contacts");
+  if (!late) accelerate();
   if (by_positions_) {
     move_by_positions();
     std::vector<Touch> found = touches();
@@ -609,11 +632,12 @@ void StudentWorld::advance() {
   if (moves_now) move();
   std::vector<Touch> found = touches();
   solve_velocities(found);
+  if (late) accelerate();
   if (!moves_first && !moves_now) move();
   push_out();
   if (is("joint_ignored") || is("no_position_correction")) return;
   for (int sweep = 0; sweep < (is("too_few_iterations") || is("one_sweep") ? 1 : kSweeps / 4); ++sweep)
-    for (const Joint& joint : scene_.joints) correct(joint, kPushShare);
+    for (std::size_t i = 0; i < scene_.joints.size(); ++i) correct(scene_.joints[i], i, kPushShare);
 }
 
 }  // namespace plumb::course

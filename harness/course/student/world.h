@@ -11,6 +11,7 @@ namespace plumb::course {
 
 struct Rigid {
   Vec2d position, velocity, force;
+  Vec2d pending{};  ///< force of the step before
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
@@ -71,7 +72,7 @@ class StudentWorld {
   void solve_velocities(std::vector<Touch>& found);
   void move_by_positions();
   void solve(const Joint& joint, std::size_t index);
-  void correct(const Joint& joint, double share);
+  void correct(const Joint& joint, std::size_t index, double share);
   bool removes_overlaps() const;
   void apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse);
 
@@ -89,6 +90,7 @@ class StudentWorld {
   bool touched_ = false;  ///< there was a contact
   bool once_ = false;     ///< contacts are answered once a step
   bool moves_before_ = false, clipped_ = false, by_positions_ = false;
+  std::vector<double> first_lengths_;  ///< m, of the joints' gaps at the start
   std::vector<Vec2d> joint_sums_;  ///< N s, of each joint's one or two rows in this step
   long steps_ = 0;
   std::vector<BodyState> before_step_;  ///< the states before the last step
