@@ -213,8 +213,7 @@ Finding bounces(const Lab& lab) {
   const BodyState& end = trace.last(0);
   double lowest = trace.first(0).position.y - r;
   for (const auto& states : trace.states) lowest = std::min(lowest, states[0].position.y - r);
-  const double in_order = end.velocity.y,
-               turned = bounce(lab, r, 1, 1, true).last(1).velocity.y;
+  const double in_order = end.velocity.y, turned = bounce(lab, r, 1, 1, true).last(1).velocity.y;
   const auto right = [&](double vy) { return std::abs(vy - 2) <= 2 * tolerance; };
   Judgement judgement;
   judgement.read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
@@ -233,11 +232,12 @@ Finding bounces(const Lab& lab) {
   return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(
           right(in_order) != right(turned), "order_of_pair",
-          fmt::format("The bounce is right if the floor comes {} in the scene, and wrong if it comes {}. Does the "
-                      "normal point the same way in both, or is something taken from one of the two alone, "
-                      "as restitution, arm, velocity or impulse?",
-                      right(in_order) ? "after the ball" : "before the ball",
-                      right(in_order) ? "before it" : "after it"))
+          fmt::format(
+              "The bounce is right if the floor comes {} in the scene, and wrong if it comes {}. Does the "
+              "normal point the same way in both, or is something taken from one of the two alone, "
+              "as restitution, arm, velocity or impulse?",
+              right(in_order) ? "after the ball" : "before the ball",
+              right(in_order) ? "before it" : "after it"))
       .mistake_if(bounces_fast, "threshold_too_high", kThreshold)
       .mistake_if(
           std::abs(end.velocity.y - 2) <= 2 * tolerance && along > 0.05 && std::abs(along - 1) > tolerance,
@@ -456,10 +456,11 @@ Finding settles(const Lab& lab) {
           "The ball sinks into the floor little by little: correct its position as well as its velocity.")
       .mistake_if(high > 0.5, "never_loses_energy",
                   "The ball keeps bouncing: each bounce should leave half of the speed.")
-      .mistake_if(high > tolerance, "restless",
-                  "The ball does not come to rest on the floor. Often the g dt of speed that gravity adds each step "
-                  "bounces: take restitution as 0 below about 2 g dt. Or correcting its position leaves it a "
-                  "velocity.")
+      .mistake_if(
+          high > tolerance, "restless",
+          "The ball does not come to rest on the floor. Often the g dt of speed that gravity adds each step "
+          "bounces: take restitution as 0 below about 2 g dt. Or correcting its position leaves it a "
+          "velocity.")
       .finding();
 }
 

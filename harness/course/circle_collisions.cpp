@@ -125,7 +125,8 @@ Finding equal_masses_swap(const Lab& lab) {
                                  {.position = {-2, 0}, .velocity = {u, 0}, .radius = r}, 2);
   judgement.read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
       .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing)
-      .read("vx of the first, if it is on the right", "m/s", mirrored.last(0).velocity.x, u, kShare * closing);
+      .read("vx of the first, if it is on the right", "m/s", mirrored.last(0).velocity.x, u,
+            kShare * closing);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) {
     return std::abs(t.last(0).velocity.x - w) + std::abs(t.last(1).velocity.x - u);
@@ -477,13 +478,15 @@ Finding pile_rests(const Lab& lab) {
       .mistake_if(through, "falls_through",
                   "A ball sinks through what it rests on: apply an impulse in each step in which two overlap "
                   "and close.")
+      .mistake_if(too_few, "too_few_iterations",
+                  "A ball alone rests at the right height, and two sink: the upper one presses the lower one "
+                  "into the "
+                  "floor. Go over all contacts 10 to 30 times a step, each time from the velocities that the "
+                  "others left.")
       .mistake_if(
-          too_few, "too_few_iterations",
-          "A ball alone rests at the right height, and two sink: the upper one presses the lower one into the "
-          "floor. Go over all contacts 10 to 30 times a step, each time from the velocities that the others left.")
-      .mistake_if(alone_is_right && !too_few, "overlaps_stay",
-                  "A ball alone rests at the right height, and two sink into each other: correct the overlaps of "
-                  "balls with balls as well.")
+          alone_is_right && !too_few, "overlaps_stay",
+          "A ball alone rests at the right height, and two sink into each other: correct the overlaps of "
+          "balls with balls as well.")
       .mistake_if(height < -tolerance || gap < -tolerance, "sinks",
                   "The pile sinks: correct positions as well as velocities, each ball by its share of the "
                   "inverse masses.")

@@ -167,14 +167,17 @@ Finding stick_weighs_masses(const Lab& lab) {
       .read("vx of 10 kg, pushed by 1 kg", "m/s", pushed.last(0).velocity.x, when_pushed, 0.005 * both)
       .read("shift of the centre of mass of a stick too long", "m", centre, 0, 0.05 * stretch)
       .read("what is left of 0.05 m too much after 1 s", "m", left, 0, 0.1 * stretch)
-      .mistake_if(early > 1.01 * stretch, "correction_backwards",
-                  "A stick that begins too long gets longer: the correction of positions drives its ends apart.")
-      .mistake_if(std::abs(left - stretch) < 1e-9, "stays_too_long",
-                  "A stick that begins 5 cm too long stays so: its positions are not corrected, or its length is "
-                  "measured at the start in place of being taken from the scene.")
-      .mistake_if(left > 0.1 * stretch, "correction_too_weak",
-                  "A stick that begins 5 cm too long is still too long after a second: correct positions by a share "
-                  "of the error each step, 0.1 to 0.3. Is the share multiplied by dt?")
+      .mistake_if(
+          early > 1.01 * stretch, "correction_backwards",
+          "A stick that begins too long gets longer: the correction of positions drives its ends apart.")
+      .mistake_if(
+          std::abs(left - stretch) < 1e-9, "stays_too_long",
+          "A stick that begins 5 cm too long stays so: its positions are not corrected, or its length is "
+          "measured at the start in place of being taken from the scene.")
+      .mistake_if(
+          left > 0.1 * stretch, "correction_too_weak",
+          "A stick that begins 5 cm too long is still too long after a second: correct positions by a share "
+          "of the error each step, 0.1 to 0.3. Is the share multiplied by dt?")
       .mistake(
           "masses_ignored", {force * t / light / 2, force * t / light / 2},
           "Both ends are moved alike: share the correction by inverse mass; the light end takes ten parts in "
@@ -187,10 +190,11 @@ Finding stick_weighs_masses(const Lab& lab) {
       .mistake("shares_swapped",
                {force * t / light * heavy / (heavy + light), force * t / light * heavy / (heavy + light)},
                "The shares are swapped: the light end moves more, by inverse mass.")
-      .otherwise_if(
-          std::abs(momentum - force * t) < 0.001 * force * t, "stick_lets_go",
-          "The two ends have different speeds although the total momentum is right: the stick does not hold them "
-          "in every step. Is its impulse -dC/dt/(1/ma + 1/mb), with both signs, and does it come after the forces?")
+      .otherwise_if(std::abs(momentum - force * t) < 0.001 * force * t, "stick_lets_go",
+                    "The two ends have different speeds although the total momentum is right: the stick does "
+                    "not hold them "
+                    "in every step. Is its impulse -dC/dt/(1/ma + 1/mb), with both signs, and does it come "
+                    "after the forces?")
       .otherwise_if(std::abs(momentum - force * t) > 0.05 * force * t, "momentum_not_kept",
                     "The stick changes the total momentum: its two ends must get opposite impulses.")
       .finding();
@@ -255,9 +259,10 @@ Finding pendulum(const Lab& lab) {
       .read("largest change of length", "m", stretched, 0, 0.02 * l * lab.coarseness())
       .mistake_if(trace.still(0), "no_gravity",
                   "The bob hangs still, at 60 degrees: gravity pulls at it as well.")
-      .mistake_if(!period, "does_not_swing",
-                  "It does not swing to and fro: the string does not hold the bob, or the end named \"world\" is "
-                  "not a fixed point, at anchor_a.")
+      .mistake_if(
+          !period, "does_not_swing",
+          "It does not swing to and fro: the string does not hold the bob, or the end named \"world\" is "
+          "not a fixed point, at anchor_a.")
       .otherwise_if(
           high > 1.1 * amplitude, "swings_higher",
           "It swings higher each time: something adds energy. A joint's impulse only stops the change of "
@@ -483,9 +488,10 @@ Finding chain_swings(const Lab& lab) {
       .mistake_if(falls, "joint_ignored", "The chain falls freely: its links do nothing.")
       .mistake_if(
           worst > 0.25 * lab.coarseness(), "links_stretch",
-          fmt::format("Link {} stretches by {:.0f} %. Mostly there are too few iterations: go over all joints 20 "
-                      "times a step or more. Impulses that are kept for the next step must be those of one step.",
-                      where, 100 * worst))
+          fmt::format(
+              "Link {} stretches by {:.0f} %. Mostly there are too few iterations: go over all joints 20 "
+              "times a step or more. Impulses that are kept for the next step must be those of one step.",
+              where, 100 * worst))
       .mistake_if(left > -1e-9, "joint_ignored", "The chain does not swing through.")
       .finding();
 }

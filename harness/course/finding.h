@@ -37,7 +37,8 @@ struct Finding {
   bool fallback = false;  ///< `mistake` is named because nothing else matches: it says what is seen
   bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
-  bool explained = false;  ///< a mistake that an earlier check named fails this one as well: `says` has its name
+  bool explained =
+      false;  ///< a mistake that an earlier check named fails this one as well: `says` has its name
 };
 
 /// Stands for a figure that a mistake leaves undetermined.

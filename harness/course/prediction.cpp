@@ -42,13 +42,13 @@ constexpr double kSteps = 0.05;
 std::vector<const char*> ways(int chapter) {
   switch (chapter) {
     case 1:
-      return {"", ", one sweep", ", moves before, one sweep"};
+      return {"", ", one sweep", ", moves before, one sweep", ", split"};
     case 2:
       return {""};
     case 3:
-      return {"", ", one sweep", ", moves before", ", moves before, one sweep"};
+      return {"", ", one sweep", ", moves before", ", moves before, one sweep", ", split"};
     case 4:
-      return {"", ", one sweep", ", clipped", ", clipped, moves before"};
+      return {"", ", one sweep", ", clipped", ", clipped, moves before", ", clipped, split"};
     default:
       return {"", ", one sweep", ", clipped", ", by positions"};
   }
@@ -79,7 +79,8 @@ double distance(const Trace& a, const Trace& b) {
       const Vec2d way = a.states[k][i].position - b.states[k][i].position;
       const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
       const Vec2d speed = kSteps * (a.states[k][i].velocity - b.states[k][i].velocity);
-      const double spin = kSteps * kLever * (a.states[k][i].angular_velocity - b.states[k][i].angular_velocity);
+      const double spin =
+          kSteps * kLever * (a.states[k][i].angular_velocity - b.states[k][i].angular_velocity);
       sum += dot(way, way) + turn * turn + dot(speed, speed) + spin * spin;
     }
   return sum;
@@ -119,8 +120,8 @@ bool static_moves(const std::vector<Recorded>& runs) {
 struct Fit {
   const Predictable* mistake;
   double off;  // distance of the paths over that from the right ones
-  // Other checks of the chapter that pass, and that it would fail; that fail, and that it would pass, with one
-  // of them; and that fail with other readings.
+  // Other checks of the chapter that pass, and that it would fail; that fail, and that it would pass, with
+  // one of them; and that fail with other readings.
   int too_many = 0, too_few = 0, readings = 0;
   const Check* unexplained = nullptr;
   double elsewhere = 0;  ///< largest `off` of the other checks that fail
@@ -311,12 +312,10 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   // is better evidence.
   const bool among = std::any_of(found.begin(), found.end(),
                                  [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
-  const bool close = !found.empty() && std::all_of(found.begin(), found.end(), [](const Fit& fit) {
-    return fit.off <= kEqual;
-  });
+  const bool close = !found.empty() && std::all_of(found.begin(), found.end(),
+                                                   [](const Fit& fit) { return fit.off <= kEqual; });
   const bool seen = finding.observed && !finding.fallback && !finding.mistake.empty();
-  if (seen && (among || (!computed(finding.mistake) && !close)))
-    return;
+  if (seen && (among || (!computed(finding.mistake) && !close))) return;
   if (found.size() == 1 && found.front().too_few > 0) {
     const Fit& fit = found.front();
     finding.mistake.clear();

@@ -127,8 +127,9 @@ void StudentWorld::correct(const Joint& joint, std::size_t index, double share) 
   if (is("joint_row_only_pulls") || is("joint_row_only_pushes")) {
     const bool pulls = is("joint_row_only_pulls");
     if (stick && too_long != pulls) return;
-    if (!stick) error = pulls ? Vec2d{std::max(error.x, 0.0), std::max(error.y, 0.0)}
-                              : Vec2d{std::min(error.x, 0.0), std::min(error.y, 0.0)};
+    if (!stick)
+      error = pulls ? Vec2d{std::max(error.x, 0.0), std::max(error.y, 0.0)}
+                    : Vec2d{std::min(error.x, 0.0), std::min(error.y, 0.0)};
   }
   const double size = length(error);
   if (size == 0) return;

@@ -9,14 +9,14 @@ namespace plumb::course {
 namespace {
 
 constexpr int kSweeps = 40;
-constexpr double kPushShare = 0.5;
+constexpr double kPushShare = 0.5, kSplitShare = 0.3;
 constexpr double kSlop = 0.001;  // m that resting bodies stay in each other, so that they still touch
 constexpr std::pair<const char*, const char*> kScaled[] = {
     {"gravity_upwards", "gravity*-1"},
     {"gravity_twice", "gravity*2"},
     {"rest_length_ignored", "rest length of a spring*0"},
     {"spring_pushes", "stiffness of a spring*-1"}};
-constexpr std::string_view kOneSweep = ", one sweep", kMovesBefore = ", moves before",
+constexpr std::string_view kOneSweep = ", one sweep", kMovesBefore = ", moves before", kSplit = ", split",
                            kClipped = ", clipped", kByPositions = ", by positions";
 constexpr double kDegrees = 180 / std::numbers::pi;
 
@@ -66,6 +66,7 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
   };
   once_ = built(kOneSweep);
   moves_before_ = built(kMovesBefore);
+  split_ = built(kSplit);
   clipped_ = built(kClipped);
   by_positions_ = built(kByPositions) && !scene_.joints.empty();
   once_ = once_ || moves_before_ || is("one_sweep");
@@ -94,7 +95,8 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     if (body.type == BodyType::Dynamic) {
       rigid.inverse_mass = 1 / body.mass;
       if (is("inverse_mass_whole")) rigid.inverse_mass = std::floor(1 / body.mass);
-      if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = is("inertia_not_inverted") ? inertia(body) : 1 / inertia(body);
+      if (!body.fixed_rotation || is("fixed_rotation_ignored"))
+        rigid.inverse_inertia = is("inertia_not_inverted") ? inertia(body) : 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
     }
@@ -172,8 +174,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
     const Vec2d given = is("force_turned") ? b.to_world(push->force) : push->force;
-    add(times("force") * given +
-        (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
+    add(times("force") * given + (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
     Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
     if (is("lever_from_origin")) arm += b.position;
     if (is("point_ignored")) arm = {};
@@ -516,7 +517,7 @@ void StudentWorld::rub(Touch& touch) {
   if (mu == 0 || is("friction_ignored")) return;
   const Vec2d across{-touch.normal.y, touch.normal.x}, mixed{-touch.normal.x, touch.normal.y};
   const Vec2d t = is("tangent_mixed_up") ? mixed : across, arm_a = touch.point - a.position,
-                                                  arm_b = touch.point - b.position;
+              arm_b = touch.point - b.position;
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
   const double k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a * spin_a +
                    b.inverse_inertia * spin_b * spin_b;
@@ -540,10 +541,12 @@ bool StudentWorld::removes_overlaps() const {
   return !is("sinks") && !is("turned_every_step") && !is("ignores_slow");
 }
 
-void StudentWorld::push_out() {
+void StudentWorld::push_out(const std::vector<Touch>& found) {
   if (!removes_overlaps()) return;
-  const double least = moves_before_ ? 0 : kSlop, part = moves_before_ ? 1 : kPushShare;
-  for (const Touch& touch : touches()) {
+  const double least = moves_before_ ? 0 : kSlop, part = moves_before_ ? 1
+                                                         : split_      ? kSplitShare
+                                                                       : kPushShare;
+  for (const Touch& touch : found) {
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
     const auto reach = [this](const Rigid& body) {
       return body.body->shapes[0].geometry.index() == 0 ? radius(body) : 0;
@@ -564,6 +567,7 @@ void StudentWorld::push_out() {
     if (is("correction_shares_swapped") && both) std::swap(share_a, share_b);
     if (is("correction_of_the_first_only") && both) share_b = 0;
     if (is("correction_of_the_second_only") && both) share_a = 0;
+    if (split_ && is("masses_swapped")) std::swap(share_a, share_b);
     if (is("correction_without_masses") && both) share_a = share_b = share_a + share_b;
     const double f = times("correction of an overlap");
     a.position -= f * share_a * push;
@@ -605,7 +609,7 @@ void StudentWorld::move_by_positions() {
   for (int sweep = 0; sweep < (few ? 1 : kSweeps / 2); ++sweep) {
     if (!is("joint_ignored"))
       for (std::size_t i = 0; i < scene_.joints.size(); ++i) correct(scene_.joints[i], i, 1);
-    push_out();
+    push_out(touches());
   }
   if (is("velocity_not_from_positions")) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -633,8 +637,9 @@ void StudentWorld::advance() {
   std::vector<Touch> found = touches();
   solve_velocities(found);
   if (late) accelerate();
+  if (split_) push_out(found);
   if (!moves_first && !moves_now) move();
-  push_out();
+  if (!split_) push_out(touches());
   if (is("joint_ignored") || is("no_position_correction")) return;
   for (int sweep = 0; sweep < (is("too_few_iterations") || is("one_sweep") ? 1 : kSweeps / 4); ++sweep)
     for (std::size_t i = 0; i < scene_.joints.size(); ++i) correct(scene_.joints[i], i, kPushShare);

@@ -11,7 +11,7 @@ namespace plumb::course {
 
 struct Rigid {
   Vec2d position, velocity, force;
-  Vec2d pending{};  ///< force of the step before
+  Vec2d pending{};          ///< force of the step before
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
@@ -32,9 +32,10 @@ struct Touch {
 class StudentWorld {
  public:
   /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5". After it may stand
-  /// how the engine is built: ", one sweep" answers contacts once a step; ", moves before" moves bodies before
-  /// it looks for contacts, answers those once and removes their whole overlap, as in chapter 1; ", clipped"
-  /// clips the sides of boxes; ", by positions" holds joints by positions. `scheme` is semi-implicit Euler,
+  /// how the engine is built: ", one sweep" answers contacts once a step; ", moves before" moves bodies
+  /// before it looks for contacts, answers those once and removes their whole overlap, as in chapter 1; ",
+  /// split" removes a share of the overlaps that a step begins with, by the same equations; ", clipped" clips
+  /// the sides of boxes; ", by positions" holds joints by positions. `scheme` is semi-implicit Euler,
   /// explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler);
@@ -68,7 +69,7 @@ class StudentWorld {
   void answer(Touch& touch);
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
-  void push_out();
+  void push_out(const std::vector<Touch>& found);
   void solve_velocities(std::vector<Touch>& found);
   void move_by_positions();
   void solve(const Joint& joint, std::size_t index);
@@ -89,9 +90,9 @@ class StudentWorld {
   reference::Scheme scheme_;
   bool touched_ = false;  ///< there was a contact
   bool once_ = false;     ///< contacts are answered once a step
-  bool moves_before_ = false, clipped_ = false, by_positions_ = false;
+  bool moves_before_ = false, split_ = false, clipped_ = false, by_positions_ = false;
   std::vector<double> first_lengths_;  ///< m, of the joints' gaps at the start
-  std::vector<Vec2d> joint_sums_;  ///< N s, of each joint's one or two rows in this step
+  std::vector<Vec2d> joint_sums_;      ///< N s, of each joint's one or two rows in this step
   long steps_ = 0;
   std::vector<BodyState> before_step_;  ///< the states before the last step
   std::vector<Rigid> bodies_;           ///< the scene's, then the world

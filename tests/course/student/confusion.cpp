@@ -1,7 +1,8 @@
 // Makes each mistake of the learner's engine and prints how it is named: `plumb_course_confusion [--without]
 // [--built HOW] [--part K/N] [MISTAKE...]`. `--without` leaves the mistake itself out of what diagnoses know,
-// `--built` is how the engine is built, as ", clipped". Prints one line a mistake, the first diagnosis and the
-// others, and counts. The exit code is 1 if a mistake that is known is not named, or one is named falsely.
+// `--built` is how the engine is built, as ", clipped". Prints one line a mistake, the first diagnosis and
+// the others, and counts. The exit code is 1 if a mistake that is known is not named, or one is named
+// falsely.
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -61,8 +62,9 @@ void run(const Predictable& mistake, const Options& options, const std::vector<C
         if (!failed) {
           failed = true;
           first = outcome.check->name + " " + name;
-          const bool described = finding.mistake.empty() && finding.says.find(std::string(" ") + mistake.name +
-                                                                              ": ") != std::string::npos;
+          const bool described =
+              finding.mistake.empty() &&
+              finding.says.find(std::string(" ") + mistake.name + ": ") != std::string::npos;
           if (name == mistake.name)
             ++count.named;
           else if (described)
@@ -73,7 +75,8 @@ void run(const Predictable& mistake, const Options& options, const std::vector<C
             ++count.another, first += " (another) " + finding.says;
         } else if (!finding.mistake.empty() && finding.mistake != mistake.name) {
           ++count.later;
-          others += fmt::format("; {} {} {}", outcome.check->name, name, finding.computed ? "computed" : "seen");
+          others +=
+              fmt::format("; {} {} {}", outcome.check->name, name, finding.computed ? "computed" : "seen");
         }
       },
       options.without ? mistake.planted : "");
@@ -102,7 +105,8 @@ int main(int count, char** arguments) {
         its.push_back(chapter);
     run(mistake, options, its, total);
   }
-  fmt::print("named {}, described with others {}, not named {}, another {}, harmless {}; other names later {}\n",
-             total.named, total.described, total.unnamed, total.another, total.harmless, total.later);
+  fmt::print(
+      "named {}, described with others {}, not named {}, another {}, harmless {}; other names later {}\n",
+      total.named, total.described, total.unnamed, total.another, total.harmless, total.later);
   return total.another > 0 || (!options.without && total.unnamed > 0);
 }
