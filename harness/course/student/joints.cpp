@@ -142,7 +142,7 @@ void StudentWorld::correct(const Joint& joint, std::size_t index, double share) 
     k += a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
   double push = times("correction of a joint") * share * size / k;
   double share_a = a.inverse_mass, share_b = b.inverse_mass;
-  if (by_positions_) {  // what an impulse gets wrong otherwise
+  if (by_positions_) {  // makes the mistakes of impulses here
     push *= times("impulse of a joint");
     if (is("stick_masses_ignored"))
       push *= k, share_a = share_b = 0.5;
