@@ -18,6 +18,29 @@ constexpr const char* kNotOpposite =
 constexpr const char* kOneNeverSpins =
     "Only one of the two bodies gets spin from the joint: each changes its w by r x j/I, with its own r and "
     "I, and a gets the opposite impulse.";
+constexpr const char* kNotTurned =
+    "The normal is right in one order of the two bodies and points the wrong way in the other: it points "
+    "from a "
+    "to b. Where n . (xb - xa) is below 0, take -n.";
+constexpr const char* kTooFar =
+    "What overlaps is moved too far: it is moved by the overlap, radius - distance, and not by the radius or "
+    "the "
+    "distance.";
+constexpr const char* kOneSweep =
+    "Each contact is solved once a step, so that what one of them changes spoils the others: go over all "
+    "contacts "
+    "10 to 30 times a step.";
+constexpr const char* kOneSign =
+    "A joint's impulse has one sign only, as that of a contact: a joint pulls and pushes. Do not clamp its "
+    "impulse, "
+    "nor the sum of its impulses.";
+constexpr const char* kJointPoint =
+    "A joint does not see the speed of its anchors: it is v + w x r, which is (vx - w ry, vy + w rx), with "
+    "each "
+    "body's own r.";
+constexpr const char* kJointSpin =
+    "The joint's impulse spins a body the wrong way: w changes by (rx jy - ry jx)/I, and a gets the opposite "
+    "impulse.";
 constexpr const char* kOneEnd =
     "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
 
@@ -646,6 +669,176 @@ std::vector<Predictable> predictable_mistakes() {
       {"joined_bodies_collide", "joined_bodies_collide", "5",
        "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not collide, "
        "unless \"collide\" is true."},
+      {"correction of an overlap*-1", "pushed_together", "1",
+       "The correction of an overlap pushes the ball into the wall: it moves out, along the normal that "
+       "points to "
+       "the ball's centre."},
+      {"pushed_by_the_distance", "pushed_too_far", "13", kTooFar},
+      {"pushed_by_the_radius", "pushed_too_far", "13", kTooFar},
+      {"circles_stay_in_each_other", "overlaps_stay", "3",
+       "Balls are moved out of the floor, and not out of each other: correct the overlaps of all pairs."},
+      {"sinks", "sinks", "3",
+       "The pile sinks: correct positions as well as velocities, each ball by its share of the inverse "
+       "masses."},
+      {"box_first_not_turned", "normal_not_turned", "134", kNotTurned},
+      {"axis_not_turned", "normal_not_turned", "4", kNotTurned},
+      {"box_first_forgotten", "order_of_pair", "134",
+       "A box and a circle collide only if the circle comes first in the scene: look for contacts of a box "
+       "and a "
+       "circle in both orders."},
+      {"one_sweep", "too_few_iterations", "345", kOneSweep},
+      {"force_as_impulse", "force_as_impulse", "2",
+       "The force changes the velocity by F/m once, as an impulse does: it adds F dt/m in each step."},
+      {"force_replaces_gravity", "force_replaces_gravity", "2",
+       "A body with a force does not fall: gravity acts besides, a = g + F/m."},
+      {"force_sets_velocity", "force_sets_velocity", "2",
+       "The force sets the velocity: it is added to the velocity of before, v += F dt/m."},
+      {"force_moves_positions", "force_moves_positions", "2",
+       "The force also changes the position: it changes the velocity, and the velocity changes the "
+       "position."},
+      {"mass_of_the_first_for_all", "mass_of_another", "2",
+       "All bodies have the mass of the first: each has its own."},
+      {"drag_by_magnitude", "drag_by_magnitude", "2",
+       "Drag pushes down and to the left whatever the velocity: it is -c v, a vector, and not -c |v| along "
+       "each "
+       "axis."},
+      {"spring_along_x_only", "spring_along_one_axis", "2",
+       "The spring pulls along x alone: its force points along the spring, from end to end."},
+      {"spring_by_components", "spring_by_components", "2",
+       "The rest length is taken off x and y apart: the force is stiffness (length - rest_length), along the "
+       "spring."},
+      {"first_spins_backwards", "r_cross_n_flipped", "4",
+       "One of the two bodies spins the wrong way: a gets the impulse -j n and b +j n, and w changes by (rx "
+       "jy - ry "
+       "jx)/I of what each gets."},
+      {"second_spins_backwards", "r_cross_n_flipped", "4",
+       "One of the two bodies spins the wrong way: a gets the impulse -j n and b +j n, and w changes by (rx "
+       "jy - ry "
+       "jx)/I of what each gets."},
+      {"spin of an impulse*0.5", "spin_halved", "4",
+       "The impulse changes the spin by half of what it should: w changes by r x j/I."},
+      {"spin of an impulse*2", "spin_twice", "4",
+       "The impulse changes the spin twice as much as it should: w changes by r x j/I, once."},
+      {"spin_by_mass", "spin_by_mass", "4",
+       "The impulse changes the spin by r x j/m: divide it by the inertia."},
+      {"spin_times_inertia", "spin_times_inertia", "4",
+       "The impulse changes the spin by r x j I: divide it by the inertia."},
+      {"axes_of_the_first_only", "axes_of_one_box", "4",
+       "The axes of only one of the two boxes are tried: there are four, two of each."},
+      {"friction_each_time", "friction_unlimited", "4",
+       "Friction is limited each time and not as a sum, so that many times a step give more: keep the sum of "
+       "its "
+       "impulses within mu times the sum along the normal."},
+      {"friction_one_sign", "friction_one_sign", "4",
+       "Friction acts in one direction only: its sum lies between -mu and +mu times the sum along the "
+       "normal."},
+      {"friction_other_sign", "friction_one_sign", "4",
+       "Friction acts in one direction only: its sum lies between -mu and +mu times the sum along the "
+       "normal."},
+      {"friction_never_spins", "friction_never_spins", "4",
+       "Friction slows the box and does not turn it: its impulse acts at the contact point and changes w by "
+       "r x "
+       "j/I."},
+      {"joint_only_pulls", "joint_one_sign", "5", kOneSign},
+      {"joint_only_pushes", "joint_one_sign", "5", kOneSign},
+      {"joint_sum_only_pulls", "joint_one_sign", "5", kOneSign},
+      {"joint_sum_only_pushes", "joint_one_sign", "5", kOneSign},
+      {"joint_spin_not_in_velocity", "joint_point_velocity", "5", kJointPoint},
+      {"joint_point_velocity_flipped", "joint_point_velocity", "5", kJointPoint},
+      {"joint_spins_backwards", "joint_spins_backwards", "5", kJointSpin},
+      {"joint_spins_the_first_backwards", "joint_spins_backwards", "5", kJointSpin},
+      {"joint_spins_the_second_backwards", "joint_spins_backwards", "5", kJointSpin},
+      {"joint_same_direction_for_both", "same_direction_for_both", "5",
+       "Both ends get the joint's impulse in the same direction: a gets -j n, b +j n."},
+      {"joint_masses_swapped", "masses_swapped", "5", "Each end gets the other's inverse mass."},
+      {"joint_inverse_mass_forgotten", "inverse_mass_forgotten", "5",
+       "Both ends change their velocity by j: each changes by j times its own inverse mass."},
+      {"joint_effective_mass_forgotten", "effective_mass_forgotten", "5",
+       "The joint's impulse is not divided by 1/ma + 1/mb."},
+      {"anchors_swapped", "one_anchor", "5",
+       "The anchors are swapped: \"anchor_a\" is a place on a, \"anchor_b\" one on b, each from its own "
+       "centre."},
+      {"anchor_turned_backwards", "turned_backwards", "5",
+       "The anchor turns against its body: turned by the angle a, (x, y) becomes (x cos a - y sin a, x sin a "
+       "+ y "
+       "cos a)."},
+      {"correction_masses_ignored", "correction_split_evenly", "5",
+       "Correcting a joint's positions moves 10 kg and 1 kg equally far: each moves by its inverse mass."},
+      {"correction_masses_swapped", "correction_shares_swapped", "5",
+       "Correcting a joint's positions moves the heavy end more: each moves by its inverse mass."},
+      {"masses_swapped", "masses_swapped", "14", "Each body gets the other's inverse mass."},
+      {"one_body_only", "one_body_only", "1",
+       "Only the first of two bodies gets an impulse: the second gets the opposite one, and the two may come "
+       "in "
+       "either order."},
+      {"other_body_only", "one_body_only", "1",
+       "Only the second of two bodies gets an impulse: the first gets the opposite one, and the two may come "
+       "in "
+       "either order."},
+      {"restitution_of_the_first", "restitution_of_one", "13",
+       "The restitution of the first of the two counts: \"contact_rules\" says maximum, of both."},
+      {"restitution_of_the_second", "restitution_of_one", "13",
+       "The restitution of the second of the two counts: \"contact_rules\" says maximum, of both."},
+      {"threshold_without_dt", "threshold_too_high", "1",
+       "Speeds below 2 g do not bounce: restitution is 0 below 2 g dt, with the step, or below the scene's "
+       "\"restitution_threshold\"."},
+      {"one_plus_in_bounce", "one_plus_in_bounce", "134",
+       "They part at 1 + e times the speed at which they met: the speed after is -e vn, and 1 + e belongs to "
+       "the "
+       "impulse alone."},
+      {"velocities_scaled_after", "whole_velocity_scaled", "134",
+       "The whole velocity is multiplied by e: only its part along the normal is."},
+      {"velocity_of_the_first_alone", "relative_velocity", "134",
+       "The velocity of the first of two bodies alone is used: the impulse depends on the relative velocity, "
+       "(vb - "
+       "va) . n."},
+      {"velocity_of_the_second_alone", "relative_velocity", "134",
+       "The velocity of the second of two bodies alone is used: the impulse depends on the relative "
+       "velocity, (vb - "
+       "va) . n."},
+      {"first_arm_for_both", "arm_of_the_other", "1", kArmOfTheOther},
+      {"second_arm_for_both", "arm_of_the_other", "1", kArmOfTheOther},
+      {"first_arm_everywhere", "arm_of_the_other", "14", kArmOfTheOther},
+      {"second_arm_everywhere", "arm_of_the_other", "14", kArmOfTheOther},
+      {"normal_by_arctangent", "normal_not_turned", "3",
+       "The normal is right if the second circle is on the right, and reversed if it is on the left: it is "
+       "(xb - "
+       "xa)/|xb - xa|, and not taken from the arctangent of dy/dx."},
+      {"inverse_mass_whole", "inverse_mass_whole", "234",
+       "The inverse mass is rounded down to a whole number, so that forces and impulses do nothing to more "
+       "than 1 "
+       "kg: divide as real numbers, 1.0/m."},
+      {"forces_a_step_late", "forces_a_step_late", "2",
+       "Forces act a step late: the step that computes them adds them."},
+      {"force_turned", "force_turned", "4",
+       "The force turns with the body: in the frame \"world\" it keeps its direction, in \"body\" it turns."},
+      {"inertia_not_inverted", "inertia_not_inverted", "45",
+       "Torques are multiplied by the inertia: divide, w changes by torque dt/I and r x j/I."},
+      {"centre_turned_backwards", "box_frame", "4",
+       "A circle is looked for in the wrong frame of a turned box: rotate its centre by minus the box's "
+       "angle, find "
+       "the nearest point, and rotate that by plus the angle."},
+      {"centre_not_turned", "box_frame", "4",
+       "A circle is looked for in the wrong frame of a turned box: rotate its centre by minus the box's "
+       "angle, find "
+       "the nearest point, and rotate that by plus the angle."},
+      {"tangent_mixed_up", "tangent_wrong", "4",
+       "The tangent of friction is not at a right angle to the normal: it is (-ny, nx)."},
+      {"joint_row_only_pulls", "joint_one_sign", "5", kOneSign},
+      {"joint_row_only_pushes", "joint_one_sign", "5", kOneSign},
+      {"length_of_the_start", "length_of_the_start", "5",
+       "A stick keeps the length that it has at the start: take \"length\" from the scene."},
+      {"world_has_mass", "world_has_mass", "5",
+       "The end named \"world\" has a mass: its inverse mass and inertia are 0, so that it takes no "
+       "velocity."},
+      {"forces_after_contacts", "forces_too_late", "15",
+       "Forces and gravity change velocities after joints and contacts are solved: they come first, so that "
+       "joints "
+       "and contacts can answer them before bodies move."},
+      {"arm_of_impulse_not_turned", "anchor_not_turned", "5",
+       "The anchor does not turn with the body: turn \"anchor_a\" and \"anchor_b\" by the body's angle to "
+       "get r, for "
+       "impulses as well."},
       {"restitution*2", "restitution_twice", "13",
        "The motion is that of an engine in which the restitution is used twice."},
       {"torque*0.5", "torque_halved", "4",

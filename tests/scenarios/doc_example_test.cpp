@@ -20,6 +20,8 @@ TEST(DocExample, IsAScenarioLikeAnyOther) {
 // Like every scenario in this program it has been through the tests of all.
 TEST(NewScenario, IsAScenarioAsItIsWritten) { EXPECT_EQ(select("newly_written").size(), 1u); }
 
+TEST(NewScenario, MayBeNamedAsAKeywordOfTheLanguage) { EXPECT_EQ(select("register").size(), 1u); }
+
 TEST(DocExample, IsAtMostFortyLines) {
   std::ifstream file(PLUMB_DOC_EXAMPLE);
   ASSERT_TRUE(file) << PLUMB_DOC_EXAMPLE;

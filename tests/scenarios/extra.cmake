@@ -16,13 +16,16 @@ if(TARGET test_scenarios)
   string(SUBSTRING "${text}" 0 ${end} text)
   file(CONFIGURE OUTPUT ${example} CONTENT "${text}" @ONLY)
 
-  # The file that `plumb new scenario newly_written` writes.
+  # The files that `plumb new scenario` writes, one of them named as a keyword of the language.
   set(template ${PROJECT_SOURCE_DIR}/app/new_scenario.cpp.in)
-  set(newly_written ${CMAKE_CURRENT_BINARY_DIR}/scenarios/newly_written.cpp)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${template})
-  file(READ ${template} text)
-  string(REPLACE new_scenario_name newly_written text "${text}")
-  file(CONFIGURE OUTPUT ${newly_written} CONTENT "${text}" @ONLY)
+  file(READ ${template} template_text)
+  set(newly_written "")
+  foreach(name newly_written register)
+    string(REPLACE new_scenario_name ${name} text "${template_text}")
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/scenarios/${name}.cpp CONTENT "${text}" @ONLY)
+    list(APPEND newly_written ${CMAKE_CURRENT_BINARY_DIR}/scenarios/${name}.cpp)
+  endforeach()
 
   target_sources(test_scenarios PRIVATE ${example} ${newly_written})
   set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/doc_example_test.cpp APPEND PROPERTY
