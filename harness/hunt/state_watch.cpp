@@ -96,6 +96,7 @@ std::string StateWatch<Real>::after_step(double dt) {
   const Check checks[] = {{"impulses", [&] { return impulses(dt); }, true},
                           {"touches", [&] { return touches(); }, true},
                           {"flights", [&] { return flights(dt); }, true},
+                          {"locks", [&] { return locks(); }},
                           {"wakings", [&] { return wakings(); }, true},
                           {"counts", [&] { return counts(); }},
                           {"moves", [&] { return moved(); }},
@@ -218,7 +219,6 @@ std::string StateWatch<Real>::flights(double dt) const {
       // Locks end a velocity in the next step.
       if (locks.x) gain.x = -before.velocity.x;
       if (locks.y) gain.y = -before.velocity.y;
-      if (locks.rotation) turn = -before.spin;
     }
     Vec2d way = dt * (before.velocity + 0.5 * gain);
     if (dynamic && locks.x) way.x = 0;
@@ -230,27 +230,52 @@ std::string StateWatch<Real>::flights(double dt) const {
     const double size = length(box.upper - box.lower) + length(world_.centre(body) - world_.position(body));
     const double off = length(world_.velocity(body) - before.velocity - gain), strayed = length(gone - way);
     const double spun = std::abs(world_.angular_velocity(body) - before.spin - turn);
-    const bool flies = off <= rounding * speed + 1e-30 &&
-                       strayed <= rounding * (dt * speed + 1e-2 * size) + 1e-12 * length(before.position) + 1e-30;
+    const bool flies =
+        off <= rounding * speed + 1e-30 &&
+        strayed <= rounding * (dt * speed + 1e-2 * size) + 1e-12 * length(before.position) + 1e-30;
     if (!flies) {
-      // Continuous collision may stop it within the step, in front of what it meets in the next one: a part of
-      // its way, and of what it would have gained.
+      // Continuous collision may stop it within the step, in front of what it meets in the next one: a part
+      // of its way, and of what it would have gained.
       const double whole = length(way), part = whole > 0 ? dot(gone, way) / (whole * whole) : 1;
-      const Vec2d gained = world_.velocity(body) - before.velocity;
-      const double share = length(gain) > 0 ? dot(gained, gain) / dot(gain, gain) : 1;
-      const bool is_stopped = dynamic && part < 1 && length(gone - part * way) <= 1e-2 * whole + 1e-3 * size &&
-                              share > -1e-3 && share < 1 + 1e-3 &&
-                              length(gained - share * gain) <= 10 * rounding * speed;
+      // Slower by no more than what the forces would have done on the rest of its way.
+      const Vec2d now = world_.velocity(body), lost = before.velocity + gain - now;
+      const double most = dt > 0 ? 2 * length(gain) / dt * length(way - gone) : 0;
+      const bool is_stopped = dynamic && part < 1 &&
+                              length(gone - part * way) <= 1e-2 * whole + 1e-3 * size &&
+                              (length(lost) <= length(gain) * (1 + 1e-3) + 10 * rounding * speed ||
+                               std::abs(dot(before.velocity, before.velocity) - dot(now, now)) <=
+                                   2 * most + 10 * rounding * speed * speed);
       if (!is_stopped || !meets_something(body))
-        return off > rounding * speed + 1e-30
-                   ? fmt::format("'{}' touches nothing, and its velocity is {:.3g} m/s off that of its flight",
-                                 world_.name(body), off)
-                   : fmt::format("'{}' touches nothing, and is {:.3g} m off its flight", world_.name(body), strayed);
+        return fmt::format(
+            "'{}' touches nothing and flies on at {:.6g}, {:.6g} m/s, not {:.6g}, {:.6g}, by {:.6g}, {:.6g} "
+            "m, not "
+            "{:.6g}, {:.6g}",
+            world_.name(body), world_.velocity(body).x, world_.velocity(body).y, before.velocity.x + gain.x,
+            before.velocity.y + gain.y, gone.x, gone.y, way.x, way.y);
     }
-    if (spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
+    // A lock keeps moments from turning a body; a spin that calls give it is the next check's.
+    if (!locks.rotation && spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
       return fmt::format("'{}' touches nothing, and its spin is {:.3g} rad/s off that of its flight",
                          world_.name(body), spun);
     }
+  }
+  return {};
+}
+
+// A locked coordinate stays, whatever calls have given it.
+template <class Real>
+std::string StateWatch<Real>::locks() const {
+  for (const BodyId body : world_.bodies()) {
+    const auto known = before_.find(key_of(body));
+    if (known == before_.end() || world_.type(body) != BodyType::Dynamic || !world_.enabled(body)) continue;
+    const BodyLocks locks = world_.locks(body);
+    const Vec2d gone = world_.centre(body) - known->second.position;
+    if ((locks.x && gone.x != 0) || (locks.y && gone.y != 0))
+      return fmt::format("'{}' moves by {:.3g}, {:.3g} m along an axis that is locked", world_.name(body),
+                         gone.x, gone.y);
+    if (locks.rotation && world_.angle(body) != known->second.angle)
+      return fmt::format("'{}' turns by {:.3g} rad, and its rotation is locked", world_.name(body),
+                         world_.angle(body) - known->second.angle);
   }
   return {};
 }

@@ -47,6 +47,7 @@ class StateWatch {
   std::string sleep_events() const;
   std::string touches();
   std::string flights(double dt) const;
+  std::string locks() const;
   bool meets_something(BodyId body) const;
   std::string wakings() const;
   std::string distances(double dt);
@@ -66,7 +67,7 @@ class StateWatch {
   std::map<Key, BodyId> owners_;         // of shapes, also of destroyed ones
   std::set<Key> whirled_;                // that have turned too far in a step for their angle to be known
   std::string failed_;
-  std::map<Pair, int> wrong_;            // steps on end
+  std::map<Pair, int> wrong_;  // steps on end
 };
 
 extern template class StateWatch<float>;

@@ -39,7 +39,7 @@ from bugs import MUTATIONS  # noqa: E402
 ENGINES = {
     "world": "plumb-float",
     "simulation": "plumb",
-    "agreement": "plumb-float,plumb",
+    "agreement": "plumb-precise,plumb-float,plumb",
     "precise": "plumb-precise",
     "scene": "plumb-float,plumb",
 }

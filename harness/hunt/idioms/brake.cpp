@@ -15,8 +15,7 @@ void build(Draft& draft) {
   // The coefficients of both surfaces need not be equal: their geometric mean counts.
   const double ratio = random.pick({1.0, 1.0, 2.0, 0.25});
   for (int i = 0; i < draft.count(); ++i)
-    for (Shape& shape : draft.body(i).shapes)
-      shape.friction = ratio * draft.friction, shape.restitution = 0;
+    for (Shape& shape : draft.body(i).shapes) shape.friction = ratio * draft.friction, shape.restitution = 0;
   // Flat enough not to tip: friction acts at half its height.
   const double width = random.within(1, 2) * s, height = random.within(0.1, 0.4) * width;
   const double braking = draft.friction * g;  // m/s^2

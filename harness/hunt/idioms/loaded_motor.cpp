@@ -36,13 +36,16 @@ void build(Draft& draft) {
   const double time = random.within(0.2, 0.6);
   const int steps = draft.out.steps = std::max(4, static_cast<int>(time / draft.out.dt));
   const double right = speed + rate * steps * draft.out.dt;
-  Expectation& holds = draft.expect("holds_its_speed", made, slides ? Quantity::VelocityX : Quantity::AngularVelocity);
+  Expectation& holds =
+      draft.expect("holds_its_speed", made, slides ? Quantity::VelocityX : Quantity::AngularVelocity);
   // A motor that is just strong enough gives way by what its load does in a step.
   const double slack = 0.02 * std::abs(right) + 1.1 * std::abs(load) / inert * draft.out.dt;
   holds.lower = right - slack, holds.upper = right + slack;
   holds.from = holds.to = steps * draft.out.dt;
-  holds.why = "a motor keeps its speed against less than its strength, either way, and gives way by the excess";
-  holds.needs = {draft.name(made), std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back()),
+  holds.why =
+      "a motor keeps its speed against less than its strength, either way, and gives way by the excess";
+  holds.needs = {draft.name(made),
+                 std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back()),
                  std::string(kMasses)};
 }
 
