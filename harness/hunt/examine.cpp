@@ -12,9 +12,9 @@ namespace {
 
 // Judges that cost no more than the run itself, or that each scene of theirs is made for.
 bool is_always_due(const std::string& name) {
-  static const std::set<std::string> cheap{"life",        "twins",    "collisions",  "integrated", "formulas",
-                                           "wind",        "systems",  "as_formulas", "damaged",    "loops",
-                                           "integrators", "monitors", "queries",     "blows"};
+  static const std::set<std::string> cheap{"life",        "twins",   "collisions",  "integrated", "formulas",
+                                           "wind",        "systems", "as_formulas", "damaged",    "loops",
+                                           "integrators", "strikes", "monitors",    "queries",    "blows"};
   return cheap.contains(name);
 }
 

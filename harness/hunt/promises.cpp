@@ -108,6 +108,7 @@ const std::vector<Relation>& promises() {
                                          {"loops", is_world, loops},
                                          {"monitors", is_world, monitors},
                                          {"integrators", is_world, integrators},
+                                         {"strikes", is_world, strikes},
                                          {"forces", on_precise, forces},
                                          {"derivatives", on_precise, derivatives},
                                          {"estimates", on_precise, estimates},

@@ -27,6 +27,7 @@ Verdict systems(const Case& one, const Engine& engine, const Motion& motion);
 Verdict damaged(const Case& one, const Engine& engine, const Motion& motion);
 Verdict loops(const Case& one, const Engine& engine, const Motion& motion);
 Verdict monitors(const Case& one, const Engine& engine, const Motion& motion);
+Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 Verdict integrators(const Case& one, const Engine& engine, const Motion& motion);
 
 // What Precise promises beyond its motion.

@@ -230,6 +230,7 @@ std::string StateWatch<Real>::flights(double dt) const {
     const double size = length(box.upper - box.lower) + length(world_.centre(body) - world_.position(body));
     const double off = length(world_.velocity(body) - before.velocity - gain), strayed = length(gone - way);
     const double spun = std::abs(world_.angular_velocity(body) - before.spin - turn);
+    bool stopped = false;
     const bool flies =
         off <= rounding * speed + 1e-30 &&
         strayed <= rounding * (dt * speed + 1e-2 * size) + 1e-12 * length(before.position) + 1e-30;
@@ -245,7 +246,8 @@ std::string StateWatch<Real>::flights(double dt) const {
                               (length(lost) <= length(gain) * (1 + 1e-3) + 10 * rounding * speed ||
                                std::abs(dot(before.velocity, before.velocity) - dot(now, now)) <=
                                    2 * most + 10 * rounding * speed * speed);
-      if (!is_stopped || !meets_something(body))
+      stopped = is_stopped && meets_something(body);
+      if (!stopped)
         return fmt::format(
             "'{}' touches nothing and flies on at {:.6g}, {:.6g} m/s, not {:.6g}, {:.6g}, by {:.6g}, {:.6g} "
             "m, not "
@@ -254,7 +256,7 @@ std::string StateWatch<Real>::flights(double dt) const {
             before.velocity.y + gain.y, gone.x, gone.y, way.x, way.y);
     }
     // A lock keeps moments from turning a body; a spin that calls give it is the next check's.
-    if (!locks.rotation && spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
+    if (!locks.rotation && !stopped && spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
       return fmt::format("'{}' touches nothing, and its spin is {:.3g} rad/s off that of its flight",
                          world_.name(body), spun);
     }
