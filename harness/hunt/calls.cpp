@@ -140,10 +140,11 @@ class Caller {
     return not_woken(call);
   }
 
-  /// Hashes of single bodies, as recordings have them, of those awake.
+  /// Hashes of single bodies, as recordings have them after a step, of those awake; none while changes of
+  /// mass wait for the next step or call.
   std::vector<BodyHash> single_hashes() const {
     std::vector<BodyHash> out;
-    hash_awake_bodies(world_.data(), out);
+    if (world_.data().unsettled.empty()) hash_awake_bodies(world_.data(), out);
     return out;
   }
   /// Returns an objection unless the body's own hash is another, if it was awake, and the others' are the

@@ -57,7 +57,7 @@ std::string shared_colours(const BasicWorld<Real>& world) {
       continue;
     const auto [a, b] = w.joint_set.bodies(joint);
     for (const int body : {a, b})
-      if (w.motion[body].inverse_mass > 0 && !taken.insert({w.joint_set.colour(joint), body}).second)
+      if (w.is_dynamic(body) && !taken.insert({w.joint_set.colour(joint), body}).second)
         return "two joints of one colour share a body";
   }
   return {};
@@ -206,7 +206,7 @@ std::string watched(Random& random) {
       return wrong;
   }
   {
-    // What a steady force drives, and gravity.
+    // Pushes a body steadily, under gravity.
     BasicWorld<Real> world({.sleeping = false});
     const BodyId body = world.create_body({.mass = mass});
     const Vec2d force{m * random.within(1, 30), m * random.within(1, 30)};

@@ -1,4 +1,4 @@
-// What Precise promises beyond its motion: forces, derivatives, error estimates, refusals, methods that
+// Judges Precise beyond its motion: forces, derivatives, error estimates, refusals, methods that
 // agree, and its laws of impact and friction.
 #include <algorithm>
 #include <cmath>

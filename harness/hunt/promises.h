@@ -30,7 +30,7 @@ Verdict monitors(const Case& one, const Engine& engine, const Motion& motion);
 Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 Verdict integrators(const Case& one, const Engine& engine, const Motion& motion);
 
-// What Precise promises beyond its motion.
+// Promises of Precise beyond its motion.
 bool on_precise(const Case& one, const Engine& engine);
 Verdict forces(const Case& one, const Engine& engine, const Motion& motion);
 Verdict derivatives(const Case& one, const Engine& engine, const Motion& motion);

@@ -48,7 +48,7 @@ class StateWatch {
   std::string touches();
   std::string flights(double dt) const;
   std::string locks() const;
-  bool meets_something(BodyId body) const;
+  bool meets_something(BodyId body, double way) const;
   std::string wakings() const;
   std::string distances(double dt);
   bool is_held(BodyId one, BodyId other) const;

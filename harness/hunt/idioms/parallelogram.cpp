@@ -17,12 +17,14 @@ void build(Draft& draft) {
   const double start = random.within(0.3, 2.5);
   const Vec2d to = direction(start), tip = s * to;
   std::vector<int> cranks;
+  // A base of its own: places in its frame have more digits than those of a world that lies far away.
+  const int base = draft.box({0.5 * apart, -0.1 * s}, apart, 0.1 * s, 0, BodyType::Static);
   const int count = random.pick({2, 2, 2, 3});
-  std::vector<std::string> needs{std::string(kMasses)};
+  std::vector<std::string> needs{std::string(kMasses), draft.name(base)};
   for (int i = 0; i < count; ++i) {
     const Vec2d foot{apart * i / (count - 1), 0};
     const int crank = draft.box(foot + 0.5 * tip, s, 0.1 * s, start);
-    needs.push_back(draft.revolute(-1, crank, foot).name), needs.push_back(draft.name(crank));
+    needs.push_back(draft.revolute(base, crank, foot).name), needs.push_back(draft.name(crank));
     draft.body(crank).angular_velocity = rate;
     draft.body(crank).velocity = cross(rate, 0.5 * tip);
     cranks.push_back(crank);
