@@ -242,7 +242,7 @@ std::string StateWatch<Real>::flights(double dt) const {
       const Vec2d now = world_.velocity(body), lost = before.velocity + gain - now;
       const double most = dt > 0 ? 2 * length(gain) / dt * length(way - gone) : 0;
       const bool is_stopped = dynamic && part < 1 &&
-                              length(gone - part * way) <= 1e-2 * whole + 1e-3 * size &&
+                              length(gone - part * way) <= 0.05 * whole + 1e-3 * size &&
                               (length(lost) <= length(gain) * (1 + 1e-3) + 1e-3 * speed ||
                                std::abs(dot(before.velocity, before.velocity) - dot(now, now)) <=
                                    2 * most + 10 * rounding * speed * speed);
