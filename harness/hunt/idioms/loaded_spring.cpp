@@ -15,6 +15,7 @@ void build(Draft& draft) {
   const double s = draft.size, g = random.within(2, 20), thick = random.within(0.05, 0.3) * s;
   draft.site.kind = Site::Kind::Air;
   draft.out.scene.gravity = {0, -g};
+  draft.out.sleeping = false;  // it may creep up to its rest more slowly than what falls asleep
   const int arm = draft.box({0.5 * s, 0}, s, thick);
   RevoluteJoint& hinge = draft.revolute(-1, arm, {0, 0});
   const bool loaded = random.chance(0.5);
