@@ -528,7 +528,7 @@ std::string StateWatch<Real>::joints() const {
         const Aabb<double> box_a = world_.box(a), box_b = world_.box(b);
         const double size = length(hinge->anchor_a) + length(hinge->anchor_b) +
                             length(box_a.upper - box_a.lower) + length(box_b.upper - box_b.lower);
-        if (std::abs(reading.linear_error - gap) > kRounding * (size + gap + 1e-3 * length(on_a)))
+        if (std::abs(reading.linear_error - gap) > kRounding * (size + gap + 1e-3 * length(on_a)) + 1e-15)
           return fmt::format("a hinge of '{}' is {:.4g} m open, and reads {:.4g}", world_.name(b), gap,
                              reading.linear_error);
         if (whirled_.contains(key_of(a)) || whirled_.contains(key_of(b))) continue;
