@@ -603,7 +603,7 @@ std::string StateWatch<Real>::impulses(double dt) const {
     if (!counted || world_.type(other) != BodyType::Static || locks.x || locks.y) continue;
     const double mass = world_.mass(body);
     if (mass != before->second.mass) continue;
-    // What continuous collision stops does not feel its weight on the rest of its way.
+    // Skips what continuous collision stops: it does not feel its weight on the rest of its way.
     const double speed = std::min(length(world_.velocity(body)), length(before->second.velocity));
     if (length(world_.centre(body) - before->second.position) < 0.9 * dt * speed) continue;
     const Vec2d n = is_a ? -1.0 * contact.normal : contact.normal;
