@@ -174,6 +174,19 @@ TEST(Seams, StepsOfAnyLengthMeetNone) {
   }
 }
 
+TEST(Seams, NoneIsMetWhereATileIsShorterThanAStep) {
+  for (const Slider& slider : sliders()) {
+    for (const Floor floor : kFloors) {
+      for (const double width : {0.5, 0.85, 1.7}) {
+        Slide run{slider, floor, {width, 0.7 * width, 1.6 * width}, 34};
+        run.dt = 1 / 35.0, run.seconds = 1.2;
+        expect_as_on_a_flat_floor<BasicWorld<float>>(run);
+        expect_as_on_a_flat_floor<BasicWorld<double>>(run);
+      }
+    }
+  }
+}
+
 int cases(int normal) {
   const char* times = std::getenv("PLUMB_PROPERTY_CASES");
   return normal * (times == nullptr ? 1 : std::max(1, std::atoi(times)));

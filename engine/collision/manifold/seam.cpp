@@ -85,7 +85,10 @@ bool hidden(const TouchedSurface<Real>& touched, const Convex<Real>& other, int 
 }
 
 /// Returns true if the other shape covers an edge at every point of the contact. Near the end at which the
-/// surface continues the test is inconclusive: points are tested a small distance away from it.
+/// surface continues the test is inconclusive: points are tested a small distance away from it. So it is
+/// where the other shape ends: in the corner of a room a body touches one wall where the next one begins, and
+/// has that one beside it, not the surface that both form outside. All points are tested farther from the end
+/// than the margin can make up for.
 template <class Real>
 bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const Convex<Real>& other,
              int other_edges, const Pose<Real>& pose) {
@@ -95,9 +98,10 @@ bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const
   const Real length = dot(tangent, shape.corners[next_of(shape, edge)].point - first);
   const Real inset = std::min(2 * kReachOver<Real> * touched.tolerance, Real(0.5) * length);
   const Real low = at_start ? inset : -length, high = at_start ? 2 * length : length - inset;
+  const Real farther = std::min(3 * touched.tolerance, Real(0.25) * length) * (at_start ? Real(1) : Real(-1));
   const Vec2<Real> before = first + (shape.radius + 2 * touched.tolerance) * normal;
   for (int i = 0; i < touched.count; ++i) {
-    const Real x = std::clamp(dot(tangent, touched.points[i] - first), low, high);
+    const Real x = std::clamp(dot(tangent, touched.points[i] - first), low, high) + farther;
     if (!inside(before + x * tangent, other, other_edges, pose, touched.tolerance)) return false;
   }
   return true;
@@ -132,6 +136,8 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
     const Corner<Real>& corner = shape.corners[face];
     return Answer{Answer::Kind::Face, face, at_start, dot(corner.normal, touched.mover - corner.point)};
   };
+  // The outer surface of crossing walls is not that of the room between them.
+  const auto is_in_front = [](const Answer& found) { return found.height > 0; };
   // The face at the other side of the edge's corner; its seam is at its end if the edge's is at the start.
   const auto across = [&](bool at_start) {
     return at_start ? previous_of(shape, edge) : next_of(shape, edge);
@@ -152,6 +158,7 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
       const Continuation<Real> on = beyond(touched, face, face_at_start, neighbour, neighbour_edges, pose);
       if (!on.found || between(shape.corners[face].normal, n, on.normal, face_at_start)) return;
       const Answer found = face_at(face, face_at_start);
+      if (!is_in_front(found)) return;
       if (answer.kind == Answer::Kind::Own || found.height > answer.height) answer = found;
     };
     look(edge, at_start);
@@ -167,7 +174,8 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   if (other >= touched.edges || other == edge) return {};
   if (!covered(touched, edge, at_start, neighbour, neighbour_edges, pose)) return {};
   if (!beyond(touched, other, !at_start, neighbour, neighbour_edges, pose).found) return {};
-  return face_at(other, !at_start);
+  const Answer found = face_at(other, !at_start);
+  return is_in_front(found) ? found : Answer{};
 }
 
 template <class Real>

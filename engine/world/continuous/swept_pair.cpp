@@ -268,6 +268,9 @@ double least_along(const Convex<Real>& shape, const Pose<double>& pose, Vec2d di
 constexpr double kLargestLift = 0.25;
 // Lifts of a body in a step after which it is stopped: each surface that it rests on may cause one.
 constexpr int kMostLifts = 8;
+// Pieces of a way, between the ends of which a corner's arc is checked, after which a body is stopped: a rod
+// a hundred times as long as wide gets there at 7 radians a step.
+constexpr double kMostPieces = 64;
 // Lift that is rounding, as a fraction of the body's extent.
 constexpr double kNoLift = 1e-9;
 
@@ -287,7 +290,8 @@ bool may_lift(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& p
 }  // namespace
 
 template <class Real>
-std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair,
+                              double entered) {
   if (!may_lift(w, way, pair)) return std::nullopt;
   const int body = way.flight.body, other = w.shapes[pair.other].body;
   const double side = pair.contact->body_b == body ? 1 : -1;
@@ -302,7 +306,21 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const Sw
   // Along the normal of a slender shape a wide one may overlap it far from where they touch. So what the
   // distance loses on the way counts, if they are apart.
   const double apart = distance_between(way.sweep, shape, of_other.sweep, obstacle);
-  const double lift = -core - separation(1) - (apart > 0 ? apart - separation(0) : 0);
+  const double hidden = apart > 0 ? apart - separation(0) : 0;
+  // A core that enters without a loss along the normal enters elsewhere: across another side.
+  if (entered < 1 && separation(entered) + hidden > -0.5 * core) return std::nullopt;
+  const double lift = -core - separation(1) - hidden;
+  // On the way there corners turn on arcs. Another impact may end the flight where they are deepest: not
+  // deeper than a core can be held.
+  const double half_width = static_cast<double>(half_width_of(w, pair.shape));
+  const double bend = static_cast<double>(w.extents[body]) * way.sweep.turn * way.sweep.turn +
+                      2 * (std::abs(way.sweep.curve.x) + std::abs(way.sweep.curve.y));
+  const double room = 0.5 * (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
+  const double pieces = std::ceil(std::sqrt(0.125 * bend / room));
+  if (!(pieces <= kMostPieces)) return std::nullopt;
+  for (int i = 1; i < static_cast<int>(pieces); ++i)
+    if (separation(i / pieces) + hidden + std::max(lift, 0.0) < room - tuning::kInnerDepth * half_width)
+      return std::nullopt;
   const double least = way.flight.lifts > 0 ? kNoLift * static_cast<double>(w.extents[body]) : 0;
   const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
   if (lift > kLargestLift * smaller) return std::nullopt;
@@ -327,12 +345,13 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   const Result first = at.meet(at.whole(), at.obstacle());
   // Shapes that touch at the start are held by their contact until the core comes too near.
   const bool touch = first.state == Result::State::Overlapped || first.exact_fraction == 0;
-  if (touch && lift_off(w, way, pair) == Vec2d{}) return 1;
+  if (touch && lift_off(w, way, pair, through.exact_fraction) == Vec2d{}) return 1;
   return touch ? at.fraction(through) : at.fraction(first);
 }
 
-#define PLUMB_FOR(Real)                                                                               \
-  template std::optional<Vec2d> lift_off(const WorldData<Real>&, const Way&, const SweptPair<Real>&); \
+#define PLUMB_FOR(Real)                                                                              \
+  template std::optional<Vec2d> lift_off(const WorldData<Real>&, const Way&, const SweptPair<Real>&, \
+                                         double);                                                    \
   template double fraction_of_impact(const WorldData<Real>&, const Way&, const SweptPair<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -39,9 +39,11 @@ struct SweptPair {
 /// Returns the displacement that keeps a moving body out of a surface that it touched at the start of the
 /// step, m; zero if its core ends outside. None if it must be stopped instead: it is deeper, or the touched
 /// body rotates or is dynamic. Without this, a thin body that turns or slides on a surface would stop for
-/// good: its core lies less deep than contacts rest.
+/// good: its core lies less deep than contacts rest. `entered`: fraction of the way at which its core enters,
+/// 1 if that is not known.
 template <class Real>
-std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair);
+std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair,
+                              double entered = 1);
 
 /// Returns the fraction of the step at which a moving body must be stopped, or bounces, in front of another
 /// shape; 1 if it passes nothing. The core (convex_core.h) decides, not the surface: while nothing reaches

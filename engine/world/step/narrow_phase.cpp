@@ -54,6 +54,15 @@ void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& 
     c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
 }
 
+// Builds the constraint of shapes that are apart and meet in the step. A point that its tangent, followed
+// back to the start, would put inside of the other shape was not there: no overlap is to be pushed out.
+template <class Real>
+void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
+                     const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]) {
+  prepare_speculative_contact(w, contact, at, c, impulse);
+  for (int i = 0; i < c.count; ++i) c.separation[i] = std::max(c.separation[i], Real(0));
+}
+
 // rad, turn of a body in a step up to which its manifolds are recycled: the series below then leave 1e-9 of
 // an arm.
 constexpr double kRecycleTurn = 1.0 / 32;
@@ -210,7 +219,7 @@ void begin_speculative_contact(WorldData<Real>& w, int block, int id, const Spec
                                Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
-  prepare_speculative_contact(w, contact, at, c, c.normal_impulse);
+  prepare_meeting(w, contact, at, c, c.normal_impulse);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
   if (meets_in_flight(w, contact, at, c, dt)) {
@@ -236,6 +245,104 @@ template <class Real, class IdAt>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
 }
 
+// Deviation of a body's turning points from their tangents in half a step, as a fraction of its half width,
+// up to which contacts are taken at the middle of the step. Continuous collision stops bodies that are deeper
+// than half of it between the step's ends.
+constexpr double kLastingBend = 1.0 / 64;
+
+// Returns the contact at the middle of the step, if the bodies go on as they move and turn little enough.
+template <class Real>
+SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
+  SpeculativeContact<Real> at;
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Real half = Real(0.5) * dt;
+  at.closed = half * (b.velocity - a.velocity);
+  at.turned_a = half * a.angular_velocity, at.turned_b = half * b.angular_velocity;
+  const auto bends = [&](int body, Real turn) {
+    return w.is_dynamic(body) &&
+           Real(0.5) * turn * turn * w.extents[body] > Real(kLastingBend) * w.bodies[body].half_width;
+  };
+  if (bends(contact.body_a, at.turned_a) || bends(contact.body_b, at.turned_b)) return at;
+  at.between = between_bodies(w, contact) + at.closed;
+  at.rotation = turned_by(w.rotation[contact.body_a], at.turned_a);
+  const Rotation<Real> to_a = at.rotation.inverse(), q = turned_by(w.rotation[contact.body_b], at.turned_b);
+  const Pose<Real> b_in_a{to_a * at.between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  const Real reach =
+      speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
+  at.manifold = collide_shapes(w, contact, b_in_a, reach, size_of(at.closed));
+  return at;
+}
+
+// Returns a lasting contact at the middle of the step: points that press then neither part nor close by more
+// than a recycled manifold tolerates. Normal and arms turn within the step, as where a disc rolls over
+// another or a block pivots on its corner. Those of the middle leave an error of second order; with those of
+// the start, forces would lag by half a step.
+template <class Real>
+SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                         const ContactConstraint<Real>& c, Real dt) {
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Real half = Real(0.5) * dt, near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
+  const Real along = half * dot(c.normal, b.velocity - a.velocity);
+  bool lasts = false;
+  Real deepest = 0;
+  for (int i = 0; i < c.count; ++i) {
+    deepest = std::min(deepest, c.now[i]);
+    if (c.now[i] > near) continue;
+    const Real change = along + half * (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
+    if (std::abs(change) > near) return {};
+    lasts = true;
+  }
+  if (!lasts) return {};
+  SpeculativeContact<Real> at = contact_at_middle(w, contact, dt);
+  for (int i = 0; i < at.manifold.count; ++i)
+    if (at.manifold.points[i].separation < deepest - near) return {};
+  return at;
+}
+
+// Returns true if shapes without a contact may touch at the middle of the step, sliding rather than
+// approaching: their distance along the present normal is a bound. Without points they are farther apart than
+// they may approach, unless the speculative margin is too small for that.
+template <class Real>
+bool may_arrive(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
+                Real near, Real dt) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Vec2<Real> closed = Real(0.5) * dt * (b.velocity - a.velocity);
+  const Real turned = Real(0.5) * dt *
+                      (std::abs(a.angular_velocity) * w.extents[contact.body_a] +
+                       std::abs(b.angular_velocity) * w.extents[contact.body_b]);
+  if (manifold.count == 0)
+    return size_of(closed) + turned >
+           Real(0.5 * tuning::kSpeculativeMarginMost / tuning::kRecycleDistance) * near;
+  Real apart = manifold.points[0].separation;
+  if (manifold.count == 2) apart = std::min(apart, manifold.points[1].separation);
+  const Real along = dot(w.rotation[contact.body_a] * manifold.normal, closed);
+  return std::abs(along) <= near + turned && apart <= near + turned;
+}
+
+// Returns the contact with a surface that a loaded body slides onto, at the middle of the step: what
+// supports it by then does so together with the lasting contacts of that time.
+template <class Real>
+SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                                          const ContactManifold<Real>& manifold, Real dt) {
+  if (w.scratch.loaded[contact.body_a] == 0 && w.scratch.loaded[contact.body_b] == 0) return {};
+  const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
+  const Real near = Real(tuning::kRecycleDistance) * smaller;
+  if (!may_arrive(w, contact, manifold, near, dt)) return {};
+  SpeculativeContact<Real> at = contact_at_middle(w, contact, dt);
+  bool touches = false;
+  const Vec2<Real> n = at.rotation * at.manifold.normal;
+  for (int i = 0; i < at.manifold.count; ++i) {
+    const ContactManifoldPoint<Real>& point = at.manifold.points[i];
+    if (point.separation > near) continue;
+    const Vec2<Real> arm = at.rotation * point.point;
+    const Real closed =
+        dot(n, at.closed) + cross(arm - at.between, n) * at.turned_b - cross(arm, n) * at.turned_a;
+    if (std::abs(closed) > near || point.separation < -near) return {};
+    touches = true;
+  }
+  return touches ? at : SpeculativeContact<Real>{};
+}
+
 // Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight if
 // it gets none.
 template <class Real>
@@ -250,55 +357,17 @@ int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
     begin_speculative_contact(w, block, id, at, dt);
     return 0;
   }
+  if (const SpeculativeContact<Real> arriving = arriving_contact(w, contact, manifold, dt);
+      arriving.manifold.count > 0) {
+    begin_near(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+      prepare_speculative_contact(w, contact, arriving, c, c.normal_impulse);
+    });
+    return 0;
+  }
   if (manifold.count == 0 || at.outlook == Outlook::Misses) return parted;
   begin_near(w, block, id, dt, false,
              [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
   return 0;
-}
-
-// Deviation of a body's turning points from their tangents in half a step, as a fraction of its half width,
-// up to which contacts are taken at the middle of the step. Continuous collision stops bodies that are deeper
-// than half of it between the step's ends.
-constexpr double kLastingBend = 1.0 / 64;
-
-// Returns a lasting contact at the middle of the step, if its bodies go on as they move: points that press
-// then neither part nor close by more than a recycled manifold tolerates. Normal and arms turn within the
-// step, as where a disc rolls over another or a block pivots on its corner. Those of the middle leave an
-// error of second order; with those of the start, forces would lag by half a step.
-template <class Real>
-SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                         const ContactConstraint<Real>& c, Real dt) {
-  SpeculativeContact<Real> at;
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
-  const Real half = Real(0.5) * dt, smaller = c.push_speed * Real(1 / tuning::kPushSpeed);
-  at.closed = half * (b.velocity - a.velocity);
-  at.turned_a = half * a.angular_velocity, at.turned_b = half * b.angular_velocity;
-  const auto bends = [&](int body, Real turn) {
-    return w.is_dynamic(body) &&
-           Real(0.5) * turn * turn * w.extents[body] > Real(kLastingBend) * w.bodies[body].half_width;
-  };
-  if (bends(c.body_a, at.turned_a) || bends(c.body_b, at.turned_b)) return at;
-  const Real along = dot(c.normal, at.closed);
-  bool lasts = false;
-  Real deepest = 0;
-  for (int i = 0; i < c.count; ++i) {
-    deepest = std::min(deepest, c.now[i]);
-    if (c.now[i] > Real(tuning::kRecycleDistance) * smaller) continue;
-    const Real change = along + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
-    if (std::abs(change) > Real(tuning::kRecycleDistance) * smaller) return at;
-    lasts = true;
-  }
-  if (!lasts) return at;
-  at.between = between_bodies(w, contact) + at.closed;
-  at.rotation = turned_by(w.rotation[c.body_a], at.turned_a);
-  const Rotation<Real> to_a = at.rotation.inverse(), q = turned_by(w.rotation[c.body_b], at.turned_b);
-  const Pose<Real> b_in_a{to_a * at.between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
-  const Real reach =
-      speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-  at.manifold = collide_shapes(w, contact, b_in_a, reach, size_of(at.closed));
-  for (int i = 0; i < at.manifold.count; ++i)
-    if (at.manifold.points[i].separation < deepest - Real(tuning::kRecycleDistance) * smaller) return {};
-  return at;
 }
 
 // Rebuilds a manifold; returns false if there is none. Searches for impacts read the impulses of contacts, so
@@ -323,7 +392,7 @@ bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt,
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.outlook == Outlook::Meets) {
-    prepare_speculative_contact(w, contact, at, c, c.now);
+    prepare_meeting(w, contact, at, c, c.now);
     ContactConstraint<Real> settled = c;
     settled.normal_impulse[0] = c.now[0], settled.normal_impulse[1] = c.now[1];
     if (meets_in_flight(w, contact, at, settled, dt)) {

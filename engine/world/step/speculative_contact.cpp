@@ -113,6 +113,9 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
   at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kSpeculativeMargin) * smaller,
                                static_cast<Real>(moved(way_a) + moved(way_b)));
   if (at.manifold.count == 0) return at;
+  // Shapes that only just touch have no overlaps: such points belong to a surface that others continue.
+  for (int i = 0; i < at.manifold.count; ++i)
+    if (at.manifold.points[i].separation < -Real(tuning::kImpactTolerance) * smaller) return {};
   at.outlook = Outlook::Meets;
   at.rotation = rounded(at_a.rotation);
   at.between = between.template as<Real>();
@@ -147,9 +150,9 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
                  static_cast<Real>(ahead * way_a.turn), static_cast<Real>(ahead * way_b.turn), smaller))
       return {};
   }
-  const Real tolerance = Real(tuning::kImpactTolerance) * smaller;
+  // To rounding: what passes at less than a coarser tolerance would be struck.
   const ImpactResult<Real> impact =
-      time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), tolerance);
+      time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), Real(0));
   if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};
   if (impact.state != ImpactResult<Real>::State::Hit) return {};
   return speculative_contact_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
