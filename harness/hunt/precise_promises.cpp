@@ -351,18 +351,24 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
     if (!pressed && at.up() >= 0) pressed = true, compression = normal, taken = -work, work = 0;
     if (pressed && rules.impact == ImpactRule::Poisson && normal >= (1 + e) * compression) break;
     if (pressed && rules.impact == ImpactRule::Stronge && work >= e * e * taken) break;
-    if (!stopped && at.along() * way <= 0) stopped = true;
-    double friction = -way * mu;
+    double friction = -way * mu, own = part;
     if (stopped) {
       const double sticks = -nt / tt, later = mu * rules.friction_after_stop;
       friction = std::clamp(sticks, -later, later);
     }
     const double from = at.up();
-    at.push(part, friction * part);
-    normal += part, tangent += friction * part;
-    work += 0.5 * part * (from + at.up());
+    Blow then = at;
+    then.push(own, friction * own);
+    if (!stopped && then.along() * way <= 0) {
+      // Ends this part where the slip does.
+      own *= at.along() / (at.along() - then.along());
+      stopped = true;
+    }
+    at.push(own, friction * own);
+    normal += own, tangent += friction * own;
+    work += 0.5 * own * (from + at.up());
   }
-  if (rules.tangential_restitution > 0 && stopped && std::abs(at.along()) < 1e-3 * std::abs(slip)) {
+  if (rules.tangential_restitution > 0 && stopped && std::abs(at.along()) < 1e-6 * std::abs(slip)) {
     // The largest part of what is to be restored that friction, the gap and the energy allow.
     double low = 0, high = rules.tangential_restitution * std::abs(slip) / tt;
     const auto allowed = [&](double more) {
