@@ -464,6 +464,13 @@ std::string blown(Random& random, const Accuracy& accuracy) {
   other.velocity = right.velocity, other.spin = right.spin;
   if (flat && !level && other.up() < 0.05 * speed) return {};
   const double dt = (precise ? 1e-4 : 0.02) * s / speed;
+  // Another corner may be struck before the step ends.
+  for (const Vec2d each : {Vec2d{-wide / 2, -high / 2}, Vec2d{wide / 2, -high / 2}, Vec2d{wide / 2, high / 2},
+                           Vec2d{-wide / 2, high / 2}}) {
+    const Vec2d at{c * each.x - sn * each.y, sn * each.x + c * each.y};
+    const double height = at.y - arm.y, rate = right.velocity.y + right.spin * at.x;
+    if (height > 1e-9 * s && height + 2 * dt * std::min(rate, box.velocity.y) < 0) return {};
+  }
   Accuracy own = accuracy;
   if (auto* realtime = std::get_if<Realtime>(&own))
     realtime->dt = dt;
