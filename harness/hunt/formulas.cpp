@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kFormulas = 25;
 constexpr double kTolerance = 1e-9;
-// Where a rounding at the end of a function's range, as of acos at 1, is its root.
+// Bounds what a rounding at the end of a function's range, as of acos at 1, becomes: its root.
 constexpr double kRootOfRounding = 1e-7;
 // Of a slope by differences, where two widths agree to a tenth of that.
 constexpr double kSlopeTolerance = 1e-5;

@@ -55,7 +55,7 @@ TEST(Promises, AreKeptByAChainThatSwingsIntoAStack) {
     }
 }
 
-// What these judges draw depends on the scene's number alone.
+// Draws by the scene's number alone what these judges ask for.
 TEST(Promises, PartsOfTheEnginesKeepTheirsInManyDraws) {
   for (std::uint64_t index = 0; index < 60; ++index) {
     Case one = chain_and_stack();
