@@ -61,7 +61,7 @@ class Questions {
     if (known_.empty()) return {};
     for (int i = 0; i < kQueries; ++i)
       for (const auto& ask : {&Questions::ray, &Questions::cast, &Questions::overlaps, &Questions::near_point,
-                              &Questions::between})
+                              &Questions::between, &Questions::filtered})
         if (std::string wrong = (this->*ask)(); !wrong.empty()) return wrong;
     return {};
   }
@@ -153,6 +153,34 @@ class Questions {
       if (std::abs(apart) <= tolerance(each, 3 * size) || is_found == (apart < 0)) continue;
       return fmt::format("an overlap {} '{}', {:.3g} m {}", is_found ? "has" : "misses", each.body,
                          std::abs(apart), apart > 0 ? "away" : "inside");
+    }
+    return {};
+  }
+
+  // Sees a shape as its own rule says: 64 categories, each as good as another.
+  std::string filtered() {
+    const Known& target = some();
+    QueryFilter filter;
+    const auto some_bit = [&] { return std::uint64_t{1} << random_.whole(0, 63); };
+    const Filter own = world_.filter(target.id);
+    if (random_.chance(0.6))
+      filter.mask = random_.chance(0.5) ? some_bit() : own.category << 32 | own.category >> 32;
+    if (random_.chance(0.5)) filter.category = random_.chance(0.5) ? some_bit() : ~some_bit();
+    if (random_.chance(0.3)) filter.ignore = world_.body(target.id);
+    std::vector<ShapeId> found;
+    const Vec2d reach{2 * target.size, 2 * target.size};
+    overlap_box(world_, {target.middle - reach, target.middle + reach}, filter, found);
+    for (const Known& each : known_) {
+      const Filter of = world_.filter(each.id);
+      const bool seen = (of.category & filter.mask) != 0 && (of.mask & filter.category) != 0 &&
+                        !(world_.body(each.id) == filter.ignore);
+      const bool is_found = std::find(found.begin(), found.end(), each.id) != found.end();
+      const bool inside =
+          each.outline.low.x > target.middle.x - reach.x && each.outline.high.x < target.middle.x + reach.x &&
+          each.outline.low.y > target.middle.y - reach.y && each.outline.high.y < target.middle.y + reach.y;
+      if (is_found && !seen) return fmt::format("a query finds '{}', which its filter leaves out", each.body);
+      if (inside && seen && !is_found)
+        return fmt::format("a query misses '{}', which its filter lets through", each.body);
     }
     return {};
   }

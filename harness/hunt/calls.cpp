@@ -9,6 +9,7 @@
 
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/world/snapshot/body_hash.h"
 #include "harness/hunt/shapes_of_world.h"
 
 namespace plumb::harness::hunt {
@@ -44,7 +45,7 @@ class Caller {
         &Caller::towards,      &Caller::name,      &Caller::destroy,      &Caller::add_shape};
     static constexpr Make kOfShapes[] = {&Caller::material, &Caller::filter, &Caller::density,
                                          &Caller::sensor,   &Caller::flags,  &Caller::destroy_shape};
-    static constexpr Make kOfJoints[] = {&Caller::change, &Caller::loads, &Caller::loads,
+    static constexpr Make kOfJoints[] = {&Caller::change, &Caller::loads, &Caller::loads, &Caller::rejoin,
                                          &Caller::destroy_joint};
     static constexpr Make kOfWorld[] = {&Caller::gravity,  &Caller::settings, &Caller::create,
                                         &Caller::create,   &Caller::ghost,    &Caller::thresholds,
@@ -139,8 +140,26 @@ class Caller {
     return not_woken(call);
   }
 
+  /// Hashes of single bodies, as recordings have them after a step, of those awake; none while changes of
+  /// mass wait for the next step or call.
+  std::vector<BodyHash> single_hashes() const {
+    std::vector<BodyHash> out;
+    if (world_.data().unsettled.empty()) hash_awake_bodies(world_.data(), out);
+    return out;
+  }
+  /// Returns an objection unless the body's own hash is another, if it was awake, and the others' are the
+  /// same.
+  std::string hash_is_wrong(const char* call, const std::vector<BodyHash>& before) const {
+    for (const BodyHash& now : single_hashes())
+      for (const BodyHash& then : before)
+        if (now.body == then.body && (now.hash == then.hash) == (now.body == body_.index))
+          return fmt::format("{} {} the hash of a body", call, now.hash == then.hash ? "leaves" : "changes");
+    return {};
+  }
+
   std::string set_velocity() {
     const Vec2d wanted = vector(3 * size());
+    const std::vector<BodyHash> single = single_hashes();
     const Vec2d before = world_.velocity(body_);
     const std::uint64_t hash = world_.hash();
     target_.set_velocity(body_, wanted);
@@ -148,30 +167,56 @@ class Caller {
     if (locks.x || locks.y || world_.type(body_) == BodyType::Static) return {};
     if (!near(world_.velocity(body_), wanted)) return answers("set_velocity", false);
     if (!near(before, wanted) && world_.hash() == hash) return "hash is the same for other velocities";
+    if (!near(before, wanted))
+      if (std::string wrong = hash_is_wrong("set_velocity", single); !wrong.empty()) return wrong;
     return near(before, wanted) ? std::string() : not_woken("set_velocity");
   }
   std::string set_spin() {
     const double wanted = number(5), before = world_.angular_velocity(body_);
+    const std::vector<BodyHash> single = single_hashes();
     const std::uint64_t hash = world_.hash();
     target_.set_angular_velocity(body_, wanted);
     if (world_.locks(body_).rotation || world_.type(body_) == BodyType::Static) return {};
     if (!near(world_.angular_velocity(body_), wanted)) return answers("set_angular_velocity", false);
     if (!near(before, wanted) && world_.hash() == hash)
       return "hash is the same for other angular velocities";
+    if (!near(before, wanted))
+      if (std::string wrong = hash_is_wrong("set_angular_velocity", single); !wrong.empty()) return wrong;
     return near(before, wanted) ? std::string() : not_woken("set_angular_velocity");
   }
   std::string set_position() {
     const double angle = random_.chance(0.5) ? world_.angle(body_) : random_.within(-4, 4);
     const Vec2d to = world_.position(body_) + vector(0.5 * size());
     const Vec2d velocity = world_.velocity(body_);
+    const double before = world_.angle(body_);
+    std::vector<double> readings;
+    for (const JointId joint : world_.joints(body_)) readings.push_back(world_.read(joint).angle);
     target_.set_position(body_, to, angle);
     if (!near(world_.position(body_), to, size()) || !near(world_.angle(body_), angle, 1))
       return answers("set_position", false);
     if (dynamic() &&
         !near(world_.velocity(body_), velocity, size() * std::abs(world_.angular_velocity(body_))))
-      return "set_position changes a velocity";
+      return fmt::format("set_position changes a velocity of {:.6g}, {:.6g} to {:.6g}, {:.6g} m/s",
+                         velocity.x, velocity.y, world_.velocity(body_).x, world_.velocity(body_).y);
+    if (std::string wrong = turned_by(angle - before, readings); !wrong.empty()) return wrong;
     if (std::string wrong = sleepers_inside(); !wrong.empty()) return wrong;
     return not_woken("set_position");
+  }
+  /// Returns an objection unless the angles of the body's hinges, which count turns, followed its turn.
+  std::string turned_by(double turn, const std::vector<double>& before) const {
+    const std::vector<JointId> joints = world_.joints(body_);
+    for (std::size_t i = 0; i < joints.size() && i < before.size(); ++i) {
+      const auto [a, b] = world_.bodies(joints[i]);
+      if (!std::holds_alternative<RevoluteDefinition>(world_.kind(joints[i])) || a == b) continue;
+      const double right = before[i] + (b == body_ ? turn : -turn), now = world_.read(joints[i]).angle;
+      // Turns of half a circle and more may be counted either way, and so may the angle of a joint that has
+      // not been stepped since it was made.
+      const bool either = std::abs(turn) > 3 || (std::abs(before[i]) < 3.15 && std::abs(right) > 3.1);
+      if (!either && std::abs(now - right) > 1e-3 * (1 + 1e-3 * std::abs(right)))
+        return fmt::format("a hinge of '{}' reads {:.6g} rad after a turn that should leave {:.6g}",
+                           world_.name(body_), now, right);
+    }
+    return {};
   }
   std::string impulse() {
     const MaterialPoints before = motion();
@@ -455,6 +500,19 @@ class Caller {
     target_.set_load_events(joint_, force, torque);
     const JointDefinition now = world_.definition(joint_);
     return answers("set_load_events", near(now.report_force, force) && near(now.report_torque, torque));
+  }
+  // Makes a joint anew that breaks near what it bears.
+  std::string rejoin() {
+    const JointReading reading = world_.read(joint_);
+    const auto [a, b] = world_.bodies(joint_);
+    JointDefinition definition = world_.definition(joint_);
+    definition.break_force = random_.chance(0.3) ? 0 : reading.force * random_.within(0.85, 1.05);
+    definition.break_torque = random_.chance(0.5) ? 0 : reading.torque * random_.within(0.85, 1.05);
+    target_.destroy(joint_);
+    joint_ = target_.create_joint(a, b, definition);
+    const JointDefinition now = world_.definition(joint_);
+    return answers("create_joint", near(now.break_force, definition.break_force) &&
+                                       near(now.break_torque, definition.break_torque));
   }
   std::string destroy_joint() {
     if (random_.chance(0.7)) return {};

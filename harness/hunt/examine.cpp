@@ -1,5 +1,7 @@
 #include "harness/hunt/examine.h"
 
+#include <set>
+
 #include "harness/hunt/case_seeds.h"
 #include "harness/hunt/promises.h"
 #include "harness/hunt/relations.h"
@@ -10,8 +12,10 @@ namespace {
 
 // Judges that cost no more than the run itself, or that each scene of theirs is made for.
 bool is_always_due(const std::string& name) {
-  return name == "life" || name == "twins" || name == "collisions" || name == "integrated" ||
-         name == "formulas" || name == "wind" || name == "as_formulas";
+  static const std::set<std::string> cheap{"life",        "twins",   "collisions",  "integrated", "formulas",
+                                           "wind",        "systems", "as_formulas", "damaged",    "loops",
+                                           "integrators", "strikes", "monitors",    "queries",    "blows"};
+  return cheap.contains(name);
 }
 
 // Checks two of the relations per scene, in turn, because each costs a run or more, and those that are always

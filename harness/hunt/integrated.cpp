@@ -18,7 +18,7 @@ constexpr int kSteps = 48;
 constexpr double kKnown = 0.1;
 // For Precise: the bound, as a fraction of the scene's size, and the largest growth of perturbations for
 // which errors of its tolerance stay below that.
-constexpr double kPreciseShare = 1e-5, kGrown = 1000;
+constexpr double kPreciseShare = 1e-6, kGrown = 1000;
 constexpr double kSteady = 0.25;  // of the bound, the most that a fixed step may change with half of it
 constexpr double kShare = 0.05;   // of the smallest body, of methods of first order
 // rad, turn within a step of a body that is pulled beside its centre, up to which such methods know where the
@@ -229,14 +229,21 @@ double bound_of(const Case& one, const Engine& engine, double fastest, double ha
 
 }  // namespace
 
-bool integrable(const Case& one) {
-  if (!one.scene.joints.empty() || one.scene.forces.empty() || has_formulas(one.scene)) return false;
+namespace {
+
+// Returns true if bodies are free up to where they meet, under forces that are integrated here.
+bool are_free(const Case& one) {
+  if (!one.scene.joints.empty() || has_formulas(one.scene)) return false;
   return std::none_of(one.scene.bodies.begin(), one.scene.bodies.end(),
                       [](const Body& body) { return body.lock_x || body.lock_y || body.fixed_rotation; });
 }
 
+}  // namespace
+
+bool integrable(const Case& one) { return !one.scene.forces.empty() && are_free(one); }
+
 Verdict integrated_relation(const Case& one, const Engine& engine, const Motion& motion) {
-  if (!motion.failure.empty() || !integrable(one)) return {};
+  if (!motion.failure.empty() || !are_free(one)) return {};
   const Free free(one);
   std::vector<BodyState> coarse = free.start(), fine = coarse;
   const std::vector<double> reach = reaches(one.scene);

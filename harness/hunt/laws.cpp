@@ -144,6 +144,23 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
   return {};
 }
 
+namespace {
+
+// Returns true if force laws act that grow without bound where bodies meet, as attraction does, and an eighth
+// of the step gains less than a quarter: an error of order one or more, of how a close pass is stepped
+// through.
+bool is_of_the_step(const Case& one, const Engine& engine, std::size_t sample, double gain, double rest) {
+  if (std::none_of(one.scene.forces.begin(), one.scene.forces.end(),
+                   [](const ForceLaw& law) { return std::holds_alternative<AttractionForce>(law); }))
+    return false;
+  const Motion finer = run(engine, one, {.refine = 8});
+  if (finer.samples.size() <= sample) return false;
+  const Mechanics then = mechanics(one.scene, finer.samples[sample].states);
+  return then.kinetic + then.potential - rest < 0.25 * gain;
+}
+
+}  // namespace
+
 Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) {
   if (driven(one) || motion.samples.empty() || !starts_closed(one.scene) || !starts_apart(one.scene))
     return {};
@@ -162,6 +179,7 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
     bound += precise ? slack_of_rounding(one, reach) : slack_of_places(one, motion.samples[k], reach);
     const double gain = now.kinetic + now.potential - budget.start - given;
     if (gain > bound) {
+      if (engine.is_world() && is_of_the_step(one, engine, k, gain, budget.start + given)) return {};
       return Objection{
           .judge = "energy",
           .what = fmt::format("energy has grown by {:.3g} J; {:.3g} J is all that it had to spend", gain,
@@ -199,7 +217,13 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     const double off = length(now.momentum - first.momentum - time * weight);
     const double roundings = 8.0 * static_cast<double>(k) * one.substeps + 100;
     const double tolerance = engine.kind == Engine::Kind::Precise ? 1e-6 : 0;
-    const double bound = (engine.epsilon() * roundings + tolerance) * (most + length(weight) * time);
+    // Continuous collision stops what is fast where it meets something: the weight does not act on the rest
+    // of its way in that step. Some such impacts are allowed for.
+    const double unfallen = dynamic_bodies(one.scene) > 1 && engine.is_world()
+                                ? length(weight) * one.dt * static_cast<double>(std::min<std::size_t>(k, 8))
+                                : 0;
+    const double bound =
+        (engine.epsilon() * roundings + tolerance) * (most + length(weight) * time) + unfallen;
     if (off > bound && off > 0) {
       return Objection{.judge = "momentum",
                        .what = fmt::format("the sum of momenta is off by {:.3g} kg m/s", off),

@@ -20,6 +20,25 @@ Verdict wind(const Case& one, const Engine& engine, const Motion& motion);
 // Formulas, of any engine that has them.
 Verdict formulas(const Case& one, const Engine& engine, const Motion& motion);
 
+// Linear systems, of any engine that solves them.
+Verdict systems(const Case& one, const Engine& engine, const Motion& motion);
+
+// Parts of a World: tampered snapshots, shared loops, monitors, and methods of integration.
+Verdict damaged(const Case& one, const Engine& engine, const Motion& motion);
+Verdict loops(const Case& one, const Engine& engine, const Motion& motion);
+Verdict monitors(const Case& one, const Engine& engine, const Motion& motion);
+Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
+Verdict integrators(const Case& one, const Engine& engine, const Motion& motion);
+
+// Promises of Precise beyond its motion.
+bool on_precise(const Case& one, const Engine& engine);
+Verdict forces(const Case& one, const Engine& engine, const Motion& motion);
+Verdict derivatives(const Case& one, const Engine& engine, const Motion& motion);
+Verdict estimates(const Case& one, const Engine& engine, const Motion& motion);
+Verdict starts(const Case& one, const Engine& engine, const Motion& motion);
+Verdict methods(const Case& one, const Engine& engine, const Motion& motion);
+Verdict blows(const Case& one, const Engine& engine, const Motion& motion);
+
 // The promises of Simulations; those of Worlds are guises.
 Verdict simulation_restored(const Case& one, const Engine& engine, const Motion& motion);
 Verdict simulation_stages(const Case& one, const Engine& engine, const Motion& motion);

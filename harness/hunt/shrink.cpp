@@ -56,6 +56,13 @@ void remove_body(Case& one, std::size_t index) {
   forget(one, name);
 }
 
+// Returns true if an expectation needs the body or joint: as it is, with its springs, motors and limits.
+bool is_needed(const Case& one, const std::string& name) {
+  return std::any_of(one.expectations.begin(), one.expectations.end(), [&](const Expectation& each) {
+    return std::find(each.needs.begin(), each.needs.end(), name) != each.needs.end();
+  });
+}
+
 bool needs_masses(const Case& one) {
   return std::any_of(one.expectations.begin(), one.expectations.end(), [](const Expectation& each) {
     return std::find(each.needs.begin(), each.needs.end(), kMasses) != each.needs.end();
@@ -207,7 +214,7 @@ class Shrinker {
           [&](const auto& sample) {
             using Kind = std::decay_t<decltype(sample)>;
             const auto drop = [&](auto member) {
-              if (!(sample.*member)) return;
+              if (!(sample.*member) || is_needed(best_, sample.name)) return;
               any = try_change([&](Case& one) { (std::get<Kind>(one.scene.joints[i]).*member).reset(); }) ||
                     any;
             };

@@ -23,6 +23,9 @@ class StateWatch {
   /// Returns what is wrong after a step of `dt` s, or an empty text.
   std::string after_step(double dt);
 
+  /// Returns the name of the check that objected.
+  const std::string& failed() const { return failed_; }
+
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;
   using Pair = std::pair<Key, Key>;
@@ -31,14 +34,22 @@ class StateWatch {
     double angle = 0, spin = 0;
     bool awake = false, dynamic = false;
     double mass = 0;
-    Vec2d force{};  // N, applied
-    Pair only{};    // of its contact, where it has a single one
+    Vec2d force{};      // N, applied
+    double torque = 0;  // N m, applied
+    double inertia = 0;
+    bool held = false;     // by a joint
+    bool touched = false;  // has contacts, or touches that have begun and not ended
+    Pair only{};           // of its contact, where it has a single one
   };
 
   std::string counts() const;
   std::string moved() const;
   std::string sleep_events() const;
   std::string touches();
+  std::string flights(double dt) const;
+  std::string locks() const;
+  bool meets_something(BodyId body, double way) const;
+  std::string wakings() const;
   std::string distances(double dt);
   bool is_held(BodyId one, BodyId other) const;
   std::string islands() const;
@@ -51,7 +62,11 @@ class StateWatch {
   const BasicWorld<Real>& world_;
   std::map<Key, Before> before_;
   std::set<Pair> open_;
-  std::set<Key> whirled_;      // that have turned too far in a step for their angle to be known
+  std::set<Key> met_;  // bodies of touches that were open in the last step, or began or ended in it
+  std::set<std::pair<Key, Key>> links_;  // of bodies, by those touches
+  std::map<Key, BodyId> owners_;         // of shapes, also of destroyed ones
+  std::set<Key> whirled_;                // that have turned too far in a step for their angle to be known
+  std::string failed_;
   std::map<Pair, int> wrong_;  // steps on end
 };
 

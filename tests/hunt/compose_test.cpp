@@ -57,7 +57,8 @@ TEST(Compose, EveryCaseIsAValidSceneAndReadsBackToTheSameBits) {
 TEST(Compose, PreciseMovesAsIsExpected) {
   const Engine precise(reference::find_backend("plumb-precise")),
       world(reference::find_backend("plumb-float"));
-  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse", "cradle"}) {
+  for (const char* name : {"pendulum", "forces", "shaker", "brake", "bat", "fuse", "cradle", "loaded_motor",
+                           "loaded_spring", "parallelogram", "topple"}) {
     int judged = 0;
     for (std::uint64_t index = 0; index < 60; ++index) {
       const Case one = compose(23, index, {&find_idiom(name)});

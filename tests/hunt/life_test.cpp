@@ -64,6 +64,46 @@ TEST(StateWatch, SeesASensorThatSaysWhatIsNotSo) {
   EXPECT_NE(all.watch.after_step(1.0 / 60).find("sees"), std::string::npos);
 }
 
+TEST(StateWatch, SeesAVelocityThatNothingGave) {
+  Scenery all;
+  const BodyId stone =
+      all.world.create_body({.position = {-5, 30}, .velocity = {1, 2}}, {.geometry = Circle{0.5}});
+  ASSERT_EQ(all.run(10), "");
+  all.step();
+  all.world.set_velocity(stone, all.world.velocity(stone) + Vec2d{0, 1e-3});
+  EXPECT_NE(all.watch.after_step(1.0 / 60).find("touches nothing"), std::string::npos);
+}
+
+TEST(StateWatch, SeesAWayThatNoFlightTakes) {
+  Scenery all;
+  const BodyId stone =
+      all.world.create_body({.position = {-5, 30}, .velocity = {1, 2}}, {.geometry = Circle{0.5}});
+  ASSERT_EQ(all.run(10), "");
+  all.step();
+  all.world.set_position(stone, all.world.position(stone) + Vec2d{1e-3, 0}, all.world.angle(stone));
+  EXPECT_NE(all.watch.after_step(1.0 / 60).find("touches nothing"), std::string::npos);
+}
+
+TEST(StateWatch, SeesABodyThatWakesByItself) {
+  Scenery all;
+  const BodyId sleeper = all.world.create_body({.position = {-5, 1}}, {.geometry = Box{1, 1}});
+  ASSERT_EQ(all.run(120), "");
+  ASSERT_FALSE(all.world.awake(sleeper));
+  all.step();
+  all.world.set_awake(sleeper, true);
+  EXPECT_NE(all.watch.after_step(1.0 / 60).find("wakes"), std::string::npos);
+}
+
+TEST(StateWatch, SeesALockThatGivesWay) {
+  Scenery all;
+  const BodyId locked =
+      all.world.create_body({.position = {-5, 30}, .lock_rotation = true}, {.geometry = Box{1, 1}});
+  ASSERT_EQ(all.run(10), "");
+  all.step();
+  all.world.set_position(locked, all.world.position(locked), 0.1);
+  EXPECT_NE(all.watch.after_step(1.0 / 60).find("locked"), std::string::npos);
+}
+
 TEST(StateWatch, SeesALoadThatIsNotTold) {
   Scenery all;
   ASSERT_EQ(all.run(10), "");
@@ -94,7 +134,7 @@ TEST(StateWatch, JudgesTouchesOfShapesThatLieAlone) {
     if (!alone) shapes.push_back({.geometry = Box{1, 1}, .position = {0.3, 0}});
     all.world.create_body({.type = BodyType::Static, .position = {-5, 8}}, {.geometry = Box{4, 1}});
     const BodyId body =
-        all.world.create_body({.position = {-5, 12}, .velocity = {0.01, 0}, .gravity_scale = 0}, shapes);
+        all.world.create_body({.position = {-5, 12}, .gravity_scale = 0, .may_sleep = false}, shapes);
     std::string wrong;
     for (int i = 0; i < 4 && wrong.empty(); ++i) {
       all.world.step(1.0 / 60, 4);

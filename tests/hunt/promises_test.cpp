@@ -55,6 +55,40 @@ TEST(Promises, AreKeptByAChainThatSwingsIntoAStack) {
     }
 }
 
+// Draws by the scene's number alone what these judges ask for.
+TEST(Promises, PartsOfTheEnginesKeepTheirsInManyDraws) {
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    Case one = chain_and_stack();
+    one.index = index;
+    for (const auto& judge : {systems, loops, monitors, integrators, strikes})
+      for (const char* name : {"plumb-float", "plumb"}) {
+        const Verdict verdict = judge(one, engine(name), {});
+        EXPECT_FALSE(verdict) << name << ", " << index << ", " << verdict->judge << ": " << verdict->what;
+      }
+    const Verdict verdict = blows(one, engine("plumb-precise"), {});
+    EXPECT_FALSE(verdict) << index << ": " << verdict->what;
+  }
+}
+
+// A Precise scene in which a disc bounces, slides and ends: derivatives by its numbers are those of
+// differences.
+TEST(Promises, DerivativesAndForcesOfABouncingDiscAreThoseOfItsRuns) {
+  Case one;
+  one.scene.bodies = {{.name = "floor",
+                       .type = BodyType::Static,
+                       .position = {0, -0.5},
+                       .shapes = {{.geometry = Box{40, 1}, .friction = 0.3, .restitution = 0.2}}},
+                      {.name = "disc",
+                       .position = {0, 1.2},
+                       .velocity = {2, 0},
+                       .shapes = {{.geometry = Circle{0.5}, .friction = 0.6, .restitution = 0.5}}}};
+  for (one.index = 0; one.index < 20; ++one.index)
+    for (const auto& judge : {derivatives, forces, estimates, starts}) {
+      const Verdict verdict = judge(one, engine("plumb-precise"), {});
+      EXPECT_FALSE(verdict) << one.index << ", " << verdict->judge << ": " << verdict->what;
+    }
+}
+
 // Scenes of all kinds, with steps of 1 to 20.
 TEST(Promises, QueriesFindWhatOutlinesSay) {
   for (std::uint64_t index = 0; index < 40; ++index) {

@@ -3,6 +3,7 @@
 not in the engine as it is: the same seed draws the same scenes.
 
     hunted.py [--draw 20] [--draw-seed 32] [--seconds 300] [--jobs 2] [--hunt-seed 1] [--out DIR] [--work DIR]
+    hunted.py --bugs A,B     bugs whose names contain these words, in place of drawn ones
     hunted.py --list         names the bugs that are drawn
     hunted.py --report       says what is known so far, and hunts nothing
 
@@ -39,7 +40,7 @@ from bugs import MUTATIONS  # noqa: E402
 ENGINES = {
     "world": "plumb-float",
     "simulation": "plumb",
-    "agreement": "plumb-float,plumb",
+    "agreement": "plumb-precise,plumb-float,plumb",
     "precise": "plumb-precise",
     "scene": "plumb-float,plumb",
 }
@@ -164,10 +165,14 @@ def main():
     parser.add_argument("--out", type=lambda path: pathlib.Path(path).resolve(), default=root / "build" / "hunted")
     parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve(), default=root / "build" / "mutations")
     parser.add_argument("--cmake", default="", help="more arguments of cmake")
+    parser.add_argument("--bugs", default="", help="words of names, by commas")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--report", action="store_true")
     options = parser.parse_args()
     bugs = drawn(options.draw, options.draw_seed)
+    if options.bugs:
+        words = options.bugs.split(",")
+        bugs = [bug for bug in MUTATIONS if bug.file.startswith("engine/") and any(word in bug.name for word in words)]
     if options.list:
         print("\n".join(f"{bug.name:64} {bug.file}" for bug in bugs))
         return 0

@@ -12,8 +12,10 @@ void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, dt = draft.out.dt, g = -draft.out.scene.gravity.y;
   draft.friction = random.pick({0.1, 0.3, 0.6, 1.0}), draft.restitution = 0;
+  // The coefficients of both surfaces need not be equal: their geometric mean counts.
+  const double ratio = random.pick({1.0, 1.0, 2.0, 0.25});
   for (int i = 0; i < draft.count(); ++i)
-    for (Shape& shape : draft.body(i).shapes) shape.friction = draft.friction, shape.restitution = 0;
+    for (Shape& shape : draft.body(i).shapes) shape.friction = ratio * draft.friction, shape.restitution = 0;
   // Flat enough not to tip: friction acts at half its height.
   const double width = random.within(1, 2) * s, height = random.within(0.1, 0.4) * width;
   const double braking = draft.friction * g;  // m/s^2
@@ -21,6 +23,7 @@ void build(Draft& draft) {
   const double way = std::min(random.within(0.5, 6) * s, std::max(0.1 * s, room));
   const double speed = std::sqrt(2 * braking * way), stops = speed / braking;
   const int made = draft.box({from, height / 2}, width, height);
+  for (Shape& shape : draft.body(made).shapes) shape.friction = draft.friction / ratio;
   draft.body(made).velocity = {speed, 0};
   const double time = stops * random.pick({0.3, 0.6, 1.0, 1.5});
   const int steps = draft.out.steps = std::max(2, static_cast<int>(time / dt));
