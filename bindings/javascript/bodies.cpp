@@ -82,6 +82,10 @@ PLUMB_BODY_READ(inertia, double, plumb_body_inertia(w, body))
 PLUMB_BODY_READ(gravity_scale, double, plumb_body_gravity_scale(w, body))
 PLUMB_BODY_READ(linear_damping, double, plumb_body_linear_damping(w, body))
 PLUMB_BODY_READ(angular_damping, double, plumb_body_angular_damping(w, body))
+PLUMB_BODY_READ(may_sleep, int, plumb_body_may_sleep(w, body))
+PLUMB_BODY_READ(locks, int,
+                plumb_body_locks(w, body).x + 2 * plumb_body_locks(w, body).y +
+                    4 * plumb_body_locks(w, body).rotation)
 PLUMB_BODY_READ(enabled, int, plumb_body_enabled(w, body))
 PLUMB_BODY_READ(box, double*,
                 Writer().add(plumb_body_box(w, body).lower).add(plumb_body_box(w, body).upper).done())
@@ -95,8 +99,22 @@ double* js_body_shapes(plumb_world* w, std::uint32_t index, std::uint32_t genera
   const plumb_body body{index, generation};
   std::vector<plumb_shape> all(plumb_body_shapes(w, body, nullptr, 0));
   plumb_body_shapes(w, body, all.data(), all.size());
-  Writer out;
-  for (const plumb_shape shape : all) out.id(shape);
-  return out.done();
+  return Writer().ids(all).done();
 }
+PLUMB_EXPORT("body_joints")
+double* js_body_joints(plumb_world* w, std::uint32_t index, std::uint32_t generation) {
+  const plumb_body body{index, generation};
+  return Writer()
+      .ids(all_of<plumb_joint>([&](auto* to, std::size_t n) { return plumb_body_joints(w, body, to, n); }))
+      .done();
+}
+#define PLUMB_BODY_POINT(name)                                                                    \
+  PLUMB_EXPORT("body_" #name)                                                                     \
+  double* js_body_##name(plumb_world* w, std::uint32_t index, std::uint32_t generation, double x, \
+                         double y) {                                                              \
+    return Writer().add(plumb_body_##name(w, {index, generation}, {x, y})).done();                \
+  }
+PLUMB_BODY_POINT(velocity_at)
+PLUMB_BODY_POINT(world_point)
+PLUMB_BODY_POINT(local_point)
 }

@@ -1,5 +1,10 @@
 #include "bindings/javascript/buffer.h"
 
+extern "C" {
+/// Calls the condition of the query that runs now.
+PLUMB_IMPORT("condition") int js_condition(std::uint32_t index, std::uint32_t generation);
+}
+
 namespace plumb::javascript {
 
 std::vector<double> numbers(256);
@@ -40,6 +45,9 @@ plumb_query_filter query(Reader& r) {
   plumb_query_filter f = plumb_default_query_filter();
   f.category = r.wide(), f.mask = r.wide(), f.sensors = r.flag();
   f.ignore.index = r.bits(), f.ignore.generation = r.bits();
+  if (r.flag()) {
+    f.condition = [](plumb_shape shape, void*) { return js_condition(shape.index, shape.generation) != 0; };
+  }
   return f;
 }
 

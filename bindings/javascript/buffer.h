@@ -48,6 +48,19 @@ class Writer {
     return *this;
   }
   Writer& add(plumb_vec2 v) { return add(v.x).add(v.y); }
+  /// Writes 64 bits as two numbers, the low half first.
+  Writer& wide(std::uint64_t bits) {
+    return add(static_cast<double>(bits & 0xFFFFFFFFu)).add(static_cast<double>(bits >> 32));
+  }
+  Writer& add(const plumb_filter& f) { return wide(f.category).wide(f.mask).add(f.group); }
+  Writer& add(const plumb_material& m) {
+    return add(m.friction).add(m.restitution).add(m.rolling_resistance).add(m.surface_speed);
+  }
+  template <class Handle>
+  Writer& ids(const std::vector<Handle>& handles) {
+    for (const Handle handle : handles) id(handle);
+    return *this;
+  }
   template <class Handle>
   Writer& id(Handle handle) {
     return add(handle.index).add(handle.generation);
@@ -59,7 +72,16 @@ plumb_material material(Reader& r);
 plumb_filter filter(Reader& r);
 /// Reads a geometry; `points` holds the points that it names.
 plumb_geometry geometry(Reader& r, std::vector<plumb_vec2>& points);
+/// Reads a filter; its condition is asked in JavaScript.
 plumb_query_filter query(Reader& r);
+
+/// Returns all elements of one of the interface's functions that fill arrays.
+template <class Type, class Fill>
+std::vector<Type> all_of(Fill&& fill) {
+  std::vector<Type> all(fill(static_cast<Type*>(nullptr), std::size_t{0}));
+  fill(all.data(), all.size());
+  return all;
+}
 
 /// A shape's definition and the points that it names.
 struct ShapeInput {

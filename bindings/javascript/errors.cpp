@@ -24,4 +24,7 @@ void* __cxa_allocate_exception(std::size_t size) throw() { return std::malloc(si
   }
   std::abort();
 }
+
+// There is one thread, and it never ends.
+int __cxa_thread_atexit(void (*)(void*), void*, void*) throw() { return 0; }
 }

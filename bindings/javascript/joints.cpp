@@ -28,9 +28,41 @@ plumb_joint_definition joint(Reader& r) {
   return d;
 }
 
+/// Writes what `joint` reads.
+void write(Writer& w, const plumb_joint_definition& d) {
+  const auto spring_of = [&](const plumb_spring& s) { w.add(s.on).add(s.hertz).add(s.damping_ratio); };
+  w.add(d.kind).add(d.collide).add(d.break_force).add(d.break_torque).wide(d.user_data);
+  w.add(d.report_force).add(d.report_torque).add(d.anchor_a).add(d.anchor_b).add(d.axis);
+  w.add(d.reference_angle);
+  spring_of(d.spring), spring_of(d.linear_spring), spring_of(d.angular_spring);
+  w.add(d.limits.on).add(d.limits.lower).add(d.limits.upper);
+  w.add(d.motor.on).add(d.motor.speed).add(d.motor.max_force);
+  w.add(d.length).add(d.target_angle).add(d.target_translation).add(d.target_position);
+  w.add(d.max_force).add(d.max_torque).add(d.ratio).add(d.phase).add(d.tooth);
+  w.add(d.ground_a).add(d.ground_b);
+}
+
 }  // namespace
 
 extern "C" {
+
+PLUMB_EXPORT("joint_definition") double* js_joint_definition(PLUMB_HANDLE) {
+  const plumb_joint_definition d = plumb_joint_get_definition(w, {index, generation});
+  Writer out;
+  write(out, d);
+  return out.done();
+}
+PLUMB_EXPORT("joint_bodies") double* js_joint_bodies(PLUMB_HANDLE) {
+  plumb_body a{}, b{};
+  plumb_joint_bodies(w, {index, generation}, &a, &b);
+  return Writer().id(a).id(b).done();
+}
+PLUMB_EXPORT("joint_user_data") std::uint64_t js_joint_user_data(PLUMB_HANDLE) {
+  return plumb_joint_user_data(w, {index, generation});
+}
+PLUMB_EXPORT("joint_set_user_data") void js_joint_set_user_data(PLUMB_HANDLE, std::uint64_t data) {
+  plumb_joint_set_user_data(w, {index, generation}, data);
+}
 
 PLUMB_EXPORT("joint_create")
 double* js_joint_create(plumb_world* w, std::uint32_t a, std::uint32_t a_generation, std::uint32_t b,

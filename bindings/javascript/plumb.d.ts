@@ -44,6 +44,16 @@ export interface ShapeDefinition extends Geometry, Material {
   preSolve?: boolean;
   userData?: number | bigint;
 }
+/** A line of one-sided segments: the front is to the right when walking from point to point. */
+export interface ChainDefinition extends Material {
+  points: Vec2[];
+  closed?: boolean;
+  filter?: Filter;
+  sensor?: boolean;
+  hitEvents?: boolean;
+  preSolve?: boolean;
+  userData?: number | bigint;
+}
 export interface BodyDefinition {
   type?: BodyType;
   position?: Vec2;
@@ -109,6 +119,7 @@ export interface Box {
   lower: Vec2;
   upper: Vec2;
 }
+export interface Locks { x?: boolean; y?: boolean; rotation?: boolean }
 export class Body extends Handle {
   readonly valid: boolean;
   position: Vec2;
@@ -123,7 +134,9 @@ export class Body extends Handle {
   linearDamping: number;
   angularDamping: number;
   awake: boolean;
-  set maySleep(on: boolean);
+  maySleep: boolean;
+  get locks(): Required<Locks>;
+  set locks(locks: Locks);
   get userData(): bigint;
   set userData(data: bigint | number);
   name: string;
@@ -133,10 +146,16 @@ export class Body extends Handle {
   readonly box: Box;
   readonly quarantined: boolean;
   readonly shapes: Shape[];
+  readonly joints: Joint[];
+  readonly contacts: Contact[];
+  /** m/s, of the body at a point of the world */
+  velocityAt(point: Vec2): Vec2;
+  worldPoint(local: Vec2): Vec2;
+  localPoint(point: Vec2): Vec2;
   setPose(position: Vec2, angle: number): void;
   setMass(mass: {mass: number; inertia: number; centre?: Vec2}): void;
   useDensities(): void;
-  setLocks(locks: {x?: boolean; y?: boolean; rotation?: boolean}): void;
+  setLocks(locks: Locks): void;
   moveTowards(position: Vec2, angle: number, dt: number): void;
   /** N, during the next step; at the centre of mass, or at a point of the world */
   applyForce(force: Vec2, at?: Vec2 | null): void;
@@ -145,7 +164,7 @@ export class Body extends Handle {
   applyImpulse(impulse: Vec2, at?: Vec2 | null): void;
   applyAngularImpulse(impulse: number): void;
   createShape(shape: ShapeDefinition): Shape;
-  createChain(chain: Material & {points: Vec2[]; closed?: boolean; filter?: Filter}): Chain;
+  createChain(chain: ChainDefinition): Chain;
   release(): void;
   destroy(): void;
 }
@@ -157,19 +176,27 @@ export class Shape extends Handle {
   /** kg/m^2 */
   density: number;
   sensor: boolean;
-  set hitEvents(on: boolean);
-  set preSolve(on: boolean);
+  hitEvents: boolean;
+  preSolve: boolean;
+  /** of a segment; null for other shapes */
+  readonly chain: Chain | null;
+  /** in the body's frame; it could be created again. A box is a polygon */
+  readonly definition: ShapeDefinition;
   /** m */
   readonly box: Box;
   /** the hit of a ray with this shape alone, m */
   rayCast(origin: Vec2, translation: Vec2): {point: Vec2; normal: Vec2; fraction: number} | null;
   contains(point: Vec2): boolean;
   material: Material;
+  get filter(): {category: bigint; mask: bigint; group: number};
   set filter(filter: Filter);
   readonly overlapping: Shape[];
   destroy(): void;
 }
 export class Chain extends Handle {
+  readonly valid: boolean;
+  readonly body: Body;
+  readonly segments: Shape[];
   destroy(): void;
 }
 export interface JointReading {
@@ -183,6 +210,11 @@ export interface JointReading {
 }
 export class Joint extends Handle {
   readonly valid: boolean;
+  readonly bodies: Body[];
+  readonly kind: JointKind;
+  readonly definition: JointDefinition;
+  get userData(): bigint;
+  set userData(data: bigint | number);
   change(kind: JointKind, definition?: JointDefinition): void;
   read(): JointReading;
   /** N and N m, beyond which its load is in `events.loaded`; 0: never */
@@ -212,7 +244,14 @@ export interface Events {
   woke: Body[];
   quarantined: Body[];
 }
-export interface QueryFilter { category?: number | bigint; mask?: number | bigint; sensors?: boolean; ignore?: Body }
+export interface QueryFilter {
+  category?: number | bigint;
+  mask?: number | bigint;
+  sensors?: boolean;
+  ignore?: Body;
+  /** tested last; must not change the world */
+  condition?: (shape: Shape) => boolean;
+}
 export interface Hit { shape: Shape; body: Body; point: Vec2; normal: Vec2 }
 export interface MoverOptions {
   up?: Vec2;
@@ -257,19 +296,97 @@ export interface WorldDefinition {
   thresholds?: Thresholds;
 }
 
+/** State of a body, as passed to a law: m, rad, m/s, rad/s, kg, kg m^2. */
+export interface LawBody {
+  body: Body;
+  centre: Vec2;
+  angle: number;
+  velocity: Vec2;
+  angularVelocity: number;
+  mass: number;
+  inertia: number;
+  userData: bigint;
+}
+/** N, and N m about the centre of mass */
+export interface Wrench { force?: Vec2; torque?: number }
+/** Laws act on awake dynamic bodies; with `wakes` on sleeping ones as well, and wake those that they push. */
+export interface LawOptions { wakes?: boolean }
+export interface Attraction {
+  /** m^3/s^2 (inverse square) or 1/s^2 (linear); negative repels */
+  strength?: number;
+  falloff?: "inverse_square" | "linear";
+  /** m, below which the inverse square grows linearly from 0 */
+  softening?: number;
+}
+/** m/s and kg/m^2 of the air */
+export interface Wind { velocity?: Vec2; density?: number }
+/** Water below a plane across gravity: m along "up", kg/m^2, m/s, N s/m and N m s for each m^2 under water. */
+export interface Water {
+  level?: number;
+  density?: number;
+  velocity?: Vec2;
+  linearDrag?: number;
+  angularDrag?: number;
+}
+/** N/m, N s/m, m */
+export interface ElasticSpring { stiffness?: number; damping?: number; restLength?: number; pullsOnly?: boolean }
+/** m, and N s for each m of surface square to it, at the centre */
+export interface Blast {
+  centre?: Vec2;
+  radius?: number;
+  impulse?: number;
+  /** spares points that another body covers from the centre */
+  occlusion?: boolean;
+  cover?: QueryFilter;
+}
+export type DrawRole = "static" | "kinematic" | "awake" | "asleep" | "sensor" | "contact" | "normal" | "impulse" | "box" |
+  "centre" | "joint" | "name";
+/** Functions that draw items: m, in the world's frame, y up. Polygons are counter-clockwise. */
+export interface DebugDraw {
+  polygon?(corners: Vec2[], radius: number, role: DrawRole): void;
+  circle?(centre: Vec2, radius: number, axis: Vec2, role: DrawRole): void;
+  capsule?(start: Vec2, end: Vec2, radius: number, role: DrawRole): void;
+  segment?(start: Vec2, end: Vec2, role: DrawRole): void;
+  point?(point: Vec2, role: DrawRole): void;
+  text?(point: Vec2, text: string, role: DrawRole): void;
+}
+/** Items to draw: shapes and joints by default. */
+export interface DrawOptions {
+  shapes?: boolean;
+  joints?: boolean;
+  contacts?: boolean;
+  normals?: boolean;
+  impulses?: boolean;
+  boxes?: boolean;
+  centres?: boolean;
+  names?: boolean;
+  /** m */
+  normalLength?: number;
+  /** m per N s */
+  impulseLength?: number;
+  /** m: leaves out what certainly lies outside */
+  bounds?: Box;
+}
+
 /** A world of bodies, shapes and joints that advances in fixed steps. */
 export class World {
   constructor(definition?: WorldDefinition);
   destroy(): void;
   step(dt?: number, substeps?: number, count?: number): void;
   readonly time: number;
+  readonly stepCount: number;
+  /** as it is now */
+  readonly definition: Required<WorldDefinition>;
   /** 16 hexadecimal digits; equal on every platform and in every language for the same calls */
   hash(): string;
   fullHash(): string;
   gravity: Vec2;
-  set sleeping(on: boolean);
-  set continuous(on: boolean);
-  set solver(name: Solver);
+  sleeping: boolean;
+  continuous: boolean;
+  directIslands: boolean;
+  quarantine: boolean;
+  iterations: number;
+  solver: Solver;
   thresholds: Thresholds;
   set profiling(on: boolean);
   /** ns */
@@ -284,6 +401,10 @@ export class World {
   readonly poses: Float64Array;
   /** x, y (m/s) and angular velocity (rad/s) of each body; valid until the next call */
   readonly velocities: Float64Array;
+  /** bodies whose pose the last step may have changed; not sorted */
+  readonly moved: Body[];
+  /** bodies in quarantine and their faults, oldest first */
+  readonly quarantined: {body: Body; field: string; value: number; step: number}[];
   readonly contacts: Contact[];
   readonly events: Events;
   onPreSolve(hook: ((contact: Contact) => boolean) | null): void;
@@ -293,10 +414,44 @@ export class World {
   save(): Uint8Array;
   restore(bytes: Uint8Array): void;
   rayCast(origin: Vec2, translation: Vec2, filter?: QueryFilter): (Hit & {fraction: number}) | null;
+  /** all hits, sorted by fraction */
+  rayCastAll(origin: Vec2, translation: Vec2, filter?: QueryFilter): (Hit & {fraction: number})[];
   castShape(shape: Geometry, position: Vec2, angle: number, translation: Vec2, filter?: QueryFilter):
     (Hit & {fraction: number}) | null;
   overlapShape(shape: Geometry, position: Vec2, angle?: number, filter?: QueryFilter): Shape[];
+  overlapBox(box: Box, filter?: QueryFilter): Shape[];
+  /** m, negative where they overlap */
+  distance(a: Shape, b: Shape): {pointA: Vec2; pointB: Vec2; normal: Vec2; distance: number};
   shapesAt(point: Vec2, filter?: QueryFilter): Shape[];
   nearest(point: Vec2, maxDistance: number, filter?: QueryFilter): (Hit & {distance: number}) | null;
   move(capsule: Capsule, position: Vec2, velocity: Vec2, dt: number, options?: MoverOptions): MoverResult;
+  /** Force laws: each call adds the forces of the next step, `dt` s long. */
+  applyLaw(law: (body: LawBody) => Wrench | void, options?: LawOptions): void;
+  /** N s/m and N m s */
+  applyLinearDrag(rates: {linear?: number; angular?: number}, dt: number, options?: LawOptions): void;
+  /** N s^2/m^2 */
+  applyQuadraticDrag(coefficient: number, dt: number, options?: LawOptions): void;
+  applyAttraction(centre: Vec2 | Body, law: Attraction, dt: number, options?: LawOptions): void;
+  applyWind(wind: Wind, dt: number, options?: LawOptions): void;
+  applyWater(water: Water, dt: number, options?: LawOptions): void;
+  applySpring(a: Body, pointA: Vec2, b: Body, pointB: Vec2, spring: ElasticSpring, dt: number, options?: LawOptions): void;
+  /** applies impulses at once to all dynamic bodies in reach */
+  explode(blast: Blast): void;
+  draw(to: DebugDraw, options?: DrawOptions): void;
+}
+
+/** The last states of a world in memory, for network play. */
+export class Rollback {
+  /** keeps up to `frames` states, 1 to 10000 */
+  constructor(world: World, frames: number);
+  /** under the present step count, instead of the oldest if it is full */
+  save(): void;
+  /** restores the state after `step` steps, and drops later ones */
+  backTo(step: number): void;
+  holds(step: number): boolean;
+  /** -1: it is empty */
+  readonly oldest: number;
+  readonly latest: number;
+  readonly size: number;
+  destroy(): void;
 }

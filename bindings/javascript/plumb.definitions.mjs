@@ -8,6 +8,7 @@ export const kNames = {
   integrator: ["velocity_verlet", "semi_implicit_euler", "explicit_euler"],
   joint: ["distance", "revolute", "prismatic", "weld", "wheel", "motor", "mouse", "gear", "pulley", "ratchet",
     "friction"],
+  falloff: ["inverse_square", "linear"],
   shape: ["circle", "box", "capsule", "polygon", "segment"],
 };
 
@@ -71,6 +72,12 @@ export function geometryOf(shape) {
 }
 const kMaterialFields = new Set(["friction", "restitution", "rollingResistance", "surfaceSpeed"]);
 export const knownMaterial = (m) => known(kMaterialFields, m, "a material");
+const kChainFields = new Set(["points", "closed", "filter", "sensor", "hitEvents", "preSolve", "userData", ...kMaterialFields]);
+export function chainOf(chain) {
+  const {points, closed, filter, sensor, hitEvents, preSolve, userData} = known(kChainFields, chain, "a chain");
+  return [flag(closed), ...materialOf(chain), ...filterOf(filter), flag(sensor), flag(hitEvents), flag(preSolve),
+    ...wide(userData), listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
+}
 export function materialOf(m) {
   return [m.friction ?? 0.6, m.restitution ?? 0, m.rollingResistance ?? 0, m.surfaceSpeed ?? 0];
 }
@@ -79,6 +86,8 @@ export function filterOf(f = {}) {
   known(kFilterFields, f, "a filter");
   return [...wide(f.category ?? 1), ...wide(f.mask ?? -1), f.group ?? 0];
 }
+const wideAt = (n, at) => BigInt(n[at]) | BigInt(n[at + 1]) << 32n;
+export const filterAt = (n) => ({category: wideAt(n, 0), mask: wideAt(n, 2), group: n[4]});
 const kThresholds = new Set(["hit", "bounce", "sleep"]);
 export function thresholdsOf(t) {
   const {hit = -1, bounce = -1, sleep = -1} = known(kThresholds, t, "the thresholds");
@@ -95,6 +104,21 @@ export function worldOf(definition) {
     named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
     flag(sleeping), flag(continuous), named("solver", solver), named("integrator", integrator), iterations,
     flag(directIslands), flag(quarantine), ...thresholdsOf(thresholds)];
+}
+/// Returns the definition of which `worldOf` makes these numbers.
+export function definitionOfWorld(n) {
+  return {precision: kNames.precision[n[0]], gravity: {x: n[1], y: n[2]}, combineFriction: kNames.combine[n[3]],
+    combineRestitution: kNames.combine[n[4]], sleeping: n[5] !== 0, continuous: n[6] !== 0, solver: kNames.solver[n[7]],
+    integrator: kNames.integrator[n[8]], iterations: n[9], directIslands: n[10] !== 0, quarantine: n[11] !== 0,
+    thresholds: {hit: n[12], bounce: n[13], sleep: n[14]}};
+}
+/// Returns geometry, position and angle of a shape from kind, radius, start, end, position, angle and points.
+export function definitionOfShape(n) {
+  const at = (i) => ({x: n[i], y: n[i + 1]}), kind = kNames.shape[n[0]], radius = n[1];
+  const points = Array.from({length: (n.length - 9) / 2}, (_, i) => at(9 + 2 * i));
+  const geometry = {circle: {radius}, capsule: {start: at(2), end: at(4), radius}, polygon: {points, radius},
+    segment: {start: at(2), end: at(4)}}[kind];
+  return {[kind]: geometry, position: at(6), angle: n[8]};
 }
 const kShapeFields = new Set([...kNames.shape, "position", "angle", "density", "friction", "restitution",
   "rollingResistance", "surfaceSpeed", "filter", "sensor", "hitEvents", "preSolve", "userData"]);
@@ -118,12 +142,57 @@ export function bodyOf(d) {
     d.angularDamping ?? 0, flag(d.lockX), flag(d.lockY), flag(d.lockRotation), flag(d.maySleep ?? true),
     flag(d.awake ?? true), flag(d.continuous ?? true), ...wide(d.userData), shapes.length, ...shapes.flat()];
 }
-const kQueryFields = new Set(["category", "mask", "sensors", "ignore"]);
+const kQueryFields = new Set(["category", "mask", "sensors", "ignore", "condition"]);
 export function queryOf(world, q = {}) {
   known(kQueryFields, q, "a query's filter");
   if (q.ignore) own(world, q.ignore, "ignore");
   return [...wide(q.category ?? -1), ...wide(q.mask ?? -1), flag(q.sensors), q.ignore?.index ?? 0xFFFFFFFF,
-    q.ignore?.generation ?? 0];
+    q.ignore?.generation ?? 0, flag(q.condition)];
+}
+const kLawFields = new Set(["wakes"]), kDragFields = new Set(["linear", "angular"]);
+export const lawOf = (options = {}) => ({wakes: flag(known(kLawFields, options, "a law's options").wakes)});
+export const knownDrag = (rates) => known(kDragFields, rates, "a drag");
+const kWrenchFields = new Set(["force", "torque"]);
+export function wrenchOf(wrench) {
+  const {force = {x: 0, y: 0}, torque = 0} = known(kWrenchFields, wrench ?? {}, "a law's result");
+  return [...pair(force, "force"), torque];
+}
+const kAttractionFields = new Set(["strength", "falloff", "softening"]);
+export function attractionOf(law) {
+  const {strength = 1, falloff = "inverse_square", softening = 0.1} = known(kAttractionFields, law, "an attraction");
+  return [strength, named("falloff", falloff), softening];
+}
+const kWindFields = new Set(["velocity", "density"]);
+export function windOf(wind) {
+  const {velocity = {x: 0, y: 0}, density = 1.2} = known(kWindFields, wind, "a wind");
+  return [...pair(velocity, "velocity"), density];
+}
+const kWaterFields = new Set(["level", "density", "velocity", "linearDrag", "angularDrag"]);
+export function waterOf(water) {
+  const {level = 0, density = 1, velocity = {x: 0, y: 0}, linearDrag = 0, angularDrag = 0} =
+    known(kWaterFields, water, "a water");
+  return [level, density, ...pair(velocity, "velocity"), linearDrag, angularDrag];
+}
+const kElasticFields = new Set(["stiffness", "damping", "restLength", "pullsOnly"]);
+export function elasticOf(spring) {
+  const {stiffness = 100, damping = 0, restLength = 1, pullsOnly} = known(kElasticFields, spring, "a spring");
+  return [stiffness, damping, restLength, flag(pullsOnly)];
+}
+const kBlastFields = new Set(["centre", "radius", "impulse", "occlusion", "cover"]);
+export function blastOf(world, blast) {
+  const {centre = {x: 0, y: 0}, radius = 5, impulse = 100, occlusion, cover} = known(kBlastFields, blast, "a blast");
+  return [...pair(centre, "centre"), radius, impulse, flag(occlusion), ...queryOf(world, cover)];
+}
+/// Meanings of drawn items, by the C interface's numbers.
+export const kRoles = ["static", "kinematic", "awake", "asleep", "sensor", "contact", "normal", "impulse", "box", "centre",
+  "joint", "name"];
+const kDrawFields = new Set(["shapes", "joints", "contacts", "normals", "impulses", "boxes", "centres", "names",
+  "normalLength", "impulseLength", "bounds"]);
+export function drawOf(options = {}) {
+  const o = known(kDrawFields, options, "what is drawn"), zero = {x: 0, y: 0};
+  return [flag(o.shapes ?? true), flag(o.joints ?? true), flag(o.contacts), flag(o.normals), flag(o.impulses),
+    flag(o.boxes), flag(o.centres), flag(o.names), o.normalLength ?? 0.2, o.impulseLength ?? 0.1, flag(o.bounds),
+    ...pair(o.bounds?.lower ?? zero, "lower"), ...pair(o.bounds?.upper ?? zero, "upper")];
 }
 const kMoverFields = new Set(["up", "maxSlope", "stepHeight", "skin", "mass", "pushForce", "push", "filter"]);
 export const knownMover = (options) => known(kMoverFields, options, "the mover's options");
@@ -154,4 +223,15 @@ export function jointOf(kind, d) {
     d.length ?? (kind === "pulley" ? -1 : 1), d.targetAngle ?? 0, d.targetTranslation ?? 0,
     ...pair(d.targetPosition ?? zero, "targetPosition"), d.maxForce ?? 0, d.maxTorque ?? 0, ratio, d.phase ?? 0,
     d.tooth ?? 0.1, ...pair(d.groundA ?? zero, "groundA"), ...pair(d.groundB ?? zero, "groundB")];
+}
+/// Returns the definition of which `jointOf` makes these numbers.
+export function definitionOfJoint(n) {
+  const at = (i) => ({x: n[i], y: n[i + 1]});
+  const springAt = (i) => (n[i] ? {hertz: n[i + 1], dampingRatio: n[i + 2]} : undefined);
+  return {collide: n[1] !== 0, breakForce: n[2], breakTorque: n[3], userData: wideAt(n, 4), reportForce: n[6],
+    reportTorque: n[7], anchorA: at(8), anchorB: at(10), axis: at(12), referenceAngle: n[14], spring: springAt(15),
+    linearSpring: springAt(18), angularSpring: springAt(21), limits: n[24] ? {lower: n[25], upper: n[26]} : undefined,
+    motor: n[27] ? {speed: n[28], maxForce: n[29]} : undefined, length: n[30], targetAngle: n[31], targetTranslation: n[32],
+    targetPosition: at(33), maxForce: n[35], maxTorque: n[36], ratio: n[37], phase: n[38], tooth: n[39], groundA: at(40),
+    groundB: at(42)};
 }

@@ -1,7 +1,9 @@
 // plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
-import {PlumbError, bodyOf, filterOf, flag, geometryOf, jointOf, kNames, knownMass, knownMaterial, knownMover, listed,
-  materialOf, named, own, pair, queryOf, shapeOf, thresholdsOf, worldOf} from "./plumb.definitions.mjs";
+import {PlumbError, attractionOf, blastOf, bodyOf, chainOf, definitionOfJoint, definitionOfShape, definitionOfWorld, drawOf,
+  elasticOf, filterAt, filterOf, flag, geometryOf, jointOf, kNames, kRoles, knownDrag, knownMass, knownMaterial, knownMover,
+  lawOf, listed, materialOf, named, own, pair, queryOf, shapeOf, thresholdsOf, waterOf, windOf, worldOf, wrenchOf}
+  from "./plumb.definitions.mjs";
 import packed from "./plumb.wasm.mjs";
 
 export {PlumbError};
@@ -29,6 +31,20 @@ const imports = {
       const n = new Float64Array(calls.memory.buffer, calls.numbers(4), 4);
       const a = new Shape(hooked, n[0], n[1]), b = new Shape(hooked, n[2], n[3]);
       return filters.get(world)(a, b) === false ? 0 : 1;
+    },
+    condition(index, generation) {
+      // An error would leave the query half-done: it is thrown after it.
+      try {
+        return asked.condition(new Shape(asked.world, index >>> 0, generation >>> 0)) === false ? 0 : 1;
+      } catch (error) {
+        asked.error ??= {error};
+        return 0;
+      }
+    },
+    shortest(value, to) {
+      const text = encoder.encode(Number.isFinite(value) ? String(value) : Number.isNaN(value) ? "nan" : value < 0 ? "-inf" : "inf");
+      new Uint8Array(calls.memory.buffer, to, text.length).set(text);
+      return text.length;
     },
   },
   wasi_snapshot_preview1: new Proxy({
@@ -84,6 +100,7 @@ function box(numbers) {
   return {lower: point(numbers), upper: point(numbers, 2)};
 }
 
+const kNoIndex = 0xFFFFFFFF;  // of an invalid handle
 const kContact = 17;  // numbers of a contact
 function contactAt(world, n, at) {
   const points = [];
@@ -93,6 +110,10 @@ function contactAt(world, n, at) {
   }
   return {shapeA: new Shape(world, n[at], n[at + 1]), shapeB: new Shape(world, n[at + 2], n[at + 3]),
     normal: point(n, at + 4), points, approach: n[at + 15], stepImpulse: n[at + 16]};
+}
+function contactsOf(world, place) {
+  const n = result(place).slice();
+  return Array.from({length: n.length / kContact}, (_, i) => contactAt(world, n, i * kContact));
 }
 let hooked = null;  // the world whose hook is being called
 function readContact() {
@@ -139,8 +160,14 @@ export class Body extends Handle {
   set linearDamping(value) { this._call("body_set_damping", value, this.angularDamping); }
   get angularDamping() { return this._call("body_angular_damping"); }
   set angularDamping(value) { this._call("body_set_damping", this.linearDamping, value); }
+  get locks() {
+    const bits = this._call("body_locks");
+    return {x: (bits & 1) !== 0, y: (bits & 2) !== 0, rotation: (bits & 4) !== 0};
+  }
+  set locks({x = false, y = false, rotation = false}) { this._call("body_set_locks", flag(x), flag(y), flag(rotation)); }
   get awake() { return this._call("body_awake") !== 0; }
   set awake(on) { this._call("body_set_awake", flag(on)); }
+  get maySleep() { return this._call("body_may_sleep") !== 0; }
   set maySleep(on) { this._call("body_set_may_sleep", flag(on)); }
   get userData() { return BigInt.asUintN(64, this._call("body_user_data")); }
   set userData(data) { this._call("body_set_user_data", BigInt.asUintN(64, BigInt(data))); }
@@ -157,6 +184,11 @@ export class Body extends Handle {
   get box() { return box(result(this._call("body_box"))); }
   get quarantined() { return this._call("body_quarantined") !== 0; }
   get shapes() { return handles(Shape, this.world, result(this._call("body_shapes"))); }
+  get joints() { return handles(Joint, this.world, result(this._call("body_joints"))); }
+  get contacts() { return contactsOf(this.world, this._call("body_contacts")); }
+  velocityAt(at) { return point(result(this._call("body_velocity_at", ...pair(at, "point")))); }
+  worldPoint(local) { return point(result(this._call("body_world_point", ...pair(local, "point")))); }
+  localPoint(at) { return point(result(this._call("body_local_point", ...pair(at, "point")))); }
 
   setPose(position, angle) { this._call("body_set_pose", ...pair(position), angle); }
   setMass(given) {
@@ -164,7 +196,7 @@ export class Body extends Handle {
     this._call("body_set_mass", mass, ...pair(centre, "centre"), inertia);
   }
   useDensities() { this._call("body_use_densities"); }
-  setLocks({x = false, y = false, rotation = false}) { this._call("body_set_locks", flag(x), flag(y), flag(rotation)); }
+  setLocks(locks) { this.locks = locks; }
   moveTowards(position, angle, dt) { this._call("body_move_towards", ...pair(position), angle, dt); }
   applyForce(force, at = null) {
     if (at === null) this._call("body_apply_force", ...pair(force, "force"));
@@ -180,10 +212,8 @@ export class Body extends Handle {
     const made = result(call("shape_create", [this.world._address, this.index, this.generation], shapeOf(shape)));
     return new Shape(this.world, made[0], made[1]);
   }
-  createChain({points, closed = false, filter, ...material}) {
-    const input = [flag(closed), ...materialOf(knownMaterial(material)), ...filterOf(filter),
-      listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
-    const made = result(call("chain_create", [this.world._address, this.index, this.generation], input));
+  createChain(chain) {
+    const made = result(call("chain_create", [this.world._address, this.index, this.generation], chainOf(chain)));
     return new Chain(this.world, made[0], made[1]);
   }
   release() { this._call("body_release"); }
@@ -202,7 +232,9 @@ export class Shape extends Handle {
   set density(value) { this._call("shape_set_density", value); }
   get sensor() { return this._call("shape_sensor") !== 0; }
   set sensor(on) { this._call("shape_set_sensor", flag(on)); }
+  get hitEvents() { return this._call("shape_hit_events") !== 0; }
   set hitEvents(on) { this._call("shape_set_hit_events", flag(on)); }
+  get preSolve() { return this._call("shape_pre_solve") !== 0; }
   set preSolve(on) { this._call("shape_set_pre_solve", flag(on)); }
   get box() { return box(result(this._call("shape_box"))); }
   rayCast(origin, translation) {
@@ -220,17 +252,40 @@ export class Shape extends Handle {
     const input = materialOf({...this.material, ...knownMaterial(m)});
     call("shape_set_material", [this.world._address, this.index, this.generation], input);
   }
+  get filter() { return filterAt(result(this._call("shape_filter"))); }
   set filter(f) { call("shape_set_filter", [this.world._address, this.index, this.generation], filterOf(f)); }
+  get chain() {
+    const [index, generation] = result(this._call("shape_chain"));
+    return index === kNoIndex ? null : new Chain(this.world, index, generation);
+  }
+  /// The present definition, in the body's frame: it could be created again. A box is a polygon then.
+  get definition() {
+    const {density, sensor, hitEvents, preSolve, userData} = this;
+    return {...definitionOfShape(result(this._call("shape_geometry"))), density, ...this.material, filter: this.filter,
+      sensor, hitEvents, preSolve, userData};
+  }
   get overlapping() { return handles(Shape, this.world, result(this._call("shape_overlapping"))); }
   destroy() { this._call("shape_destroy"); }
 }
 
 export class Chain extends Handle {
+  get valid() { return this._call("chain_valid") !== 0; }
+  get body() {
+    const n = result(this._call("chain_body"));
+    return new Body(this.world, n[0], n[1]);
+  }
+  get segments() { return handles(Shape, this.world, result(this._call("chain_segments"))); }
   destroy() { this._call("chain_destroy"); }
 }
 
 export class Joint extends Handle {
   get valid() { return this._call("joint_valid") !== 0; }
+  get bodies() { return handles(Body, this.world, result(this._call("joint_bodies"))); }
+  get kind() { return kNames.joint[result(this._call("joint_definition"))[0]]; }
+  /// The present definition, without its kind.
+  get definition() { return definitionOfJoint(result(this._call("joint_definition"))); }
+  get userData() { return BigInt.asUintN(64, this._call("joint_user_data")); }
+  set userData(data) { this._call("joint_set_user_data", BigInt.asUintN(64, BigInt(data))); }
   change(kind, definition = {}) {
     call("joint_change", [this.world._address, this.index, this.generation], jointOf(kind, definition));
   }
@@ -240,6 +295,20 @@ export class Joint extends Handle {
   }
   setLoadEvents({force = 0, torque = 0}) { this._call("joint_set_load_events", force, torque); }
   destroy() { this._call("joint_destroy"); }
+}
+
+// A query's condition while the query runs, and what it threw.
+let asked = null;
+function query(name, args, input, world, filter) {
+  if (!filter?.condition) return call(name, args, input);
+  const before = asked, mine = {world, condition: filter.condition, error: null};
+  asked = mine;
+  try {
+    return call(name, args, input);
+  } finally {
+    asked = before;
+    if (mine.error) throw mine.error.error;
+  }
 }
 
 const collected = new FinalizationRegistry((address) => {
@@ -269,14 +338,26 @@ export class World {
       hooked = before;
     }
   }
+  get stepCount() { return call("world_step_count", [this._address]); }
+  /// The settings as they are now; a world could be made of them again.
+  get definition() { return definitionOfWorld(result(call("world_definition", [this._address]))); }
   get time() { return call("world_time", [this._address]); }
   /// 16 hexadecimal digits, the same as of a native program that makes the same calls.
   hash() { return hex(call("world_hash", [this._address])); }
   fullHash() { return hex(call("world_full_hash", [this._address])); }
   get gravity() { return point(result(call("world_gravity", [this._address]))); }
   set gravity(g) { call("world_set_gravity", [this._address, ...pair(g, "gravity")]); }
+  get sleeping() { return this.definition.sleeping; }
   set sleeping(on) { call("world_set_sleeping", [this._address, flag(on)]); }
+  get continuous() { return this.definition.continuous; }
   set continuous(on) { call("world_set_continuous", [this._address, flag(on)]); }
+  get directIslands() { return this.definition.directIslands; }
+  set directIslands(on) { call("world_set_direct_islands", [this._address, flag(on)]); }
+  get quarantine() { return this.definition.quarantine; }
+  set quarantine(on) { call("world_set_quarantine", [this._address, flag(on)]); }
+  get iterations() { return this.definition.iterations; }
+  set iterations(count) { call("world_set_iterations", [this._address, count]); }
+  get solver() { return this.definition.solver; }
   set solver(name) { call("world_set_solver", [this._address, named("solver", name)]); }
   get thresholds() {
     const [hit, bounce, sleep] = result(call("world_thresholds", [this._address]));
@@ -313,6 +394,14 @@ export class World {
       2 * calls.body_count(this._address));
     return handles(Body, this, n);
   }
+  /// Bodies whose pose the last step may have changed; not sorted.
+  get moved() { return handles(Body, this, result(call("world_moved", [this._address]))); }
+  /// Bodies in quarantine and their faults, oldest first.
+  get quarantined() {
+    const n = result(call("world_quarantined", [this._address])).slice();
+    return Array.from({length: n.length / 5}, (_, i) => ({body: new Body(this, n[5 * i], n[5 * i + 1]),
+      field: text(n[5 * i + 2]), value: n[5 * i + 3], step: n[5 * i + 4]}));
+  }
   get poses() { return this.#array("world_poses"); }
   get velocities() { return this.#array("world_velocities"); }
   #array(name) {
@@ -320,10 +409,7 @@ export class World {
     return new Float64Array(calls.memory.buffer, place, 3 * calls.body_count(this._address));
   }
 
-  get contacts() {
-    const n = result(call("world_contacts", [this._address])).slice();
-    return Array.from({length: n.length / kContact}, (_, i) => contactAt(this, n, i * kContact));
-  }
+  get contacts() { return contactsOf(this, call("world_contacts", [this._address])); }
   get events() {
     const n = result(call("world_events", [this._address])).slice();
     let at = 10;
@@ -370,38 +456,157 @@ export class World {
   }
 
   rayCast(origin, translation, filter) {
-    return this.#hit(call("ray_cast", [this._address],
-      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(this, filter)]), "fraction");
+    return this.#hit(result(query("ray_cast", [this._address],
+      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(this, filter)], this, filter)), "fraction");
+  }
+  /// All hits, sorted by fraction.
+  rayCastAll(origin, translation, filter) {
+    const n = result(query("ray_cast_all", [this._address],
+      [...pair(origin, "origin"), ...pair(translation, "translation"), ...queryOf(this, filter)], this, filter)).slice();
+    return Array.from({length: n.length / 9}, (_, i) => this.#hit(n.subarray(9 * i, 9 * i + 9), "fraction"));
   }
   castShape(shape, position, angle, translation, filter) {
     const input = [...geometryOf(shape), ...pair(position), angle, ...pair(translation, "translation"),
       ...queryOf(this, filter)];
-    return this.#hit(call("cast_shape", [this._address], input), "fraction");
+    return this.#hit(result(query("cast_shape", [this._address], input, this, filter)), "fraction");
   }
   overlapShape(shape, position, angle = 0, filter = {}) {
     const input = [...geometryOf(shape), ...pair(position), angle, ...queryOf(this, filter)];
-    return handles(Shape, this, result(call("overlap_shape", [this._address], input)));
+    return handles(Shape, this, result(query("overlap_shape", [this._address], input, this, filter)));
+  }
+  overlapBox({lower, upper}, filter) {
+    return handles(Shape, this, result(query("overlap_box", [this._address],
+      [...pair(lower, "lower"), ...pair(upper, "upper"), ...queryOf(this, filter)], this, filter)));
+  }
+  /// The distance of two shapes, negative where they overlap.
+  distance(a, b) {
+    own(this, a, "a"), own(this, b, "b");
+    const n = result(call("distance", [this._address, a.index, a.generation, b.index, b.generation]));
+    return {pointA: point(n), pointB: point(n, 2), normal: point(n, 4), distance: n[6]};
   }
   shapesAt(at, filter) {
-    return handles(Shape, this, result(call("shapes_at", [this._address], [...pair(at, "point"), ...queryOf(this, filter)])));
+    return handles(Shape, this, result(query("shapes_at", [this._address], [...pair(at, "point"), ...queryOf(this, filter)],
+      this, filter)));
   }
   nearest(at, maxDistance, filter) {
-    return this.#hit(call("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(this, filter)]), "distance");
+    return this.#hit(result(query("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(this, filter)],
+      this, filter)), "distance");
   }
   move(capsule, position, velocity, dt, options = {}) {
     const {up = {x: 0, y: 1}, maxSlope = 0.8, stepHeight = 0.3, skin = 0, mass = 0, pushForce = 1e12, push = true,
       filter} = knownMover(options);
-    const n = result(call("move", [this._address, flag(push)], [...geometryOf({capsule}), ...pair(position),
+    const n = result(query("move", [this._address, flag(push)], [...geometryOf({capsule}), ...pair(position),
       ...pair(velocity, "velocity"), dt, ...pair(up, "up"), maxSlope, stepHeight, skin, mass, pushForce,
-      ...queryOf(this, filter)]));
+      ...queryOf(this, filter)], this, filter));
     return {position: point(n), velocity: point(n, 2), onGround: n[4] !== 0, squeezed: n[5] !== 0,
       groundNormal: point(n, 6), ground: new Body(this, n[8], n[9]), groundVelocity: point(n, 10)};
   }
-  #hit(place, last) {
-    const n = result(place);
+
+  // Force laws: each call adds the forces of the next step, `dt` s long.
+  /// Applies a law of your own: it returns {force, torque} for each body, or nothing.
+  applyLaw(law, options) {
+    const {wakes} = lawOf(options), n = result(call("law_bodies", [this._address, wakes])).slice();
+    const wrenches = [];
+    for (let i = 0; i < n.length; i += 12) {
+      const userData = BigInt(n[i + 10]) | BigInt(n[i + 11]) << 32n;
+      wrenches.push(...wrenchOf(law({body: new Body(this, n[i], n[i + 1]), centre: point(n, i + 2), angle: n[i + 4],
+        velocity: point(n, i + 5), angularVelocity: n[i + 7], mass: n[i + 8], inertia: n[i + 9], userData})));
+    }
+    call("apply_wrenches", [this._address, wakes], wrenches);
+  }
+  applyLinearDrag(rates, dt, options) {
+    const {linear = 0, angular = 0} = knownDrag(rates);
+    call("apply_linear_drag", [this._address, linear, angular, dt, lawOf(options).wakes]);
+  }
+  applyQuadraticDrag(coefficient, dt, options) {
+    call("apply_quadratic_drag", [this._address, coefficient, dt, lawOf(options).wakes]);
+  }
+  /// Attracts to a point, or to a body: the reaction acts on a dynamic one.
+  applyAttraction(centre, law, dt, options) {
+    const {wakes} = lawOf(options), input = attractionOf(law);
+    if (centre instanceof Body) {
+      own(this, centre, "centre");
+      call("apply_attraction_to", [this._address, centre.index, centre.generation, dt, wakes], input);
+    } else {
+      call("apply_attraction", [this._address, dt, wakes], [...input, ...pair(centre, "centre")]);
+    }
+  }
+  applyWind(wind, dt, options) { call("apply_wind", [this._address, ...windOf(wind), dt, lawOf(options).wakes]); }
+  applyWater(water, dt, options) { call("apply_water", [this._address, dt, lawOf(options).wakes], waterOf(water)); }
+  /// Pulls between points of two bodies, in the bodies' frames, without a joint.
+  applySpring(a, pointA, b, pointB, spring, dt, options) {
+    own(this, a, "a"), own(this, b, "b");
+    call("apply_spring", [this._address, a.index, a.generation, b.index, b.generation, dt, lawOf(options).wakes],
+      [...pair(pointA, "pointA"), ...pair(pointB, "pointB"), ...elasticOf(spring)]);
+  }
+  /// Applies impulses at once to all dynamic bodies in reach.
+  explode(blast) { query("explode", [this._address], blastOf(this, blast), this, blast.cover); }
+
+  /// Calls the functions of `to` for each item: polygon, circle, capsule, segment, point, text. Those that are missing are
+  /// left out.
+  draw(to, options) {
+    const n = result(call("world_draw", [this._address], drawOf(options))).slice();
+    for (let i = 0; i < n.length;) {
+      const item = n[i], role = kRoles[n[i + 1]];
+      i += 2;
+      if (item === 0) {
+        const corners = Array.from({length: n[i + 1]}, (_, k) => point(n, i + 2 + 2 * k));
+        to.polygon?.(corners, n[i], role);
+        i += 2 + 2 * corners.length;
+      } else if (item === 1) {
+        to.circle?.(point(n, i), n[i + 2], point(n, i + 3), role);
+        i += 5;
+      } else if (item === 2) {
+        to.capsule?.(point(n, i), point(n, i + 2), n[i + 4], role);
+        i += 5;
+      } else if (item === 3) {
+        to.segment?.(point(n, i), point(n, i + 2), role);
+        i += 4;
+      } else if (item === 4) {
+        to.point?.(point(n, i), role);
+        i += 2;
+      } else {
+        const letters = Uint8Array.from(n.subarray(i + 3, i + 3 + n[i + 2]));
+        to.text?.(point(n, i), decoder.decode(letters), role);
+        i += 3 + letters.length;
+      }
+    }
+  }
+
+  #hit(n, last) {
     if (n.length === 0) return null;
     return {shape: new Shape(this, n[0], n[1]), body: new Body(this, n[2], n[3]), point: point(n, 4),
       normal: point(n, 6), [last]: n[8]};
+  }
+}
+
+const forgotten = new FinalizationRegistry((address) => calls.rollback_destroy(address));
+
+/// The last states of a world in memory, for network play: a late input is taken by going back and stepping again.
+export class Rollback {
+  #world;  // which stays as long as this does
+  constructor(world, frames) {
+    this.#world = world;
+    this._address = call("rollback_create", [world._address, frames]);
+    forgotten.register(this, this._address, this);
+  }
+  /// Saves the present state under its step count, instead of the oldest one if it is full.
+  save() { this.#call("rollback_save"); }
+  /// Restores the state after `step` steps, and drops later ones.
+  backTo(step) { this.#call("rollback_back_to", step); }
+  holds(step) { return this.#call("rollback_holds", step) !== 0; }
+  get oldest() { return result(this.#call("rollback_range"))[0]; }
+  get latest() { return result(this.#call("rollback_range"))[1]; }
+  get size() { return result(this.#call("rollback_range"))[2]; }
+  destroy() {
+    forgotten.unregister(this);
+    if (this._address !== 0) calls.rollback_destroy(this._address);
+    this._address = 0;
+  }
+  #call(name, ...args) {
+    if (this._address === 0 || this.#world._address === 0)
+      throw new PlumbError("UnknownName", "the rollback or its world was destroyed", "rollback");
+    return call(name, [this._address, ...args]);
   }
 }
 

@@ -17,6 +17,8 @@ double* js_chain_create(plumb_world* w, std::uint32_t index, std::uint32_t gener
   plumb_chain_definition d = plumb_default_chain();
   d.closed = r.flag();
   d.material = material(r), d.filter = filter(r);
+  d.sensor = r.flag(), d.hit_events = r.flag(), d.pre_solve = r.flag();
+  d.user_data = r.wide();
   const std::vector<plumb_vec2> points = r.points();
   d.points = points.data(), d.point_count = points.size();
   return Writer().id(plumb_chain_create(w, {index, generation}, &d)).done();
@@ -34,12 +36,14 @@ PLUMB_EXPORT("shape_user_data") std::uint64_t js_shape_user_data(PLUMB_HANDLE) {
   return plumb_shape_user_data(w, {index, generation});
 }
 PLUMB_EXPORT("shape_material") double* js_shape_material(PLUMB_HANDLE) {
-  const plumb_material m = plumb_shape_material(w, {index, generation});
-  return Writer().add(m.friction).add(m.restitution).add(m.rolling_resistance).add(m.surface_speed).done();
+  return Writer().add(plumb_shape_material(w, {index, generation})).done();
 }
 PLUMB_EXPORT("shape_set_material") void js_shape_set_material(PLUMB_HANDLE) {
   Reader r;
   plumb_shape_set_material(w, {index, generation}, material(r));
+}
+PLUMB_EXPORT("shape_filter") double* js_shape_filter(PLUMB_HANDLE) {
+  return Writer().add(plumb_shape_filter(w, {index, generation})).done();
 }
 PLUMB_EXPORT("shape_set_filter") void js_shape_set_filter(PLUMB_HANDLE) {
   Reader r;
@@ -48,9 +52,7 @@ PLUMB_EXPORT("shape_set_filter") void js_shape_set_filter(PLUMB_HANDLE) {
 PLUMB_EXPORT("shape_overlapping") double* js_shape_overlapping(PLUMB_HANDLE) {
   std::vector<plumb_shape> all(plumb_shape_overlapping(w, {index, generation}, nullptr, 0));
   plumb_shape_overlapping(w, {index, generation}, all.data(), all.size());
-  Writer out;
-  for (const plumb_shape shape : all) out.id(shape);
-  return out.done();
+  return Writer().ids(all).done();
 }
 PLUMB_EXPORT("shape_set_user_data") void js_shape_set_user_data(PLUMB_HANDLE, std::uint64_t data) {
   plumb_shape_set_user_data(w, {index, generation}, data);
@@ -66,6 +68,24 @@ PLUMB_EXPORT("shape_sensor") int js_shape_sensor(PLUMB_HANDLE) {
 }
 PLUMB_EXPORT("shape_set_sensor") void js_shape_set_sensor(PLUMB_HANDLE, int on) {
   plumb_shape_set_sensor(w, {index, generation}, on != 0);
+}
+PLUMB_EXPORT("shape_hit_events") int js_shape_hit_events(PLUMB_HANDLE) {
+  return plumb_shape_hit_events(w, {index, generation});
+}
+PLUMB_EXPORT("shape_pre_solve") int js_shape_pre_solve(PLUMB_HANDLE) {
+  return plumb_shape_pre_solve(w, {index, generation});
+}
+PLUMB_EXPORT("shape_chain") double* js_shape_chain(PLUMB_HANDLE) {
+  return Writer().id(plumb_shape_chain(w, {index, generation})).done();
+}
+/// Writes kind, radius, start, end, position, angle and the points of the shape's geometry.
+PLUMB_EXPORT("shape_geometry") double* js_shape_geometry(PLUMB_HANDLE) {
+  const plumb_shape_definition d = plumb_shape_get_definition(w, {index, generation});
+  Writer out;
+  out.add(d.geometry.kind).add(d.geometry.radius).add(d.geometry.start).add(d.geometry.end);
+  out.add(d.position).add(d.angle);
+  for (std::size_t i = 0; i < d.geometry.point_count; ++i) out.add(d.geometry.points[i]);
+  return out.done();
 }
 PLUMB_EXPORT("shape_set_hit_events") void js_shape_set_hit_events(PLUMB_HANDLE, int on) {
   plumb_shape_set_hit_events(w, {index, generation}, on != 0);
@@ -89,6 +109,19 @@ double* js_shape_ray_cast(PLUMB_HANDLE, double x, double y, double way_x, double
 }
 PLUMB_EXPORT("shape_contains") int js_shape_contains(PLUMB_HANDLE, double x, double y) {
   return plumb_shape_contains(w, {index, generation}, {x, y});
+}
+PLUMB_EXPORT("chain_valid") int js_chain_valid(PLUMB_HANDLE) {
+  return plumb_chain_valid(w, {index, generation});
+}
+PLUMB_EXPORT("chain_body") double* js_chain_body(PLUMB_HANDLE) {
+  return Writer().id(plumb_chain_body(w, {index, generation})).done();
+}
+PLUMB_EXPORT("chain_segments") double* js_chain_segments(PLUMB_HANDLE) {
+  const plumb_chain chain{index, generation};
+  return Writer()
+      .ids(
+          all_of<plumb_shape>([&](auto* to, std::size_t n) { return plumb_chain_segments(w, chain, to, n); }))
+      .done();
 }
 PLUMB_EXPORT("chain_destroy") void js_chain_destroy(PLUMB_HANDLE) {
   plumb_chain_destroy(w, {index, generation});

@@ -60,6 +60,42 @@ PLUMB_EXPORT("world_set_continuous") void js_set_continuous(plumb_world* w, int 
 PLUMB_EXPORT("world_set_solver") void js_set_solver(plumb_world* w, int solver) {
   plumb_world_set_solver(w, static_cast<plumb_solver>(solver));
 }
+PLUMB_EXPORT("world_set_iterations") void js_set_iterations(plumb_world* w, int iterations) {
+  plumb_world_set_iterations(w, iterations);
+}
+PLUMB_EXPORT("world_set_direct_islands") void js_set_direct_islands(plumb_world* w, int on) {
+  plumb_world_set_direct_islands(w, on != 0);
+}
+PLUMB_EXPORT("world_set_quarantine") void js_set_quarantine(plumb_world* w, int on) {
+  plumb_world_set_quarantine(w, on != 0);
+}
+/// Writes the settings in the order in which `world_create` reads them.
+PLUMB_EXPORT("world_definition") double* js_definition(plumb_world* w) {
+  const plumb_world_definition d = plumb_world_get_definition(w);
+  Writer out;
+  out.add(d.precision).add(d.gravity).add(d.combine_friction).add(d.combine_restitution);
+  out.add(d.sleeping).add(d.continuous).add(d.solver).add(d.integrator).add(d.iterations);
+  out.add(d.direct_islands).add(d.quarantine);
+  return out.add(d.thresholds.hit).add(d.thresholds.bounce).add(d.thresholds.sleep).done();
+}
+PLUMB_EXPORT("world_step_count") double js_step_count(plumb_world* w) {
+  return static_cast<double>(plumb_world_step_count(w));
+}
+PLUMB_EXPORT("world_moved") double* js_moved(plumb_world* w) {
+  return Writer()
+      .ids(all_of<plumb_body>([&](auto* to, std::size_t n) { return plumb_world_moved(w, to, n); }))
+      .done();
+}
+/// Writes body, address of the field's name, value and step of each fault.
+PLUMB_EXPORT("world_quarantined") double* js_quarantined(plumb_world* w) {
+  Writer out;
+  for (const plumb_quarantine_event& e : all_of<plumb_quarantine_event>(
+           [&](auto*to, std::size_t n) { return plumb_world_quarantined(w, to, n); })) {
+    out.id(e.body).add(static_cast<double>(reinterpret_cast<std::uintptr_t>(e.field)));
+    out.add(e.value).add(static_cast<double>(e.step));
+  }
+  return out.done();
+}
 PLUMB_EXPORT("world_set_thresholds") void js_set_thresholds(plumb_world* w) {
   Reader r;
   plumb_world_set_thresholds(w, thresholds(r));
@@ -121,6 +157,15 @@ PLUMB_EXPORT("body_count") std::size_t js_body_count(plumb_world* w) {
   return plumb_world_bodies(w, nullptr, 0);
 }
 
+PLUMB_EXPORT("body_contacts")
+double* js_body_contacts(plumb_world* w, std::uint32_t index, std::uint32_t generation) {
+  const plumb_body body{index, generation};
+  Writer writer;
+  for (const plumb_contact& contact :
+       all_of<plumb_contact>([&](auto*to, std::size_t n) { return plumb_body_contacts(w, body, to, n); }))
+    write(writer, contact);
+  return writer.done();
+}
 PLUMB_EXPORT("world_contacts") double* js_contacts(plumb_world* w) {
   std::vector<plumb_contact> all(plumb_world_contacts(w, nullptr, 0));
   plumb_world_contacts(w, all.data(), all.size());

@@ -1,6 +1,5 @@
 #include "engine/core/text.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -29,16 +28,6 @@ void append_escaped(std::string& out, unsigned byte) {
 }
 
 }  // namespace
-
-std::string shortest(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
-  // Most JSON readers take "-0" for an integer, and integers have no negative zero.
-  if (value == 0 && std::signbit(value)) return "-0.0";
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
 
 std::size_t decimal_length(std::string_view text) {
   const auto digits_from = [&](std::size_t at) {

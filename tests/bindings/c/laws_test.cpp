@@ -216,7 +216,8 @@ TEST_F(C, LawsRefuseWhatTheyCannotUse) {
   EXPECT_EQ(plumb_world_full_hash(world), before);
 }
 
-constexpr const char* kScene = R"({"name": "hung", "gravity": [0, -4], "contact_rules": {"friction": "minimum"},
+constexpr const char* kScene =
+    R"({"name": "hung", "gravity": [0, -4], "contact_rules": {"friction": "minimum"},
   "bodies": [{"name": "ball", "position": [0, 10], "mass": 1, "velocity": [2, 0],
     "shapes": [{"type": "circle", "radius": 0.5}]}],
   "joints": [{"name": "rope", "type": "distance", "body_a": "world", "body_b": "ball", "anchor_a": [0, 12], "length": 2}],

@@ -7,7 +7,7 @@ import {pathToFileURL} from "node:url";
 import {gzipSync} from "node:zlib";
 
 const folder = path.resolve(process.argv[2]);
-const {World, Body, Shape, Joint, Chain, PlumbError} = await import(pathToFileURL(path.join(folder, "plumb.mjs")));
+const {World, Body, Shape, Joint, Chain, Rollback, PlumbError} = await import(pathToFileURL(path.join(folder, "plumb.mjs")));
 const kG = 9.81;
 
 function withGround() {
@@ -211,7 +211,7 @@ test("the package is small, and its types name what it exports", () => {
   console.log(`the package is ${Math.round(size / 1000)} kB compressed, ${Math.round(statSync(path.join(folder, "plumb.wasm.mjs")).size / 1000)} kB as a file`);
   assert.ok(size < 700e3, `${size} bytes`);
   const types = readFileSync(path.join(folder, "plumb.d.ts"), "utf8");
-  for (const [name, Type] of Object.entries({World, Body, Shape, Chain, Joint})) {
+  for (const [name, Type] of Object.entries({World, Body, Shape, Chain, Joint, Rollback})) {
     const block = types.match(new RegExp(`class ${name}(?: extends \\w+)? \\{([^]*?)\\n\\}`))[1];
     const declared = new Set([...block.matchAll(/^ {2}(?:readonly |[gs]et )?(\w+)[(:?]/gm)].map((match) => match[1]));
     declared.delete("constructor");
@@ -255,4 +255,191 @@ test("games set their own rules", () => {
   world.thresholds = {sleep: 2};
   world.step();
   assert.deepEqual(world.events.loaded, []);
+});
+
+test("what was set reads back", () => {
+  const given = {precision: "double", gravity: {x: 1, y: 2}, combineFriction: "product", combineRestitution: "average",
+    sleeping: false, continuous: false, solver: "xpbd", integrator: "explicit_euler", iterations: 7, directIslands: false,
+    quarantine: false, thresholds: {hit: 1, bounce: 2, sleep: 3}};
+  const world = new World(given);
+  assert.deepEqual(world.definition, given);
+  world.sleeping = world.continuous = world.directIslands = world.quarantine = true;
+  world.solver = "direct", world.iterations = 9;
+  assert.deepEqual([world.sleeping, world.continuous, world.directIslands, world.quarantine, world.solver, world.iterations],
+    [true, true, true, true, "direct", 9]);
+
+  const filter = {category: 1n << 63n, mask: 6n, group: -2};
+  const body = world.createBody({maySleep: false, lockY: true, angularVelocity: 2,
+    shapes: [{capsule: {start: {x: 0, y: 0}, end: {x: 2, y: 0}, radius: 0.5}, position: {x: 1, y: 0}, filter, preSolve: true}]});
+  assert.equal(body.maySleep, false);
+  assert.deepEqual(body.locks, {x: false, y: true, rotation: false});
+  near(body.velocityAt({x: body.centre.x, y: 1}).x - body.velocity.x, -2 * (1 - body.centre.y), 1e-12);
+  body.locks = {rotation: true};
+  body.maySleep = true;
+  assert.deepEqual([body.locks, body.maySleep], [{x: false, y: false, rotation: true}, true]);
+  const [shape] = body.shapes;
+  assert.deepEqual(shape.filter, filter);
+  assert.deepEqual([shape.hitEvents, shape.preSolve, shape.chain], [false, true, null]);
+  const {capsule, density, filter: same} = shape.definition;
+  assert.deepEqual([capsule, density, same], [{start: {x: 1, y: 0}, end: {x: 3, y: 0}, radius: 0.5}, 1, filter]);
+  assert.equal(body.createShape(shape.definition).definition.capsule.end.x, 3);
+  assert.equal(body.worldPoint({x: 1, y: 2}).y, 2);
+  assert.equal(body.localPoint({x: 1, y: 2}).x, 1);
+
+  const ground = world.createBody({type: "static"});
+  const chain = ground.createChain({points: [{x: 5, y: 0}, {x: 0, y: 0}, {x: -5, y: 0}], hitEvents: true, userData: 4});
+  assert.ok(chain.valid && chain.body.equals(ground));
+  assert.equal(chain.segments.length, 2);
+  assert.ok(chain.segments[0].chain.equals(chain) && chain.segments[0].hitEvents && chain.segments[0].userData === 4n);
+
+  const definition = {anchorA: {x: 1, y: 2}, limits: {lower: -1, upper: 2}, motor: {speed: 3, maxForce: 4}, reportForce: 5};
+  const joint = world.createJoint(ground, body, "revolute", {...definition, userData: 6});
+  assert.equal(joint.kind, "revolute");
+  assert.ok(joint.bodies[0].equals(ground) && joint.bodies[1].equals(body) && body.joints[0].equals(joint));
+  for (const [field, value] of Object.entries(definition)) assert.deepEqual(joint.definition[field], value, field);
+  assert.deepEqual([joint.definition.spring, joint.userData], [undefined, 6n]);
+  joint.change(joint.kind, joint.definition);  // what is read can be given back
+  joint.userData = 7n;
+  assert.equal(joint.userData, 7n);
+  world.step();
+  assert.equal(world.stepCount, 1);
+  assert.ok(world.moved.some((each) => each.equals(body)));
+});
+
+test("queries ask a condition, and list all they find", () => {
+  const {world} = withGround();
+  const boxes = [1, 3, 5].map((y) => world.createBody({position: {x: 0, y}, shapes: [{box: {width: 1, height: 1}}]}));
+  const down = [{x: 0, y: 10}, {x: 0, y: -20}];
+  assert.deepEqual(world.rayCastAll(...down).map((hit) => hit.body.position.y), [5, 3, 1, -1]);
+  const condition = (shape) => !shape.body.equals(boxes[2]);
+  assert.ok(world.rayCast(...down, {condition}).body.equals(boxes[1]));
+  assert.equal(world.overlapBox({lower: {x: -1, y: 0.2}, upper: {x: 1, y: 4}}).length, 2);
+  assert.equal(world.overlapBox({lower: {x: -1, y: 0.2}, upper: {x: 1, y: 6}}, {condition}).length, 2);
+  near(world.distance(boxes[0].shapes[0], boxes[1].shapes[0]).distance, 1, 1e-6);
+  assert.throws(() => world.rayCast(...down, {condition() { throw new RangeError("mine"); }}), /mine/);
+  world.step();  // the query has ended: the world may be changed
+  world.step(1 / 60, 4, 60);
+  assert.equal(boxes[0].contacts.length, 2);
+});
+
+test("force laws act as their formulas say", () => {
+  const world = new World({precision: "double", gravity: {x: 0, y: 0}});
+  const ball = () => world.createBody({velocity: {x: 2, y: 0}, mass: {mass: 2, inertia: 1}});
+  const run = (count, law) => {
+    for (let i = 0; i < count; ++i) {
+      law();
+      world.step();
+    }
+  };
+  let one = ball();
+  run(60, () => world.applyLinearDrag({linear: 3}, 1 / 60));
+  near(one.velocity.x, 2 * Math.exp(-1.5), 1e-12);
+  one.destroy(), one = ball();
+  run(60, () => world.applyQuadraticDrag(0.5, 1 / 60));  // v = v0 / (1 + c v0 t / m)
+  near(one.velocity.x, 2 / 1.5, 1e-4);
+  one.destroy(), one = ball();
+  run(60, () => world.applyLaw(({mass, velocity}) => ({force: {x: 0, y: mass * velocity.x}})));
+  near(one.velocity.y, 2, 1e-12);
+  one.destroy(), one = ball();
+  run(60, () => world.applyAttraction({x: 0, y: 0}, {strength: Math.PI ** 2, falloff: "linear"}, 1 / 60));
+  near(one.velocity.x, -2, 1e-2);  // half a period of sqrt(strength)
+  one.destroy(), one = ball();
+  const sun = world.createBody({position: {x: 0, y: 4}, mass: {mass: 2, inertia: 1}});
+  run(60, () => world.applyAttraction(sun, {strength: 5}, 1 / 60));
+  near(one.velocity.x + sun.velocity.x, 2, 1e-12);
+  assert.ok(one.velocity.y > 0 && sun.velocity.y < 0);
+  run(1, () => world.applySpring(one, {x: 0, y: 0}, sun, {x: 0, y: 0}, {stiffness: 1, restLength: 99}, 1 / 60));
+  near(one.velocity.y + sun.velocity.y, 0, 1e-12);
+
+  const {world: pool} = withGround();
+  const raft = pool.createBody({position: {x: 0, y: 3}, shapes: [{box: {width: 1, height: 1}}]});
+  for (let i = 0; i < 900; ++i) {
+    pool.applyWater({level: 3, density: 2, linearDrag: 5, angularDrag: 5}, 1 / 60, {wakes: true});
+    pool.step();
+  }
+  near(raft.position.y, 3, 1e-3);  // half of it is under water
+  pool.explode({centre: {x: 0, y: 1}, radius: 9, impulse: 10, cover: {ignore: raft}});
+  assert.ok(raft.velocity.y > 1);
+  pool.applyWind({velocity: {x: 9, y: 0}}, 1 / 60);
+  pool.step();
+  assert.ok(raft.velocity.x > 0);
+});
+
+test("a law that fails leaves the world as it was; one that is not finite is quarantined", () => {
+  const {world} = withGround();
+  const ball = world.createBody({position: {x: 0, y: 5}, shapes: [{circle: {radius: 0.5}}]});
+  world.step();
+  const before = world.hash();
+  assert.throws(() => world.applyLaw(() => { throw new RangeError("mine"); }), /mine/);
+  assert.throws(() => world.applyLaw(() => ({forc: {x: 0, y: 0}})), {field: "forc"});
+  assert.throws(() => world.applyWind({density: -1}, 1 / 60), {kind: "InvalidValue", value: "-1"});
+  assert.throws(() => world.applyWater({depth: 1}, 1 / 60), {field: "depth"});
+  assert.throws(() => world.applyAttraction({x: 0, y: 0}, {falloff: "cubic"}, 1 / 60), {field: "falloff"});
+  assert.throws(() => world.explode({radius: 0}), {field: "radius"});
+  assert.equal(world.hash(), before);
+  world.applyLaw(() => ({torque: NaN}));
+  assert.deepEqual(world.quarantined.map(({body, field, step}) => [body.equals(ball), field, step]), [[true, "torque", 2]]);
+  ball.release();
+  assert.deepEqual(world.quarantined, []);
+});
+
+test("a world goes back in memory and takes a late input", () => {
+  const {world} = withGround();
+  const player = world.createBody({position: {x: 0, y: 3}, shapes: [{box: {width: 1, height: 1}}]});
+  const rollback = new Rollback(world, 8);
+  assert.deepEqual([rollback.oldest, rollback.latest, rollback.size], [-1, -1, 0]);
+  for (let i = 0; i < 20; ++i) {
+    rollback.save();
+    world.step();
+  }
+  assert.deepEqual([rollback.oldest, rollback.latest, rollback.size], [12, 19, 8]);
+  const end = world.fullHash();
+  assert.throws(() => rollback.backTo(3), {kind: "InvalidValue", value: "3"});
+  assert.ok(rollback.holds(14) && !rollback.holds(3));
+  rollback.backTo(14);
+  world.step(1 / 60, 4, 6);
+  assert.equal(world.fullHash(), end);
+  rollback.backTo(14);
+  player.applyImpulse({x: 2, y: 0});
+  world.step(1 / 60, 4, 6);
+  near(player.position.x, 0.2, 1e-6);
+  assert.throws(() => new Rollback(world, 0), {field: "frames"});
+  rollback.destroy();
+  assert.throws(() => rollback.save(), {kind: "UnknownName"});
+});
+
+test("a world draws itself", () => {
+  const {world, ground} = withGround();
+  const crate = world.createBody({name: "caf\u00e9", position: {x: 0, y: 0.5}, shapes: [{box: {width: 1, height: 1}}]});
+  const lamp = world.createBody({position: {x: 3, y: 4}, shapes: [{circle: {radius: 0.5}},
+    {capsule: {start: {x: 0, y: 0}, end: {x: 1, y: 0}, radius: 0.25}}]});
+  world.createJoint(ground, lamp, "distance", {anchorA: {x: 3, y: 8}, length: 3});
+  world.step();
+  const seen = [], keep = (what) => (...parts) => seen.push([what, ...parts]);
+  const to = Object.fromEntries(["polygon", "circle", "capsule", "segment", "point", "text"].map((what) => [what, keep(what)]));
+  world.draw(to);
+  const kinds = () => seen.map(([what, ...parts]) => `${what} ${parts.at(-1)}`);
+  assert.deepEqual(kinds().slice(0, 4), ["polygon static", "polygon awake", "capsule awake", "circle awake"]);
+  assert.ok(kinds().includes("segment joint"));
+  const corners = seen[0][1];
+  assert.deepEqual(corners.map(({x, y}) => [x, y]).sort(), [[-20, -2], [-20, 0], [20, -2], [20, 0]]);
+  near(seen[3][1].y, lamp.position.y, 1e-6);
+  seen.length = 0;
+  world.draw(to, {shapes: false, joints: false, names: true, contacts: true, centres: true});
+  assert.ok(seen.some(([what, , name]) => what === "text" && name === "caf\u00e9"));
+  assert.equal(seen.filter(([what, , role]) => what === "point" && role === "contact").length, 2);
+  seen.length = 0;
+  world.draw(to, {bounds: {lower: {x: 2, y: 2}, upper: {x: 9, y: 9}}, joints: false});
+  assert.deepEqual(kinds(), ["capsule awake", "circle awake"]);
+  seen.length = 0;
+  world.draw({circle: to.circle});
+  assert.deepEqual(kinds(), ["circle awake"]);
+  assert.throws(() => world.draw(to, {colour: 1}), {field: "colour"});
+  assert.ok(crate.valid);
+});
+
+test("numbers in messages are JavaScript's", () => {
+  const world = new World();
+  for (const [value, text] of [[-1e21, "-1e+21"], [-0.1, "-0.1"], [NaN, "nan"], [-Infinity, "-inf"]])
+    assert.throws(() => world.createBody({shapes: [{circle: {radius: value}}]}), {value: text});
 });
