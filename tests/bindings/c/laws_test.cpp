@@ -98,15 +98,24 @@ const Law kLaws[] = {
      [](plumb::World& w, plumb::BodyId a, plumb::BodyId b) {
        plumb::apply_spring(w, a, {0.5, 0}, b, {-0.5, 0}, {.damping = 2, .pulls_only = true}, kDt);
      }},
-    {"explosion",
+    {"explosion behind cover",
+     [](plumb_world* w, plumb_body, plumb_body) {
+       plumb_blast blast = plumb_default_blast();
+       blast.centre = {-2, 4.2}, blast.radius = 6, blast.impulse = 0.4, blast.occlusion = true;
+       return plumb_world_explode(w, &blast);
+     },
+     [](plumb::World& w, plumb::BodyId, plumb::BodyId) {
+       plumb::explode(w, {.centre = {-2, 4.2}, .radius = 6, .impulse = 0.4}, {.occlusion = true});
+     }},
+    {"explosion that ignores a body as cover",
      [](plumb_world* w, plumb_body a, plumb_body) {
        plumb_blast blast = plumb_default_blast();
-       blast.centre = {1, 2}, blast.radius = 6, blast.impulse = 0.4, blast.occlusion = true;
+       blast.centre = {-2, 4.2}, blast.radius = 6, blast.impulse = 0.4, blast.occlusion = true;
        blast.cover.ignore = a;
        return plumb_world_explode(w, &blast);
      },
      [](plumb::World& w, plumb::BodyId a, plumb::BodyId) {
-       plumb::explode(w, {.centre = {1, 2}, .radius = 6, .impulse = 0.4},
+       plumb::explode(w, {.centre = {-2, 4.2}, .radius = 6, .impulse = 0.4},
                       {.occlusion = true, .cover = {.ignore = a}});
      }},
 };
