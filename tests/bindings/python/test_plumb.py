@@ -410,6 +410,96 @@ def test_threads_share_a_step_with_the_same_bits():
         world.threads = 0
 
 
+def test_force_laws_act_as_their_formulas_say():
+    def end(law, count=60, gravity=(0, 0), **given):
+        world = plumb.World(precision="double", gravity=gravity)
+        body = world.create_body(mass=(2, 1, (0, 0)), velocity=(2, 0), **given)
+        for _ in range(count):
+            law(world, body)
+            world.step()
+        return body
+
+    assert end(lambda w, b: w.apply_linear_drag(3)).velocity[0] == pytest.approx(2 * math.exp(-1.5), rel=1e-12)
+    # v = v0 / (1 + c v0 t / m); the law is of second order in the step.
+    assert end(lambda w, b: w.apply_quadratic_drag(0.5)).velocity[0] == pytest.approx(2 / 1.5, rel=1e-4)
+    lifted = end(lambda w, b: w.apply_law(lambda body: (0, G * body.mass, 0.5)), gravity=(0, -G))
+    assert lifted.velocity == pytest.approx((2, 0), abs=1e-12)
+    assert lifted.angular_velocity == pytest.approx(0.5, rel=1e-12)
+    rows = end(lambda w, b: w.apply_wrenches([[4, 0, 1]]))
+    assert (rows.velocity[0], rows.angular_velocity) == pytest.approx((4, 1), rel=1e-12)
+    # Half a period of sqrt(strength).
+    swung = end(lambda w, b: w.apply_attraction((0, 0), math.pi**2, falloff="linear"))
+    assert swung.velocity[0] == pytest.approx(-2, rel=5e-3)
+    assert end(lambda w, b: w.apply_wind((9, 0)), shapes=plumb.Box(1, 1)).velocity[0] > 2
+
+    world = plumb.World(gravity=(0, 0))
+    a, b = (world.create_body(plumb.Circle(0.5), position=(x, 0)) for x in (0, 5))
+    world.apply_spring(a, (0, 0), b, (0, 0), stiffness=1, rest_length=1)
+    world.apply_attraction(a, 10)
+    world.step()
+    assert a.velocity[0] > 0 and a.velocity[0] + b.velocity[0] == pytest.approx(0, abs=1e-6)
+    world.explode((2.5, 0), impulse=1)
+    assert a.velocity[0] < 0 < b.velocity[0]
+
+
+def test_a_raft_floats_with_half_of_it_under_water():
+    world = plumb.World()
+    ground(world)
+    raft = world.create_body(plumb.Box(1, 1), position=(0, 3))
+    for _ in range(900):
+        world.apply_water(3, density=2, linear_drag=5, angular_drag=5, wakes=True)
+        world.step()
+    assert raft.position[1] == pytest.approx(3, abs=1e-3)
+
+
+def test_a_law_that_fails_leaves_the_world_as_it_was():
+    world, other = plumb.World(), plumb.World()
+    body = world.create_body(plumb.Circle(0.5))
+    before = world.full_hash()
+    with pytest.raises(ZeroDivisionError):
+        world.apply_law(lambda body: (1 / 0, 0, 0))
+    with pytest.raises(plumb.InvalidValue, match="shape"):
+        world.apply_wrenches(np.zeros((2, 3)))
+    with pytest.raises(plumb.InvalidValue, match="-1"):
+        world.apply_linear_drag(-1)
+    with pytest.raises(plumb.UnknownName, match="inverse_square"):
+        world.apply_attraction((0, 0), 1, falloff="cubic")
+    with pytest.raises(plumb.InvalidValue, match="another world"):
+        world.apply_attraction(other.create_body(plumb.Circle(0.5)), 1)
+    assert world.full_hash() == before
+    world.apply_law(lambda body: (math.nan, 0, 0))
+    assert body.quarantined
+
+
+def test_a_world_goes_back_in_memory_and_takes_a_late_input():
+    world = plumb.World()
+    ground(world)
+    player = world.create_body(plumb.Box(1, 1), position=(0, 3))
+    rollback = plumb.Rollback(world, 8)
+    assert (rollback.oldest, len(rollback)) == (-1, 0)
+    for _ in range(20):
+        rollback.save()
+        world.step()
+    assert (rollback.oldest, rollback.latest, len(rollback)) == (12, 19, 8)
+    end, centres = world.full_hash(), world.centres
+    rollback.back_to(14)
+    world.step(count=6)
+    assert world.full_hash() == end
+    assert np.all(centres == world.centres)  # an old view stays valid memory
+    rollback.back_to(14)
+    player.apply_impulse((2, 0))
+    world.step(count=6)
+    assert player.position[0] == pytest.approx(0.2, rel=1e-5)
+    assert not rollback.holds(3)
+    with pytest.raises(plumb.InvalidValue, match="3"):
+        rollback.back_to(3)
+    with pytest.raises(plumb.InvalidValue, match="frames"):
+        plumb.Rollback(world, 0)
+    del world, player
+    gc.collect()
+    rollback.back_to(rollback.latest)  # it keeps its world
+
+
 def test_the_stub_names_what_the_module_has():
     package = pathlib.Path(inspect.getfile(plumb)).parent
     stub = ast.parse((package / "__init__.pyi").read_text())
