@@ -105,10 +105,10 @@ Reduced reduce_by_bits(double angle) {
     const TwoDoubles sum = exact_sum(fraction.value, product[i] * weight);
     fraction = exact_sum(sum.value, sum.tail + fraction.tail);
   }
-  constexpr TwoDoubles kHalfPi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-  const TwoDoubles main = exact_product(fraction.value, kHalfPi.value);
-  const TwoDoubles rest =
-      exact_sum(main.value, main.tail + (fraction.value * kHalfPi.tail + fraction.tail * kHalfPi.value));
+  constexpr TwoDoubles kQuarterTurn = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+  const TwoDoubles main = exact_product(fraction.value, kQuarterTurn.value);
+  const TwoDoubles rest = exact_sum(
+      main.value, main.tail + (fraction.value * kQuarterTurn.tail + fraction.tail * kQuarterTurn.value));
   const double sign = above_half ? -1 : 1;
   if (angle < 0) return {{-sign * rest.value, -sign * rest.tail}, (0u - quadrant) & 3u};
   return {{sign * rest.value, sign * rest.tail}, quadrant};
