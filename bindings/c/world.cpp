@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "bindings/c/handle.h"
+#include "engine/world/state/bodies.h"
 #include "engine/world/state_hash.h"
 #include "engine/world/world_data.h"
 
@@ -167,7 +168,8 @@ size_t plumb_world_bodies(const plumb_world* world, plumb_body* out_bodies, size
 }
 size_t plumb_world_poses(const plumb_world* world, plumb_pose* out_poses, size_t capacity) {
   return fill_bodies(world, out_poses, capacity, [](const auto& w, plumb::BodyId body) {
-    return plumb_pose{out(w.position(body)), w.angle(body)};
+    const int index = static_cast<int>(body.index);  // it is valid: no handle needs to be looked up
+    return plumb_pose{out(plumb::origin_of(w.data(), index)), w.data().bodies[index].angle};
   });
 }
 size_t plumb_world_velocities(const plumb_world* world, plumb_velocity* out_velocities, size_t capacity) {
