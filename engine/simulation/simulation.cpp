@@ -44,7 +44,7 @@ struct SnapshotHeader {
 
 }  // namespace
 
-Simulation::Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, std::uint64_t identity)
+Simulation::Simulation(OwnedPointer<Driver> driver, std::size_t body_count, std::uint64_t identity)
     : driver_(std::move(driver)), body_count_(body_count), identity_(identity) {}
 
 void Simulation::step(int count) {
