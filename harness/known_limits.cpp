@@ -26,19 +26,16 @@ constexpr std::string_view kOnset =
     "Friction is limited by the normal impulse found so far. In the first steps that impulse is still too "
     "small, and a block that friction should hold slides by 2 to 20 mm.";
 constexpr std::string_view kSettling =
-    "A step solves normal forces before friction. Where a body is first placed, friction then turns "
-    "it until later substeps have shared out the load: a block within 1 % of its tipping point starts "
-    "to rock at 0.03 rad/s, a spin that falls with the substep, and a sliding ladder misses its bound "
-    "by up to a sixth.";
-constexpr std::string_view kTurning =
-    "The world finds contacts once a step, and their normals stand still over its substeps. Where a "
-    "disc goes round a cylinder, the force points to where it was up to a step ago: the miss falls "
-    "with the step (20, 12, 6, 3 mm at 1/60, 1/120, 1/240, 1/480 s), not with the substep, from which "
-    "the bound is derived.";
-constexpr std::string_view kSoft =
-    "Joints of the world are damped springs, solved by one iteration per substep. Under a suddenly applied "
-    "weight a chain of 7 to 10 links sags by 3 to 9 mm, a spinning weld turns by 0.001 rad, and a limit "
-    "needs some substeps to stop a body.";
+    "A step solves normal forces before friction, unless friction grows at once. A sliding ladder misses its "
+    "bound by up to a tenth at 1/30 s.";
+constexpr std::string_view kStale =
+    "The world keeps the points of a contact until its bodies have moved by 0.2 % of their size against each "
+    "other. Lever arms lag by up to 2 mrad meanwhile: 3 mm after 1 s for a block that tips by itself. The "
+    "bound falls with the step, and this does not.";
+constexpr std::string_view kFewDigits =
+    "At long steps the world in float solves a mechanism with a heavy tip to fewer digits than the bound, "
+    "which "
+    "follows from the order of its method, presumes.";
 constexpr std::string_view kCrowded =
     "Many of the last of the 314 impacts fall into one step. An engine that resolves one impact per pair "
     "and step leaves the others to later steps.";
@@ -113,8 +110,6 @@ constexpr KnownLimit kLimits[] = {
     {"bullet|bullet-double", "table_edge/lies", "position_error|angle_error|velocity_error", kBrink},
     {"box2d", "double_pendulum/light_tip|pendulum/170", "velocity_error", kGrowth},
     {"box2d|bullet|bullet-double", "billiard_table", "position_error|velocity_error", kGrowth},
-    {"plumb|plumb-float", "cylinder/slides", "velocity_error", kTurning},
-    {"plumb|plumb-float", "cylinder/rolls", "velocity_error|angular_velocity_error", kTurning},
     {"box2d", "bead_on_arm", "velocity_error|angular_velocity_error", kSweeps},
     {"box2d", "small_modes[10]", "position_error|velocity_error", kSweeps},
     {"box2d", "vertical_stack[10]", "position_error|velocity_error|energy_drift", kSweeps},
@@ -134,12 +129,6 @@ constexpr KnownLimit kLimits[] = {
     {"bullet-double", "ramp_block/holds", "position_error", kOnset},
     {"bullet|bullet-double", "pushed_block/holds", "position_error|velocity_error", kOnset},
     {"bullet|bullet-double", "ramp_block/barely_holds", "position_error", kOnset},
-    {"plumb|plumb-float", "toppling_block/stands", "position_error|angle_error|velocity_error", kSettling},
-    {"plumb|plumb-float", "toppling_block/topples",
-     "position_error|angle_error|velocity_error|angular_velocity_error", kSettling},
-    {"plumb", "welded_pair", "angle_error", kSoft},
-    {"plumb|plumb-float", "hanging_chain[7]", "position_error|velocity_error", kSoft},
-    {"plumb|plumb-float", "small_modes[10]", "position_error|velocity_error|energy_drift", kSoft},
     {"bullet-double", "pi_billiard/314", "velocity_error", kCrowded},
     // The same at other steps.
     {"box2d", "overhang[1]|table_edge/lies|toppling_block/stands|toppling_block/topples",
@@ -155,9 +144,8 @@ constexpr KnownLimit kLimits[] = {
     {"bullet", "high_mass_ratio/1000|high_mass_ratio/1e6", "angular_velocity_error", kHeavy, true},
     {"bullet-double", "high_mass_ratio/1000|high_mass_ratio/1e6", "angular_velocity_error", kHeavy, true},
     {"bullet", "ramp_block/holds", "position_error", kOnset, true},
-    {"plumb", "large_pyramid[3]|toppling_block/stands", "position_error|angular_velocity_error", kSettling,
+    {"plumb|plumb-float", "toppling_block/topples", "position_error|angle_error|velocity_error", kStale,
      true},
-    {"plumb-float", "toppling_block/stands", "position_error|angular_velocity_error", kSettling, true},
     {"plumb|plumb-float", "ladder", "velocity_error", kSettling, true},
     {"box2d",
      "block_on_cart|circle_stack[2]|circle_stack[5]|disc_in_groove|high_mass_ratio/"
@@ -166,10 +154,7 @@ constexpr KnownLimit kLimits[] = {
      "slips|slide_to_roll/slide|slide_to_roll/spin|slide_to_roll/backspin|vertical_stack[3]|wedge",
      "angle_error|penetration|energy_drift|velocity_error|position_error|angular_velocity_error", kSkin,
      true},
-    {"plumb", "hanging_chain[2]|hinge_limit", "angle_error|velocity_error|angular_velocity_error", kSoft,
-     true},
-    {"plumb-float", "hinge_limit|double_pendulum/heavy_tip|welded_pair",
-     "velocity_error|angular_velocity_error|angle_error", kSoft, true},
+    {"plumb-float", "double_pendulum/heavy_tip", "angular_velocity_error|angle_error", kFewDigits, true},
     {"box2d", "vertical_stack[10]", "angle_error|penetration", kSweeps, true},
     {"bullet", "large_pyramid[3]|circle_stack[5]|large_pyramid[2]",
      "velocity_error|energy_drift|position_error", kSweeps, true},

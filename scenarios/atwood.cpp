@@ -2,7 +2,7 @@
 #include "scenarios/truth/motion.h"
 
 // Atwood's machine: two masses on a rope over two pulleys, a = (m1 - m2) g/(m1 + m2). Source: Atwood 1784.
-namespace plumb::scenarios {
+namespace plumb::scenarios::atwood {
 namespace {
 using namespace truth;
 
@@ -30,4 +30,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "atwood", .summary = "two masses on a rope over pulleys", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::atwood

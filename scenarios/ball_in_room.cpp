@@ -3,7 +3,7 @@
 
 // An elastic ball between four walls: the first scene for a newly written engine. Source: parabolas,
 // reflected at the walls.
-namespace plumb::scenarios {
+namespace plumb::scenarios::ball_in_room {
 namespace {
 using namespace truth;
 
@@ -29,4 +29,4 @@ const Register r{{.name = "ball_in_room",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::ball_in_room

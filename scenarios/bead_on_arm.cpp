@@ -2,7 +2,7 @@
 #include "scenarios/truth/phases.h"
 
 // A bead slides on a rotating arm: r'' = w^2 r, and w (I + m r^2) is conserved. Source: Lagrange.
-namespace plumb::scenarios {
+namespace plumb::scenarios::bead_on_arm {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "bead_on_arm", .summary = "a bead slides out on a rotating arm", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::bead_on_arm

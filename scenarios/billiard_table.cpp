@@ -2,7 +2,7 @@
 #include "scenarios/truth/parts.h"
 
 // Three discs in a square of walls, elastic. Source: reflection; conservation of momentum and energy.
-namespace plumb::scenarios {
+namespace plumb::scenarios::billiard_table {
 namespace {
 using namespace truth;
 
@@ -29,4 +29,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "billiard_table", .summary = "three discs in a square of walls", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::billiard_table

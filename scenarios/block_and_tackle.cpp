@@ -2,7 +2,7 @@
 
 // A pulley rope runs twice to one of its masses: with s the displacement of the other, (m1 + m2/4) s'' = (m1
 // - m2/2) g. Source: d'Alembert; virtual work.
-namespace plumb::scenarios {
+namespace plumb::scenarios::block_and_tackle {
 namespace {
 using namespace truth;
 
@@ -32,4 +32,4 @@ const Register r{
     {.name = "block_and_tackle", .summary = "a rope that runs twice to one of two masses", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::block_and_tackle

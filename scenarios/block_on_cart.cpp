@@ -4,7 +4,7 @@
 
 // A block slides on a cart, which rolls without resistance, until both have one speed, m v0/(m + M); the
 // slip decays at mu g (1 + m/M). Source: Coulomb, Newton.
-namespace plumb::scenarios {
+namespace plumb::scenarios::block_on_cart {
 namespace {
 using namespace truth;
 
@@ -34,4 +34,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "block_on_cart", .summary = "a block slides on a free cart", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::block_on_cart

@@ -4,7 +4,7 @@
 // A ball dropped from h bounces with restitution e. It comes to rest after T = sqrt(2 h/g) (1 + e)/(1 - e)
 // and infinitely many bounces; with e = 1 it never does. Source: geometric series; e.g. Falcon et al., Eur.
 // Phys. J. B 3 (1998).
-namespace plumb::scenarios {
+namespace plumb::scenarios::bounce {
 namespace {
 using namespace truth;
 
@@ -33,4 +33,4 @@ const Register r{{.name = "bounce",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::bounce

@@ -3,7 +3,7 @@
 
 // Balls bounce down a smooth slope: the velocity along the slope grows as in free fall, the velocity across
 // it bounces. Source: Galileo; Newton's restitution.
-namespace plumb::scenarios {
+namespace plumb::scenarios::bounce_on_slope {
 namespace {
 using namespace truth;
 
@@ -24,4 +24,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "bounce_on_slope", .summary = "balls bounce down a slope", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::bounce_on_slope

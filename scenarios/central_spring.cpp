@@ -2,7 +2,7 @@
 
 // A force towards the origin, proportional to the distance: an ellipse about the origin, x = a cos w t, y =
 // (v/w) sin w t. Source: Newton, Principia, I, 10.
-namespace plumb::scenarios {
+namespace plumb::scenarios::central_spring {
 namespace {
 using namespace truth;
 
@@ -28,4 +28,4 @@ const Register r{{.name = "central_spring",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::central_spring

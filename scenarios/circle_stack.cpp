@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
 // Discs piled up exactly above each other: an equilibrium, though not a stable one. Source: statics.
-namespace plumb::scenarios {
+namespace plumb::scenarios::circle_stack {
 namespace {
 using namespace truth;
 
@@ -24,4 +24,4 @@ const Register r{{.name = "circle_stack",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::circle_stack

@@ -4,7 +4,7 @@
 
 // A block laid on a belt that moves at u: it gains mu g until it moves with the belt, at u/(mu g). Source:
 // Coulomb, in the frame of the belt.
-namespace plumb::scenarios {
+namespace plumb::scenarios::conveyor {
 namespace {
 using namespace truth;
 
@@ -31,4 +31,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "conveyor", .summary = "a block laid on a moving belt", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::conveyor

@@ -3,7 +3,7 @@
 
 // A disc that slides off a fixed cylinder leaves it at cos(a) = (2/3) cos(a0). A rolling disc first slips,
 // where m g sin(a)/3 = mu N, and then leaves it. Source: e.g. Kleppner and Kolenkow, 5.6; `cylinder_truth`.
-namespace plumb::scenarios {
+namespace plumb::scenarios::cylinder {
 namespace {
 using namespace truth;
 
@@ -22,4 +22,4 @@ const Register r{{.name = "cylinder",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::cylinder

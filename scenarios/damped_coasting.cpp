@@ -4,7 +4,7 @@
 
 // Velocities decay by a body's damping, v = v0 e^(-c t), and with gravity v = g/c + (v0 - g/c) e^(-c t).
 // Source: the linear first-order equation.
-namespace plumb::scenarios {
+namespace plumb::scenarios::damped_coasting {
 namespace {
 using namespace truth;
 
@@ -34,4 +34,4 @@ const Register r{{.name = "damped_coasting",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::damped_coasting

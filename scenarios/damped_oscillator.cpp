@@ -4,7 +4,7 @@
 #include "scenarios/truth/parts.h"
 
 // A mass on a damped spring, below, at and above critical damping. Source: Taylor, Classical Mechanics, 5.4.
-namespace plumb::scenarios {
+namespace plumb::scenarios::damped_oscillator {
 namespace {
 using namespace truth;
 
@@ -33,4 +33,4 @@ const Register r{{.name = "damped_oscillator",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::damped_oscillator

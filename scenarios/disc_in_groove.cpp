@@ -4,7 +4,7 @@
 #include "scenarios/truth/set_up.h"
 
 // A disc at rest between two smooth slopes, of 30 and 45 degrees. Source: statics.
-namespace plumb::scenarios {
+namespace plumb::scenarios::disc_in_groove {
 namespace {
 using namespace truth;
 
@@ -27,4 +27,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "disc_in_groove", .summary = "a disc at rest between two slopes", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::disc_in_groove

@@ -5,7 +5,7 @@
 
 // Two point masses on massless rods, one below the other, released from the horizontal; the tip is as heavy
 // as the other mass, heavier or lighter. Source: Lagrange; `BobChain`.
-namespace plumb::scenarios {
+namespace plumb::scenarios::double_pendulum {
 namespace {
 using namespace truth;
 
@@ -27,4 +27,4 @@ const Register r{{.name = "double_pendulum",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::double_pendulum

@@ -4,7 +4,7 @@
 
 // A mass on a spring, driven by F sin(W t) from rest: x = F/m/(w^2 - W^2) (sin W t - W/w sin w t), which
 // grows as F/(2 m w^2) (sin w t - w t cos w t) at resonance. Source: e.g. Taylor, Classical Mechanics, 5.5.
-namespace plumb::scenarios {
+namespace plumb::scenarios::driven_oscillator {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "driven_oscillator",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::driven_oscillator

@@ -6,7 +6,7 @@
 
 // Discs collide in free space. The velocities after an impact depend only on masses, restitution and the
 // normal at the moment of contact; head-on v1' = (m1 - m2)/(m1 + m2) v and v2' = 2 m1/(m1 + m2) v.
-namespace plumb::scenarios {
+namespace plumb::scenarios::elastic_collision {
 namespace {
 using namespace truth;
 
@@ -34,4 +34,4 @@ const Register r{{.name = "elastic_collision",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::elastic_collision

@@ -1,7 +1,7 @@
 #include "scenarios/truth/flight.h"
 
 // Free fall and throws: in a vacuum all masses fall alike, thrown or spinning (Galileo).
-namespace plumb::scenarios {
+namespace plumb::scenarios::free_fall {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "free_fall",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::free_fall

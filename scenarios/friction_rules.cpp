@@ -4,7 +4,7 @@
 
 // Blocks on a slope whose friction is combined from 0.2 and 0.6 by each rule: a = g (sin - mu cos). Source:
 // Coulomb.
-namespace plumb::scenarios {
+namespace plumb::scenarios::friction_rules {
 namespace {
 using namespace truth;
 
@@ -35,4 +35,4 @@ const Register r{{.name = "friction_rules",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::friction_rules

@@ -4,7 +4,7 @@
 // A light ball is dropped together with a heavier one close below it. The heavy one bounces first, and the
 // light one leaves at (3 m1 - m2)/(m1 + m2) times the speed, apart from the effect of the gap. With three
 // balls this happens twice. Source: Harter et al., Am. J. Phys. 39 (1971).
-namespace plumb::scenarios {
+namespace plumb::scenarios::galilean_cannon {
 namespace {
 using namespace truth;
 
@@ -26,4 +26,4 @@ const Register r{{.name = "galilean_cannon",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::galilean_cannon

@@ -2,7 +2,7 @@
 
 // Two wheels in gear, one of them driven: the torque accelerates the inertia I1 + r^2 I2, r the ratio of
 // their speeds. Source: d'Alembert; virtual work.
-namespace plumb::scenarios {
+namespace plumb::scenarios::geared_wheels {
 namespace {
 using namespace truth;
 
@@ -29,4 +29,4 @@ const Register r{
     {.name = "geared_wheels", .summary = "two wheels in gear, one of them driven", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::geared_wheels

@@ -2,7 +2,7 @@
 
 // Bodies with different fractions of gravity: a balloon rises, a weightless body moves in a straight line.
 // Source: Galileo.
-namespace plumb::scenarios {
+namespace plumb::scenarios::gravity_scales {
 namespace {
 using namespace truth;
 
@@ -29,4 +29,4 @@ const Register r{
     {.name = "gravity_scales", .summary = "bodies with negative, zero and double gravity", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::gravity_scales

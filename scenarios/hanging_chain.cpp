@@ -4,7 +4,7 @@
 
 // A chain of N equal uniform links hangs at rest between two points: tan(phi_k) = (W/H)(k - (N + 1)/2), W a
 // link's weight, H the tension sideways. Source: moments about the ends of each link.
-namespace plumb::scenarios {
+namespace plumb::scenarios::hanging_chain {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "hanging_chain",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::hanging_chain

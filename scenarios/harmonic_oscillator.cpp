@@ -5,7 +5,7 @@
 
 // A mass on a spring: x = x0 cos(w t), w^2 = k/m. Semi-implicit Euler oscillates at w' with sin(w' h/2) = w
 // h/2, and explicit Euler multiplies the energy by 1 + w^2 h^2 a step: the recurrence gives both.
-namespace plumb::scenarios {
+namespace plumb::scenarios::harmonic_oscillator {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "harmonic_oscillator", .summary = "a mass swings on a spring", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::harmonic_oscillator

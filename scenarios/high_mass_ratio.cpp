@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
 // A heavy box on a light one: it rests, whatever the ratio. Source: statics.
-namespace plumb::scenarios {
+namespace plumb::scenarios::high_mass_ratio {
 namespace {
 using namespace truth;
 
@@ -22,4 +22,4 @@ const Register r{{.name = "high_mass_ratio",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::high_mass_ratio

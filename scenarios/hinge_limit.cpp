@@ -5,7 +5,7 @@
 
 // A rod falls from the horizontal about its end until it reaches its hinge's limit, which stops it at once.
 // Source: the pendulum, q'' = -(3 g/(2 L)) cos q; a limit has no restitution.
-namespace plumb::scenarios {
+namespace plumb::scenarios::hinge_limit {
 namespace {
 using namespace truth;
 
@@ -33,4 +33,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "hinge_limit", .summary = "a rod falls until its hinge stops it", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::hinge_limit

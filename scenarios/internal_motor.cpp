@@ -2,7 +2,7 @@
 
 // A motor between two free wheels on one axle: they turn in opposite directions, w1 I1 + w2 I2 = 0,
 // accelerated by the torque until they reach the motor's speed. Source: conservation of angular momentum.
-namespace plumb::scenarios {
+namespace plumb::scenarios::internal_motor {
 namespace {
 using namespace truth;
 
@@ -33,4 +33,4 @@ const Register r{{.name = "internal_motor",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::internal_motor

@@ -5,7 +5,7 @@
 
 // One orbit on an ellipse of eccentricity e = 0.6 about a fixed centre, from its pericentre: semi-major axis
 // 1, mu = 1, period 2 pi. Kepler's equation M = E - e sin E by Newton's method.
-namespace plumb::scenarios {
+namespace plumb::scenarios::kepler {
 namespace {
 using namespace truth;
 
@@ -25,4 +25,4 @@ const Register r{
     {.name = "kepler", .summary = "a planet on an elliptic orbit, one revolution", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::kepler

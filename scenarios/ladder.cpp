@@ -4,7 +4,7 @@
 // A ladder slides down a smooth wall on a smooth floor. It leaves the wall at two thirds of its initial
 // height, and keeps its horizontal velocity from then on. Source: e.g. Irodov, Problems in General Physics,
 // 1.246; the ODEs are in `ladder_truth`.
-namespace plumb::scenarios {
+namespace plumb::scenarios::ladder {
 namespace {
 using namespace truth;
 
@@ -21,4 +21,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "ladder", .summary = "a ladder slides down a wall and leaves it", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::ladder

@@ -5,7 +5,7 @@
 // A spinning disc lands on rough ground. The impulse of friction stops the slip u, J_t = -m u/3, if mu
 // permits; otherwise it is mu times the normal impulse, (1 + e) m v. Source: Routh, Dynamics of a System of
 // Rigid Bodies, I, ch. 4; tangential restitution 0.
-namespace plumb::scenarios {
+namespace plumb::scenarios::landing_spin {
 namespace {
 using namespace truth;
 
@@ -31,4 +31,4 @@ const Register r{{.name = "landing_spin",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::landing_spin

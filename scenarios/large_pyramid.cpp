@@ -2,7 +2,7 @@
 
 // A pyramid of boxes in rows, each box on the edges of two below it, a hundredth of a metre apart: it does
 // not move. Source: statics.
-namespace plumb::scenarios {
+namespace plumb::scenarios::large_pyramid {
 namespace {
 using namespace truth;
 
@@ -27,4 +27,4 @@ const Register r{{.name = "large_pyramid",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::large_pyramid

@@ -4,7 +4,7 @@
 
 // A uniform ladder on a rough floor and a smooth wall, at an angle a from the vertical, stands iff mu >=
 // tan(a)/2; so do two cards that lean on each other. Otherwise it slips: `Ladder`. Source: statics; Coulomb.
-namespace plumb::scenarios {
+namespace plumb::scenarios::leaning_ladder {
 namespace {
 using namespace truth;
 
@@ -26,4 +26,4 @@ const Register r{
      .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::leaning_ladder

@@ -2,7 +2,7 @@
 
 // Forces off the centre of mass accelerate and rotate a body; without torque its spin is constant. There is
 // no gravity and no contact, so only r x F, the inertia, and the angle used within a step matter.
-namespace plumb::scenarios {
+namespace plumb::scenarios::off_centre_torque {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ const Register r{{"off_centre_torque",
                   build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::off_centre_torque

@@ -3,7 +3,7 @@
 // N blocks stacked over the edge of a table, with the largest overhang less a thousandth: the k-th from the
 // top overhangs the next by L/(2 k), all together by H_N/2 lengths. Source: e.g. Paterson and Zwick,
 // Overhang, Am. Math. Monthly 116 (2009).
-namespace plumb::scenarios {
+namespace plumb::scenarios::overhang {
 namespace {
 using namespace truth;
 
@@ -30,4 +30,4 @@ const Register r{{.name = "overhang",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::overhang

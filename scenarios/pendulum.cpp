@@ -8,7 +8,7 @@
 // A bob on a massless rod, released at an angle: phi'' = -(g/L) sin(phi), with periods 1.07318, 1.18034,
 // 1.37288 and 2.43936 times that of a small swing from 60, 90, 120 and 170 degrees. Source: complete elliptic
 // integral; e.g. Landau and Lifshitz, Mechanics, 11.
-namespace plumb::scenarios {
+namespace plumb::scenarios::pendulum {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ const Register r{{.name = "pendulum",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::pendulum

@@ -5,7 +5,7 @@
 
 // N uniform rods of 1 m and 1 kg, hinged end to end, laid along +x from a fixed pivot and released. Joint
 // forces are large and the chain soon whips, which shows the errors of iterative joint solvers.
-namespace plumb::scenarios {
+namespace plumb::scenarios::pendulum_chain {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ const Register r{{.name = "pendulum_chain",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::pendulum_chain

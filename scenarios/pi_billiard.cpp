@@ -4,7 +4,7 @@
 // Galperin's billiard: a ball at rest beside a wall is hit by one of 100^n times its mass; all impacts are
 // elastic. There are 3, 31, 314 impacts: the first n + 1 digits of pi. Source: Galperin, Playing pool with
 // pi, Regul. Chaotic Dyn. 8 (2003).
-namespace plumb::scenarios {
+namespace plumb::scenarios::pi_billiard {
 namespace {
 using namespace truth;
 
@@ -27,4 +27,4 @@ const Register r{{.name = "pi_billiard",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::pi_billiard

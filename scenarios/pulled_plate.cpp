@@ -4,7 +4,7 @@
 
 // Discs on a plate that is pulled from under them: they roll on it at a third of its acceleration A if mu >=
 // A/(3 g), with A = F/(M + n m/3); otherwise they slip at mu g. Source: Newton and Euler, I = m r^2/2.
-namespace plumb::scenarios {
+namespace plumb::scenarios::pulled_plate {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "pulled_plate",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::pulled_plate

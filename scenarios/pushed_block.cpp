@@ -4,7 +4,7 @@
 
 // A block on level ground is pushed for a limited time: it stays iff F <= mu m g; otherwise it accelerates at
 // F/m - mu g, and then decelerates at mu g to rest. Source: Coulomb.
-namespace plumb::scenarios {
+namespace plumb::scenarios::pushed_block {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "pushed_block",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::pushed_block

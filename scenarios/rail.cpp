@@ -5,7 +5,7 @@
 
 // A box on a tilted rail slides down at g sin until a limit stops it, or is driven up by a motor at F/m - g
 // sin until it reaches the motor's speed. Source: Galileo, Newton.
-namespace plumb::scenarios {
+namespace plumb::scenarios::rail {
 namespace {
 using namespace truth;
 
@@ -38,4 +38,4 @@ const Register r{{.name = "rail",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::rail

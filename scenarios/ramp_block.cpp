@@ -4,7 +4,7 @@
 #include "scenarios/truth/set_up.h"
 
 // A block on a ramp: it slips iff tan(tilt) > mu, and then at a = g (sin - mu cos). Source: Coulomb, 1785.
-namespace plumb::scenarios {
+namespace plumb::scenarios::ramp_block {
 namespace {
 using namespace truth;
 
@@ -34,4 +34,4 @@ const Register r{{.name = "ramp_block",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::ramp_block

@@ -5,7 +5,7 @@
 
 // A disc on a ramp: it rolls iff mu >= tan(tilt)/3, at a = (2/3) g sin; else it slips at a = g (sin - mu
 // cos), and friction turns it at 2 mu g cos/r. Source: Newton and Euler with Coulomb friction, I = m r^2/2.
-namespace plumb::scenarios {
+namespace plumb::scenarios::ramp_disc {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "ramp_disc",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::ramp_disc

@@ -3,7 +3,7 @@
 
 // Balls dropped from two heights: one is faster than the threshold and bounces, the other is slower and
 // stays. Source: Galileo; the scene's rule.
-namespace plumb::scenarios {
+namespace plumb::scenarios::restitution_threshold {
 namespace {
 using namespace truth;
 
@@ -32,4 +32,4 @@ const Register r{{.name = "restitution_threshold",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::restitution_threshold

@@ -6,7 +6,7 @@
 // A rod that falls without rotation, at the angle a, lands on one end. With r the vector from its centre to
 // that end, J = (1 + e) m v/(1 + r_x^2 m/I), which is (1 + e) m v/(1 + 3 cos^2 a) for a thin rod. Source:
 // Newton's restitution; e.g. Kleppner and Kolenkow, ch. 6.
-namespace plumb::scenarios {
+namespace plumb::scenarios::rod_lands {
 namespace {
 using namespace truth;
 
@@ -32,4 +32,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "rod_lands", .summary = "a tilted rod falls on one of its ends", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::rod_lands

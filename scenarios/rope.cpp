@@ -5,7 +5,7 @@
 
 // A mass falls freely until its rope is taut. The rope removes the velocity along it, and the mass swings on
 // with the rest. Source: Galileo; a rope has no restitution; the pendulum.
-namespace plumb::scenarios {
+namespace plumb::scenarios::rope {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ const Register r{{.name = "rope",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::rope

@@ -5,7 +5,7 @@
 
 // A spinning disc of 1 kg hits another off-centre, both rough: friction stops the slip u by J_t = -m u/6, if
 // mu J_n permits, and spins both. Source: Garwin, Am. J. Phys. 37 (1969), with tangential restitution 0.
-namespace plumb::scenarios {
+namespace plumb::scenarios::rough_collision {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "rough_collision",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::rough_collision

@@ -4,7 +4,7 @@
 
 // A torque on bodies of several shapes. Inertia: box m (w^2 + h^2)/12, disc m r^2/2, equilateral triangle
 // m a^2/12, two discs by the parallel axis theorem (Huygens; Steiner).
-namespace plumb::scenarios {
+namespace plumb::scenarios::shapes_of_inertia {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ const Register r{{.name = "shapes_of_inertia",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::shapes_of_inertia

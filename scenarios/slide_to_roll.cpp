@@ -5,7 +5,7 @@
 // A disc slides, spins, or spins backwards on level ground until it rolls. The slip u = v + w r decays at 3
 // mu g, so the disc rolls after |u|/(3 mu g). From v0 without spin: t = v0/(3 mu g), v = 2 v0/3. Source:
 // Coulomb; Euler, 1758; Coriolis, Theorie mathematique des effets du jeu de billard, 1835.
-namespace plumb::scenarios {
+namespace plumb::scenarios::slide_to_roll {
 namespace {
 using namespace truth;
 
@@ -34,4 +34,4 @@ const Register r{{.name = "slide_to_roll",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::slide_to_roll

@@ -5,7 +5,7 @@
 
 // The springs of a rail and of a rod: a joint of f hertz and the damping ratio z swings as
 // q'' = -w^2 q - 2 z w q', w = 2 pi f, whatever the mass. Source: the damped oscillator.
-namespace plumb::scenarios {
+namespace plumb::scenarios::sliding_springs {
 namespace {
 using namespace truth;
 
@@ -35,4 +35,4 @@ const Register r{{.name = "sliding_springs",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::sliding_springs

@@ -3,7 +3,7 @@
 #include "scenarios/truth/parts.h"
 
 // A block slides to rest: t = v0/(mu g) and x = v0^2/(2 mu g). Source: Coulomb.
-namespace plumb::scenarios {
+namespace plumb::scenarios::sliding_stop {
 namespace {
 using namespace truth;
 
@@ -31,4 +31,4 @@ const Register r{
     {.name = "sliding_stop", .summary = "a block slides to rest on level ground", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::sliding_stop

@@ -5,7 +5,7 @@
 // The slowest swing of N equal bobs on a massless thread: w^2 = (g/L) x, x the smallest zero of the Laguerre
 // polynomial L_N (0.586, 0.416, 0.138 for N = 2, 3, 10), in the shape L_i(x) from below. Source: D.
 // Bernoulli, 1733. The truth solves the full equations of Lagrange.
-namespace plumb::scenarios {
+namespace plumb::scenarios::small_modes {
 namespace {
 using namespace truth;
 
@@ -32,4 +32,4 @@ const Register r{{.name = "small_modes",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::small_modes

@@ -5,7 +5,7 @@
 
 // N equal masses between walls, joined by springs: modes sin(j k pi/(N + 1)) of w_k = 2 sqrt(k/m) sin(k
 // pi/(2 (N + 1))). Source: e.g. Goldstein, Classical Mechanics, ch. 6.
-namespace plumb::scenarios {
+namespace plumb::scenarios::spring_chain {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ Problem build(std::string_view, int count) {
 const Register r{{"spring_chain", "N masses and springs between walls", {""}, {2, 12}, true, build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::spring_chain

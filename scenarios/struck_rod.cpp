@@ -6,7 +6,7 @@
 // L^2/(12 d) on the other side of its centre (the counterpart of the centre of percussion; here (L^2 +
 // h^2)/(12 d), for a rod of thickness h). Source: Newton's restitution with J = (1 + e) u/(1/m + 1/M +
 // d^2/I).
-namespace plumb::scenarios {
+namespace plumb::scenarios::struck_rod {
 namespace {
 using namespace truth;
 
@@ -34,4 +34,4 @@ const Register r{{.name = "struck_rod",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::struck_rod

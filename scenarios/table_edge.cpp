@@ -3,7 +3,7 @@
 
 // A block over the edge of a rough table lies iff its centre is over the table; otherwise it tips about the
 // edge, I q'' = -m g x with x the horizontal distance from the edge to the centre. Source: statics; Euler.
-namespace plumb::scenarios {
+namespace plumb::scenarios::table_edge {
 namespace {
 using namespace truth;
 
@@ -33,4 +33,4 @@ const Register r{{.name = "table_edge",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::table_edge

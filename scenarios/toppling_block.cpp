@@ -6,7 +6,7 @@
 
 // A slender block on a rough slope: it tips over its lower edge iff tan(tilt) > width/height, and then turns
 // about it like a pendulum. Source: statics; Euler, I = (4/3) m rho^2.
-namespace plumb::scenarios {
+namespace plumb::scenarios::toppling_block {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "toppling_block",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::toppling_block

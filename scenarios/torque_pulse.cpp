@@ -4,7 +4,7 @@
 
 // A torque acts for a limited time on a disc and on a box: the angular velocity grows at T/I, and is constant
 // afterwards. Source: Euler.
-namespace plumb::scenarios {
+namespace plumb::scenarios::torque_pulse {
 namespace {
 using namespace truth;
 
@@ -33,4 +33,4 @@ const Register r{{.name = "torque_pulse",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::torque_pulse

@@ -5,7 +5,7 @@
 
 // The springs of a hinge and of a weld: a joint of f hertz and the damping ratio z swings as
 // q'' = -w^2 q - 2 z w q', w = 2 pi f, whatever the inertia. Source: the damped oscillator.
-namespace plumb::scenarios {
+namespace plumb::scenarios::turning_springs {
 namespace {
 using namespace truth;
 
@@ -36,4 +36,4 @@ const Register r{{.name = "turning_springs",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::turning_springs

@@ -5,7 +5,7 @@
 
 // Two bodies attract each other and orbit their centre of mass: the vector between them moves on Kepler's
 // ellipse with mu = s (1 + m/M). Source: Newton, Principia, I, 57 to 59.
-namespace plumb::scenarios {
+namespace plumb::scenarios::two_body {
 namespace {
 using namespace truth;
 
@@ -37,4 +37,4 @@ const Register r{{.name = "two_body",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::two_body

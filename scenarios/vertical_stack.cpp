@@ -1,7 +1,7 @@
 #include "scenarios/truth/parts.h"
 
 // A stack of equal boxes on the ground stays as it is. Source: statics.
-namespace plumb::scenarios {
+namespace plumb::scenarios::vertical_stack {
 namespace {
 using namespace truth;
 
@@ -24,4 +24,4 @@ const Register r{{.name = "vertical_stack",
                   .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::vertical_stack

@@ -6,7 +6,7 @@
 // A block slides down a movable wedge, all surfaces smooth: the wedge accelerates at A = m g sin cos/(M + m
 // sin^2), and the block slides on it at (M + m) g sin/(M + m sin^2). Source: e.g. Landau and Lifshitz;
 // Kleppner and Kolenkow, 2.20.
-namespace plumb::scenarios {
+namespace plumb::scenarios::wedge {
 namespace {
 using namespace truth;
 
@@ -39,4 +39,4 @@ Problem build(std::string_view, int) {
 const Register r{{.name = "wedge", .summary = "a block slides down a free wedge", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::wedge

@@ -2,7 +2,7 @@
 
 // Two boxes welded together and thrown spinning: one rigid body, whose centre of mass flies a parabola.
 // Source: Galileo, Euler.
-namespace plumb::scenarios {
+namespace plumb::scenarios::welded_pair {
 namespace {
 using namespace truth;
 
@@ -35,4 +35,4 @@ const Register r{
     {.name = "welded_pair", .summary = "two boxes welded together, thrown spinning", .build = build}};
 
 }  // namespace
-}  // namespace plumb::scenarios
+}  // namespace plumb::scenarios::welded_pair

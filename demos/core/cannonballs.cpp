@@ -174,12 +174,18 @@ class Cannonballs final : public WorldDemo {
     });
   }
 
+  bool labelled(BodyId body) const override {
+    return std::ranges::any_of(balls_, [&](const Ball& ball) { return ball.body == body; });
+  }
+
   void draw_over(DebugDraw& out) const override {
     out.capsule(kMuzzle - kBarrel * aim(), kMuzzle, kRadii[kHeavy], DrawRole::Kinematic);
     draw_path(out, fired_ == kHeavy ? kHeavy : kLight);
     if (fired_ == kBoth) draw_path(out, kHeavy);
-    for (const Ball& ball : balls_)
-      out.text(drawn_centre(ball.body), mass_text(world_.mass(ball.body)), DrawRole::Name);
+    for (const Ball& ball : balls_) {
+      const double radius = 0.25 * world_.box(ball.body).half_perimeter();
+      out.text(drawn_centre(ball.body) + Vec2d{0, radius}, mass_text(world_.mass(ball.body)), DrawRole::Name);
+    }
     if (!show_forces_) return;
     for (const Ball& ball : balls_) {
       if (!world_.awake(ball.body)) continue;

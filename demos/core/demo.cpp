@@ -210,15 +210,21 @@ void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
   const double usual = gravity() > 0 ? gravity() : size;                                   // m/s^2
   const double for_speed = options.length * kFallen * size / std::sqrt(2 * usual * size);  // s
   const double for_force = options.length * kHeaviest * size / (usual * heaviest);         // m/N
-  const auto arrow = [&](Vec2d from, Vec2d way, DrawRole role) {
+  constexpr double kAside = 0.03;  // of the view, from a centre to its mass if an arrow begins there
+  const auto arrow = [&](Vec2d from, Vec2d way, DrawRole role) -> Vec2d {
     const double length = std::sqrt(length_squared(way));
-    if (!(length > 1e-3 * size)) return;
+    if (!(length > 1e-3 * size)) return {};
     draw_arrow(out, from, from + std::min(1.0, kLongest * size / length) * way, role);
+    return (1 / length) * way;
   };
   for (const Moving& each : all) {
-    if (options.velocities) arrow(each.centre, for_speed * each.velocity, DrawRole::Velocity);
-    if (options.forces && each.mass > 0) arrow(each.centre, for_force * each.force, DrawRole::Force);
-    if (options.masses && each.mass > 0) out.text(each.centre, mass_text(each.mass), DrawRole::Name);
+    Vec2d along{};  // the arrows' common direction, which the mass keeps clear of
+    if (options.velocities) along += arrow(each.centre, for_speed * each.velocity, DrawRole::Velocity);
+    if (options.forces && each.mass > 0) along += arrow(each.centre, for_force * each.force, DrawRole::Force);
+    const double length = std::sqrt(length_squared(along));
+    const Vec2d aside = length > 0 ? (-kAside * size / length) * along : Vec2d{};
+    if (options.masses && each.mass > 0 && !each.labelled)
+      out.text(each.centre + aside, mass_text(each.mass), DrawRole::Name);
   }
 }
 

@@ -60,6 +60,7 @@ struct Moving {
   Vec2d force{};       ///< N, all forces together: its mass times the change of its velocity in the last step
   double mass = 0;     ///< kg
   bool awake = true;
+  bool labelled = false;  ///< the demo itself always labels it with its mass
 };
 
 /// Drawings of the motion of bodies, over those of DrawOptions.

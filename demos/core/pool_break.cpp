@@ -121,6 +121,7 @@ class PoolBreak final : public WorldDemo {
   }
 
   BodyId cue() const { return balls_[0]; }
+  bool labelled(BodyId body) const override { return body == cue(); }
   bool on_table(int ball) const { return world_.valid(balls_[ball]); }
   int in_pockets() const {
     int count = 0;

@@ -36,7 +36,12 @@ std::vector<Moving> WorldDemo::moving() const {
   for (const BodyId body : world_.bodies()) {
     if (world_.type(body) == BodyType::Static) continue;
     const Vec2d velocity = world_.velocity(body);
-    Moving moving{world_.box(body), drawn_centre(body), velocity, {}, world_.mass(body), world_.awake(body)};
+    Moving moving{.box = world_.box(body),
+                  .centre = drawn_centre(body),
+                  .velocity = velocity,
+                  .mass = world_.mass(body),
+                  .awake = world_.awake(body),
+                  .labelled = labelled(body)};
     // A body that was added since has no past.
     const bool known = body.index < velocities_before_.size() &&
                        velocities_before_[body.index].generation == body.generation;

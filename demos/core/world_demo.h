@@ -47,6 +47,7 @@ class WorldDemo : public Demo {
   virtual void before_step() {}  ///< applies forces for the next step
   virtual void after_step() {}   ///< handles the events of the step
   virtual void draw_over(DebugDraw&) const {}
+  virtual bool labelled(BodyId) const { return false; }  ///< true if draw_over labels it with its mass
   /// Returns the demo's own state, beside the world and the controls.
   virtual std::vector<double> own() const { return {}; }
   /// Restores the state that `own` returned; the world has been restored before.

@@ -8,13 +8,14 @@ void Camera::resize(int width, int height) { width_ = std::max(width, 1), height
 
 void Camera::fit(const Aabb<double>& view, double left, double right) {
   constexpr double kMargin = 16;  // px
+  constexpr double kBelow = 36;   // px, the height of the scale bar, which would cover bodies
   const double wide = std::max(width_ - left - right - 2 * kMargin, 1.0);
-  const double high = std::max(height_ - 2 * kMargin, 1.0);
+  const double high = std::max(height_ - kMargin - kBelow, 1.0);
   const Vec2d size = view.upper - view.lower;
   const double across = size.x > 0 ? wide / size.x : kLargest, up = size.y > 0 ? high / size.y : kLargest;
   scale_ = std::clamp(std::min(across, up), kSmallest, kLargest);
   // The middle of the area between the panels shows the middle of the view.
-  centre_ = 0.5 * (view.lower + view.upper) + Vec2d{right - left, 0} * (0.5 / scale_);
+  centre_ = 0.5 * (view.lower + view.upper) + Vec2d{right - left, kMargin - kBelow} * (0.5 / scale_);
 }
 
 Vec2d Camera::to_pixel(Vec2d point) const {

@@ -10,8 +10,8 @@ class Camera {
  public:
   /// Sets the size of the picture, px. The middle stays fixed.
   void resize(int width, int height);
-  /// Shows all of `view`, with a margin, as large as possible between `left` px at the left and `right` px at
-  /// the right.
+  /// Shows all of `view`, with a margin, above the scale bar, as large as possible between `left` px at the
+  /// left and `right` px at the right.
   void fit(const Aabb<double>& view, double left = 0, double right = 0);
 
   Vec2d to_pixel(Vec2d point) const;

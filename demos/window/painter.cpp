@@ -112,7 +112,8 @@ void Painter::scale_bar(double covered) {
   canvas_.paint(corners, 0, filled(plate));
   const Vec2d ends[] = {left, right};
   canvas_.paint(ends, 1, filled(theme_.text()));
-  labels_.push_back({0.5 * (left + right) + Vec2d{0, -3}, text, theme_.text()});
+  // The first, so that no other label takes its place.
+  labels_.insert(labels_.begin(), {0.5 * (left + right) + Vec2d{0, -3}, text, theme_.text()});
 }
 
 }  // namespace plumb::window

@@ -4,17 +4,11 @@
 #include <vector>
 
 #include "demos/window/camera.h"
+#include "demos/window/labels.h"
 #include "demos/window/theme.h"
 #include "engine/world/debug_draw.h"
 
 namespace plumb::window {
-
-/// A text in the picture.
-struct Label {
-  Vec2d pixel{};  ///< below the middle of the text
-  std::string text;
-  Colour colour{};
-};
 
 /// Paints a world's debug drawing. Texts are collected for a caller that has a font.
 class Painter : public DebugDraw {

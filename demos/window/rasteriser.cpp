@@ -42,9 +42,9 @@ struct Texture {
 long floor_of(long n, long d) { return n >= 0 ? n / d : -((-n + d - 1) / d); }
 long ceil_of(long n, long d) { return -floor_of(-n, d); }
 
-// Half plane to the left of the line from one corner to the next, in units of kSub: a x + b y + c >= 0.
+// Half plane to the left of the line from one corner to the next, in units of kSub: a x + b y + c >= least.
 struct Edge {
-  long a, b, c;
+  long a, b, c, least;
 };
 
 class Triangle {
@@ -64,10 +64,9 @@ class Triangle {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const long dx = x_[j] - x_[i], dy = y_[j] - y_[i];
-      edges_[i] = {-dy, dx, dy * x_[i] - dx * y_[i]};
       // A centre on an edge belongs to the triangle below it or to its right.
       const bool owns = dy < 0 || (dy == 0 && dx > 0);
-      if (!owns) edges_[i].c -= 1;
+      edges_[i] = {-dy, dx, dy * x_[i] - dx * y_[i], owns ? 0 : 1};
     }
   }
 
@@ -82,7 +81,8 @@ class Triangle {
       long first = clip.left, last = clip.right - 1;  // pixels
       for (const Edge& edge : edges_) {
         // The centre of pixel x is at kSub x + kSub / 2.
-        const long at_zero = edge.a * (kSub / 2) + edge.b * middle + edge.c, slope = edge.a * kSub;
+        const long at_zero = edge.a * (kSub / 2) + edge.b * middle + edge.c - edge.least,
+                   slope = edge.a * kSub;
         if (slope > 0) {
           first = std::max(first, ceil_of(-at_zero, slope));
         } else if (slope < 0) {

@@ -45,12 +45,15 @@ void set_style(bool dark) {
   style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.5f;
 }
 
-// Draws a text with its middle above a point.
-void draw_label(const Label& label) {
+// Draws a text with its middle above a point, edged with the ground's colour: it can be read over any body.
+void draw_label(const Label& label, Colour ground) {
   const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
   const auto whole = [](double pixel) { return static_cast<float>(std::floor(pixel)); };
-  ImGui::GetBackgroundDrawList()->AddText({whole(label.pixel.x - size.x / 2), whole(label.pixel.y - size.y)},
-                                          imgui_colour(label.colour), label.text.c_str());
+  const ImVec2 corner{whole(label.pixel.x - size.x / 2), whole(label.pixel.y - size.y)};
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const ImVec2 way : {ImVec2{-1, 0}, ImVec2{1, 0}, ImVec2{0, -1}, ImVec2{0, 1}})
+    list.AddText({corner.x + way.x, corner.y + way.y}, imgui_colour(ground), label.text.c_str());
+  list.AddText(corner, imgui_colour(label.colour), label.text.c_str());
 }
 
 }  // namespace
@@ -116,7 +119,10 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   player.demo().draw_motion(painter, player.motion);
   if (player.companion() != nullptr) player.companion()->draw(painter, player.demo());
   painter.scale_bar(player.code ? code_width(canvas.width()) : 0);
-  for (const Label& label : painter.labels()) draw_label(label);
+  const ImVec2 character = ImGui::CalcTextSize("0");  // the font has one width
+  const Vec2d picture{static_cast<double>(canvas.width()), static_cast<double>(canvas.height())};
+  for (const Label& label : placed(painter.labels(), {character.x, character.y}, picture))
+    draw_label(label, player.theme.ground());
   ImGui::Render();
   for (std::size_t i = 0; i < kEditKeys.size(); ++i)
     if (over_[i]) io.KeysDown[i] = false;

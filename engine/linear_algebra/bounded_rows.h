@@ -67,6 +67,10 @@ class BoundedRows {
   /// Solves for the impulses and applies them to the bodies' velocities.
   void solve();
 
+  /// Returns the fraction, 0 to 1, of these impulses that leaves the bodies the least energy, given their
+  /// velocities. Changes the velocities.
+  double share_of_load(std::span<const double> impulses);
+
   /// Finds impulses that move bodies by `shifts` instead of changing their velocities, such that the gaps of
   /// the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt). Bodies
   /// move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that only wide motions could close stay

@@ -7,7 +7,7 @@ namespace plumb {
 namespace {
 
 // Sums four products at a time, in an order that no compiler or vector width changes.
-double dot_product(const double* a, const double* b, int count) {
+double dot_in_fours(const double* a, const double* b, int count) {
   double sums[4] = {0, 0, 0, 0};
   int i = 0;
   for (; i + 4 <= count; i += 4)
@@ -17,9 +17,22 @@ double dot_product(const double* a, const double* b, int count) {
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest;
 }
 
+// The rows of chains and trees are short.
+inline double dot_product(const double* a, const double* b, int count) {
+  if (count >= 4) return dot_in_fours(a, b, count);
+  double rest = 0;
+  for (int i = 0; i < count; ++i) rest += a[i] * b[i];
+  return rest;
+}
+
 }  // namespace
 
 void EnvelopeMatrix::reset(std::span<const int> first) {
+  shape(first);
+  std::fill(values_.begin(), values_.end(), 0.0);
+}
+
+void EnvelopeMatrix::shape(std::span<const int> first) {
   first_.assign(first.begin(), first.end());
   start_.resize(first.size());
   int next = 0;
@@ -28,7 +41,7 @@ void EnvelopeMatrix::reset(std::span<const int> first) {
     assert(first_[i] >= 0 && first_[i] <= i);
     next += i - first_[i] + 1;
   }
-  values_.assign(static_cast<std::size_t>(next), 0);
+  values_.resize(static_cast<std::size_t>(next));
   pivots_.resize(first.size()), inverse_pivots_.resize(first.size());
 }
 

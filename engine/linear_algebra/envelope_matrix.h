@@ -18,8 +18,13 @@ class EnvelopeMatrix {
   /// grows.
   void reset(std::span<const int> first);
 
+  /// The same, with entries that are not set: the caller sets all of them.
+  void shape(std::span<const int> first);
+
   int size() const { return static_cast<int>(first_.size()); }
   int first(int row) const { return first_[row]; }
+  /// Returns a row from its first entry to the diagonal.
+  double* row(int row) { return &values_[start_[row]]; }
   double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
   double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
 

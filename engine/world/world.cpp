@@ -7,6 +7,7 @@
 
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
+#include "engine/world/islands/direct_islands.h"
 #include "engine/world/snapshot_check.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/lock.h"
@@ -136,7 +137,10 @@ void BasicWorld<Real>::set_solver(Solver solver) {
   WorldDefinition changed = data_->settings;
   changed.solver = solver;
   validate(changed);
-  if (solver != data_->settings.solver) wake_all();
+  if (solver != data_->settings.solver) {
+    wake_all();
+    hand_over_all(*data_);
+  }
   data_->settings = changed;
   data_->topology_changed = true;
 }
@@ -160,8 +164,11 @@ int BasicWorld<Real>::iterations() const {
 template <class Real>
 void BasicWorld<Real>::set_direct_islands(bool on) {
   unlocked(*this);
-  if (on != data_->settings.direct_islands) wake_all();
+  if (on == data_->settings.direct_islands) return;
+  wake_all();
+  hand_over_all(*data_);
   data_->settings.direct_islands = on;
+  data_->topology_changed = true;
 }
 
 template <class Real>

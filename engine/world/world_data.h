@@ -221,6 +221,8 @@ struct JointedLink {
   int body = kNone;
   Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without impulses, then with; the mean
   double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, the same
+  Vec2d push{};                                ///< m/s, by forces in the substep
+  double twist = 0;                            ///< rad/s, the same
   Vec2d moved{};                               ///< m, since the start of the step
   double turned = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
 };
@@ -260,7 +262,6 @@ struct JointedIsland {
   BoundedRows system;
   int root = kNone;     ///< body that represents it
   int contact_row = 0;  ///< first row of a contact
-  bool solved = false;  ///< false: left to iteration
 };
 
 /// A row whose position error is fed back: see solvers/error_feedback.h.
@@ -308,7 +309,8 @@ struct Scratch {
   std::vector<int> island_of, island_size, island_place, island_room;
   std::vector<int> link_of;  ///< by body: index among the links of its island
   std::vector<Real> lightest, heaviest;
-  std::vector<int> island_joints;
+  std::vector<int> island_joints, island_bounded;
+  std::vector<Real> carry;  ///< by body: fraction of its impulses with which iterations start; empty: 1
   std::vector<JointSolverRow<Real>> joint_rows;
   std::vector<FeedbackRow<Real>> feedback_rows;
   std::vector<BodyVelocity<Real>> feedback;  ///< by body

@@ -38,20 +38,15 @@ std::optional<double> period_of(const std::vector<double>& zeros) {
   return 2 * (zeros[last] - zeros[0]) / static_cast<double>(last);
 }
 
-// Returns the spin, rad/s, that a stick turning at `w` keeps over `time` s if a step of `h` s moves its ends
-// back onto its length and takes displacement/h for their velocities: the next displacement starts along the
-// last chord instead of the tangent, which takes (w h)^2 of w a step: dw/dt = -w^3 h.
-double turn_by_positions(double w, double h, double time) { return w / std::sqrt(1 + 2 * w * w * h * time); }
-
 struct Swing {
   double period;  // s
   double last;    // rad, largest angle in the last period
 };
 
 // Returns the swing of a pendulum of length `l`, m, from `amplitude` at rest, over `time` s, whose string is
-// held by positions as in `turn_by_positions`. A step then also removes the share h^2 of the string's tension
-// over m l from w: dw/dt = -g/l sin(a) - h w (w^2 + g/l cos(a)), integrated here by Runge and Kutta's
-// fourth-order rule.
+// held by positions as in `Lab::spin_kept_by_positions`. A step then also removes the share h^2 of the
+// string's tension over m l from w: dw/dt = -g/l sin(a) - h w (w^2 + g/l cos(a)), integrated here by Runge
+// and Kutta's fourth-order rule.
 Swing swing_by_positions(double amplitude, double l, double h, double time, double due) {
   constexpr int kSteps = 4000;
   const double dt = time / kSteps, stiffness = kGravity / l;
@@ -112,7 +107,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
                             trace.last(1).velocity - trace.last(0).velocity) /
                       (end * end);
   // Held by positions it may lose just what that method loses, to second order.
-  const double slowed = turn_by_positions(w, lab.substep(), t);
+  const double slowed = w * lab.spin_kept_by_positions(w, t);
   const bool by_positions = lab.first_order() && std::abs(spin - slowed) <= wh * wh * slowed;
   return Judgement()
       .read("largest change of length", "m", worst, 0, tolerance)
@@ -141,13 +136,31 @@ Finding stick_weighs_masses(const Lab& lab) {
                          {make(Ball{.name = "heavy", .mass = heavy, .radius = 0.1}),
                           make(Ball{.name = "light", .position = {1, 0}, .mass = light, .radius = 0.1})});
   scene.joints.emplace_back(stick("stick", "heavy", "light", 1));
+  // The stick begins 5 cm too long: its ends are moved by inverse mass, which leaves their centre in place.
+  const double stretch = 0.05;
+  Scene stretched = scene;
+  stretched.bodies[1].position.x += stretch;
+  const auto centre_shift = [&] {
+    const Trace corrected = lab.run(stretched, 1);
+    const auto shift = [&](std::size_t b) {
+      return corrected.last(b).position.x - corrected.first(b).position.x;
+    };
+    return (heavy * shift(0) + light * shift(1)) / (heavy + light);
+  };
+  const double centre = lab.corrects_positions() ? centre_shift() : 0;
   scene.forces.emplace_back(push("light", {force, 0}));
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), both = force * t / (heavy + light);
   const double momentum = heavy * trace.last(0).velocity.x + light * trace.last(1).velocity.x;
+  scene.forces = {push("light", {-force, 0})};
+  // Ends before a stick that gives way would be drawn out to the other side, after 0.43 s.
+  const Trace pushed = lab.run(scene, 0.4);
+  const double when_pushed = -force * pushed.duration() / (heavy + light);
   return Judgement()
       .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, both, 0.005 * both)
       .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, both, 0.005 * both)
+      .read("vx of 10 kg, pushed by 1 kg", "m/s", pushed.last(0).velocity.x, when_pushed, 0.005 * both)
+      .read("shift of the centre of mass of a stick too long", "m", centre, 0, 0.05 * stretch)
       .mistake(
           "masses_ignored", {force * t / light / 2, force * t / light / 2},
           "Both ends are moved alike: share the correction by inverse mass; the light end takes ten parts in "
@@ -302,6 +315,26 @@ Finding hinged_rod(const Lab& lab) {
     return most;
   };
   const double at_post = gap_on_post();
+  // A rod at rest along x, its anchor 2 cm off the hinge, without gravity: what is left of the gap.
+  const auto left_of = [&](Vec2d off) {
+    Scene parted = scene;
+    parted.gravity = {};
+    parted.bodies[0].angle = 0;
+    parted.bodies[0].position = Vec2d{l / 2, 0} + off;
+    const BodyState end = lab.run(parted, 1).last(0);
+    return length(end.position - l / 2 * Vec2d{std::cos(end.angle), std::sin(end.angle)});
+  };
+  const double parted = 0.02;
+  const bool held = gap <= 0.01 * l * lab.coarseness();
+  // A rod without a gap stays where it is, unless its anchor is looked for elsewhere.
+  const auto stays = [&] {
+    Scene still = scene;
+    still.gravity = {};
+    const Trace t = lab.run(still, 1);
+    return length(t.last(0).position - t.first(0).position) < parted / 4;
+  };
+  const bool turns_wrong =
+      !held && stays() && left_of({parted, 0}) < parted / 4 && left_of({0, parted}) > parted;
   const double due = period_with(about_end);
   const std::optional<double> period = period_of(trace, swing);
   const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
@@ -309,14 +342,17 @@ Finding hinged_rod(const Lab& lab) {
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
       .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
-      .mistake_if(gap < 0.01 * l * lab.coarseness() && at_post > 0.01 * l * lab.coarseness(),
-                  "joined_bodies_collide",
+      .mistake_if(held && at_post > 0.01 * l * lab.coarseness(), "joined_bodies_collide",
                   "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "
                   "collide, unless \"collide\" is true.")
       .mistake_if(more > 0.2 && less < 0.1 * more, "hinge_one_axis",
                   fmt::format("The hinge holds its anchor along {0} and lets go along {1}: solve both, along "
                               "(1, 0) and along (0, 1).",
                               slides_x < slides_y ? "x" : "y", slides_x < slides_y ? "y" : "x"))
+      .mistake_if(
+          turns_wrong, "correction_turns_backwards",
+          "A gap along the rod closes and one across it grows: correcting the hinge's positions turns the "
+          "bodies the wrong way. The angle changes by (r x push)/I, with the push that moves this body.")
       .mistake_if(gap > 0.2 * l && to_unturned < l / 4, "anchor_not_turned",
                   "The anchor does not turn with the rod: turn \"anchor_b\" by the body's angle to get r.")
       .mistake_if(
@@ -334,6 +370,68 @@ Finding hinged_rod(const Lab& lab) {
       .mistake_if(gap > 0.2 * l, "joint_ignored", "The rod leaves its hinge.")
       .mistake_if(gap > 0.01 * l * lab.coarseness(), "no_position_correction",
                   "The hinge comes apart: correct the positions as well.")
+      .finding();
+}
+
+// Two rods on a hinge, without gravity: one rests, the other turns about the hinge at 3 rad/s. The hinge then
+// turns the first as well; momentum and angular momentum are conserved.
+Finding hinge_turns_both(const Lab& lab) {
+  const double w = 3, half_a = 0.5, half_b = 0.4, h = 0.1;
+  const Vec2d arm{0, half_b};
+  Scene scene = scene_of("rods", {},
+                         {make(Crate{.name = "a", .mass = 2, .width = 2 * half_a, .height = h}),
+                          make(Crate{.name = "b",
+                                     .position = Vec2d{half_a, 0} + arm,
+                                     .velocity = cross(w, arm),
+                                     .angle = kPi / 2,
+                                     .angular_velocity = w,
+                                     .mass = 1,
+                                     .width = 2 * half_b,
+                                     .height = h})});
+  RevoluteJoint hinge;
+  hinge.name = "hinge";
+  hinge.body_a = "a";
+  hinge.body_b = "b";
+  hinge.anchor_a = {half_a, 0};
+  hinge.anchor_b = {-half_b, 0};
+  scene.joints.emplace_back(hinge);
+  const Trace trace = lab.run(scene, 1);
+  const auto sums = [&](const std::vector<BodyState>& states) {
+    std::pair<Vec2d, double> out{{}, 0};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const double m = scene.bodies[i].mass, l = i == 0 ? 2 * half_a : 2 * half_b;
+      out.first += m * states[i].velocity;
+      out.second += m * cross(states[i].position, states[i].velocity) +
+                    m * (l * l + h * h) / 12 * states[i].angular_velocity;
+    }
+    return out;
+  };
+  const auto [p0, l0] = sums(trace.states.front());
+  const auto [p, l] = sums(trace.states.back());
+  double gap = 0;
+  for (const auto& states : trace.states) {
+    const auto end = [&](std::size_t i, double at) {
+      return states[i].position + at * Vec2d{std::cos(states[i].angle), std::sin(states[i].angle)};
+    };
+    gap = std::max(gap, length(end(1, -half_b) - end(0, half_a)));
+  }
+  const double moved = length(p - p0) / length(p0), kept = lab.spin_kept_by_positions(w, trace.duration());
+  return Judgement()
+      .read("momentum lost", "of all", moved, 0, 1e-6)
+      .read("angular momentum kept", "of all", l / l0, 1, std::max(0.05, 1 - kept))
+      .read("widest gap at the hinge", "m", gap, 0, 0.02 * lab.coarseness())
+      .mistake_if(gap > half_b, "joint_ignored",
+                  "The rods leave each other: a hinge holds the two anchors together.")
+      .mistake_if(moved > 1e-6, "momentum_not_kept",
+                  "The hinge changes the total momentum: its two ends must get opposite impulses.")
+      .mistake_if(
+          trace.last(0).angular_velocity == 0, "one_body_never_spins",
+          "The first rod never turns: the hinge's impulse changes the spin of both bodies by r x j/I, and a "
+          "gets the opposite impulse.")
+      .mistake_if(
+          std::abs(l / l0 - 1) > std::max(0.05, 1 - kept), "spin_not_kept",
+          "The hinge changes the total angular momentum: an impulse at an anchor changes each body's spin "
+          "by r x j/I, with its own r, turned by the body's angle.")
       .finding();
 }
 
@@ -392,6 +490,7 @@ Chapter constraints_and_ragdoll() {
                  {"stick_weighs_masses", "a stick moves the light end more", kSticks, stick_weighs_masses},
                  {"pendulum", "a pendulum keeps its period and its swing", kSticks, pendulum},
                  {"hinged_rod", "a rod on a hinge swings as a rod", kHinges, hinged_rod},
+                 {"hinge_turns_both", "a hinge turns both of its rods", kHinges, hinge_turns_both},
                  {"chain_swings", "a chain swings like a rope", kChain, chain_swings, false},
                  {"ragdoll_flies", "a ragdoll in the air falls as one", kRagdoll, ragdoll_flies, false},
                  {"ragdoll_drops", "it lands, holds together and settles", kRagdoll, ragdoll_drops, false}}};

@@ -63,7 +63,7 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
 void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   for (const Recorded& run : runs) {
     const std::optional<Seen> seen = seen_in_flight(run);
-    if (!seen) continue;
+    if (!seen || (seen->general && !finding.mistake.empty())) continue;
     finding.mistake = seen->mistake;
     finding.says = seen->says;
     return;
@@ -105,7 +105,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                              const std::function<void(const Outcome&)>& done) {
   std::vector<Outcome> out;
   int timeouts = 0;
-  std::string named;  // the first mistake
+  std::string named, known;  // the first mistake, and the first whose motion was computed
   for (const Chapter& chapter : chapters) {
     std::vector<Outcome> outcomes;
     for (const Check& check : chapter.checks) {
@@ -116,13 +116,14 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                             : run(check, lab, timeouts);
       outcomes.push_back(std::move(outcome));
     }
-    name_by_motion(Lab(engine, settings), outcomes);
+    name_by_motion(Lab(engine, settings), outcomes, known);
     for (Outcome& outcome : outcomes) {
       Finding& finding = outcome.finding;
       if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
         look_at_flights(outcome.runs, finding);
       if (!named.empty() && finding.mistake != named) finding.follows = named;
       if (named.empty()) named = finding.mistake;
+      if (known.empty() && finding.computed) known = finding.mistake;
       done(outcome);
       out.push_back(std::move(outcome));
     }

@@ -31,6 +31,7 @@ struct Finding {
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
   bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
+  bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
 };
 

@@ -86,8 +86,102 @@ std::optional<int> decimals(std::span<const double> values, std::span<const doub
   return std::nullopt;
 }
 
+// Returns true if no force changes in time or with the motion: changes of velocity are then the same in each
+// step.
+bool forces_are_constant(const Scene& scene) {
+  return std::all_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
+    if (const auto* torque = std::get_if<Torque>(&law))
+      return torque->start == 0 && std::isinf(torque->duration);
+    const auto* push = std::get_if<PointForce>(&law);
+    return push != nullptr && push->start == 0 && std::isinf(push->duration) && push->point == Vec2d{};
+  });
+}
+
+// Returns the factor by which all changes differ from the right ones; nullopt if it is not the same for all.
+std::optional<double> factor_of(std::span<const Vec2d> changes, std::span<const Vec2d> right) {
+  double most = 0, factor = 0;
+  for (std::size_t k = 0; k < right.size(); ++k)
+    for (double Vec2d::*axis : {&Vec2d::x, &Vec2d::y})
+      if (std::abs(right[k].*axis) > most)
+        most = std::abs(right[k].*axis), factor = changes[k].*axis / (right[k].*axis);
+  if (changes.size() < kFewest || most == 0) return std::nullopt;
+  for (std::size_t k = 0; k < right.size(); ++k) {
+    const Vec2d off = changes[k] - factor * right[k];
+    if (std::abs(off.x) + std::abs(off.y) > 1e-9 * most) return std::nullopt;
+  }
+  return factor;
+}
+
+// Measures by which factors the changes of velocity and of position differ from g dt and v dt.
+std::optional<Seen> wrong_factor(const Recorded& run, std::size_t b, std::size_t n) {
+  std::vector<Vec2d> gains, due, moves, old_speeds, new_speeds, means;
+  for (std::size_t k = 1; k < n; ++k) {
+    const BodyState &before = run.trace.states[k - 1][b], &after = run.trace.states[k][b];
+    gains.push_back(after.velocity - before.velocity);
+    due.push_back(run.dt * run.scene.gravity);
+    moves.push_back(after.position - before.position);
+    old_speeds.push_back(run.dt * before.velocity);
+    new_speeds.push_back(run.dt * after.velocity);
+    means.push_back(0.5 * (old_speeds.back() + new_speeds.back()));
+  }
+  const auto right = [](double factor) { return std::abs(factor - 1) < 1e-6; };
+  const std::optional<double> gain = factor_of(gains, due);
+  for (const auto& speeds : {new_speeds, old_speeds, means}) {
+    const std::optional<double> move = factor_of(moves, speeds);
+    if (!gain || !move || (right(*gain) && right(*move)) || *gain <= 0 || *move <= 0) continue;
+    if (std::abs(*gain - *move) < 1e-6)
+      return Seen{
+          "wrong_dt",
+          fmt::format("Each step is {:.6g} s long, and \"dt\" of the settings is {:.6g} s: take it as it "
+                      "is, not rounded, cut or fixed.",
+                      *gain * run.dt, run.dt),
+          true};
+    if (right(*move))
+      return Seen{
+          "gravity_wrong",
+          fmt::format("Each step adds {:.6g} g dt to the velocity: it should add g dt, with \"gravity\" "
+                      "of the scene and \"dt\" of the settings.",
+                      *gain),
+          true};
+    if (right(*gain))
+      return Seen{"move_wrong",
+                  fmt::format("Each step adds {:.6g} v dt to the position: it should add v dt.", *move),
+                  true};
+  }
+  return std::nullopt;
+}
+
+// Finds what multiplies velocities in each step: changes that should be the same shrink or grow by one ratio.
+std::optional<Seen> damping_of(const Recorded& run, std::size_t b, std::size_t n) {
+  const auto ratio = [&](const auto& value, bool changes) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double now = value(run.trace.states[k][b]);
+      if (!changes) values.push_back(now);
+      if (changes && k > 0) values.push_back(now - value(run.trace.states[k - 1][b]));
+    }
+    return constant_ratio(values);
+  };
+  const bool forced = !run.scene.forces.empty();
+  const Vec2d g = run.scene.gravity;
+  const auto x = ratio([](const BodyState& s) { return s.velocity.x; }, forced || g.x != 0);
+  const auto y = ratio([](const BodyState& s) { return s.velocity.y; }, forced || g.y != 0);
+  if (const auto kept = x ? x : y)
+    return Seen{"damping", fmt::format("Each step multiplies the velocity by {:.6g} in free flight: nothing "
+                                       "here slows the ball, so leave that out.",
+                                       *kept)};
+  if (const auto kept = ratio([](const BodyState& s) { return s.angular_velocity; }, forced))
+    return Seen{
+        "spin_damped",
+        fmt::format("Each step multiplies the spin by {:.6g}: nothing here slows it, so leave that out.",
+                    *kept)};
+  return std::nullopt;
+}
+
 std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
   const std::size_t n = length_of_flight(run, b);
+  if (auto damping = damping_of(run, b, n)) return damping;
+  if (!run.scene.forces.empty()) return std::nullopt;
   std::vector<Vec2d> v;
   for (std::size_t k = 0; k < n; ++k) v.push_back(run.trace.states[k][b].velocity);
   const Vec2d gain = run.dt * run.scene.gravity;
@@ -102,11 +196,6 @@ std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
     }
     const std::vector<double> due(speeds.size(), gain.*axis);
     const double slack = std::abs(gain.*axis) * run.dt;  // of a method that moves with the old velocity
-    if (const auto kept = constant_ratio(gain.*axis == 0 ? speeds : gains))
-      return Seen{"damping",
-                  fmt::format("Each step multiplies the velocity by {:.6g} in free flight: nothing "
-                              "here slows the ball, so leave that out.",
-                              *kept)};
     if (const auto digits = decimals(places, moves, slack))
       return Seen{
           "state_rounded",
@@ -125,7 +214,7 @@ std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
     return Seen{
         "speed_limited",
         fmt::format("The speed never exceeds {:.4g} m/s: nothing limits it here, so leave that out.", *most)};
-  return std::nullopt;
+  return wrong_factor(run, b, n);
 }
 
 }  // namespace
@@ -138,7 +227,7 @@ bool flies_freely(const Recorded& run) {
 }
 
 std::optional<Seen> seen_in_flight(const Recorded& run) {
-  if (!run.scene.forces.empty() || !run.scene.joints.empty()) return std::nullopt;
+  if (!forces_are_constant(run.scene) || !run.scene.joints.empty()) return std::nullopt;
   for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
     if (run.scene.bodies[b].type != BodyType::Dynamic || run.scene.bodies[b].shapes.empty()) continue;
     if (auto seen = seen_of(run, b)) return seen;

@@ -61,6 +61,10 @@ double Lab::turn_kept(double w, double time) const {
   return method_.order == 1 ? 1 / std::sqrt(1 + w * w * method_.substep * time) : 1;
 }
 
+double Lab::spin_kept_by_positions(double w, double time) const {
+  return method_.order == 1 ? 1 / std::sqrt(1 + 2 * w * w * method_.substep * time) : 1;
+}
+
 double Lab::coarseness() const { return std::max(1.0, std::pow(60 * settings_.dt, 2)); }
 
 double Lab::way(double v, double a, double time) const {

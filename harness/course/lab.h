@@ -47,6 +47,10 @@ class Lab {
   /// Returns settings with which another engine takes steps and substeps of the same lengths.
   reference::StepSettings plain_settings() const;
 
+  /// Returns false for engines with a tolerance: they refuse joints that begin open, and have no gaps to
+  /// correct.
+  bool corrects_positions() const { return method_.scheme != reference::Scheme::Adaptive; }
+
   double dt() const { return settings_.dt; }          ///< s
   double substep() const { return method_.substep; }  ///< s; 0 if the method adapts its own
   reference::Scheme scheme() const { return method_.scheme; }
@@ -63,6 +67,12 @@ class Lab {
   /// corrects velocities at the end of each tangent step removes (w h)^2/2 a step, so dw/dt = -w^3 h/2.
   /// Returns 1 for other orders.
   double turn_kept(double w, double time) const;
+
+  /// Returns the fraction of a spin of `w` rad/s that a first-order method keeps over `time` s if a step
+  /// moves joined points back together and takes displacement/h for their velocities: the next displacement
+  /// starts along the last chord instead of the tangent, which takes (w h)^2 of w a step, so dw/dt = -w^3 h.
+  /// Returns 1 for other orders.
+  double spin_kept_by_positions(double w, double time) const;
 
   /// Returns the factor on joint gaps, relative to dt = 1/60 s and at least 1: a step along the tangent
   /// leaves a circle by (w dt)^2/2 of its radius.

@@ -2,6 +2,26 @@
 
 // The mistakes whose motion can be computed: those that the learner's engine makes on request.
 namespace plumb::course {
+namespace {
+
+// Causes that several mistakes share.
+constexpr const char* kSlowIsStopped =
+    "What is slow is stopped, and so never begins to move: gravity and forces act on a body at rest as well. "
+    "Leave out what sets small velocities to 0.";
+constexpr const char* kSecondMoment =
+    "A second moment of area stands where the inertia of a mass should: a box has m (w^2 + h^2)/12.";
+constexpr const char* kArmOfTheOther =
+    "An impulse acts at the other body's arm: each body has its own r, from its centre to the point.";
+constexpr const char* kNotOpposite =
+    "The two impulses are not opposite: compute j once, from the velocities before either changes, and apply "
+    "it to both.";
+constexpr const char* kOneNeverSpins =
+    "Only one of the two bodies gets spin from the joint: each changes its w by r x j/I, with its own r and "
+    "I, and a gets the opposite impulse.";
+constexpr const char* kOneEnd =
+    "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
+
+}  // namespace
 
 std::vector<Predictable> predictable_mistakes() {
   return {
@@ -62,6 +82,17 @@ std::vector<Predictable> predictable_mistakes() {
        "The ball moves twice as far as its velocity says: is the position changed twice a step?"},
       {"velocity in the position's change*-1", "moves_backwards", "1",
        "The ball moves against its velocity: add v dt to the position."},
+      {"answers_before_the_step", "a_step_late", "124",
+       "All motion comes a step late: answer with the states after the step; the start is not a sample."},
+      {"first_step_twice", "a_step_ahead", "124",
+       "All motion is a step ahead: the first sample comes after \"every\" steps, and not after one more."},
+      {"speed below which bodies stop*0.2", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies stop*0.3", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies stop*0.5", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies stop*1", "slow_is_stopped", "1", kSlowIsStopped},
+      {"gravity_off_while_touching", "gravity_off_while_touching", "1",
+       "Gravity does nothing in the step after a contact: it acts in each step, also on a body that touches "
+       "something; the contact's impulse holds it up."},
       {"damping", "damping", "1",
        "Each step multiplies the velocity by 0.99: nothing here slows the ball, so leave that out."},
       {"size of a box*2", "whole_sizes", "1",
@@ -87,6 +118,22 @@ std::vector<Predictable> predictable_mistakes() {
        "towards the ball."},
       {"wall_normal_not_unit", "normal_not_unit", "1",
        "The bounce depends on the normal's length: divide the normal by its length."},
+      {"wall_normal_from_centre", "normal_from_centre", "1",
+       "The bounce is along the line from the wall's centre: the normal runs from the wall's nearest point "
+       "to "
+       "the ball's centre."},
+      {"wall_normal_longer_axis", "normal_from_centre", "1",
+       "The normal is the axis along which the ball is farther from the wall's centre: it runs from the "
+       "wall's nearest point to the ball's centre."},
+      {"wall_normal_up", "normal_up", "1",
+       "Each wall answers as a floor does: the normal runs from the wall's nearest point to the ball's "
+       "centre, and is up for the floor alone."},
+      {"wall_normal_along_velocity", "normal_along_velocity", "1",
+       "The bounce is against the velocity: the normal runs from the wall's nearest point to the ball's "
+       "centre, whatever the velocity is."},
+      {"bounce_of_whole_speed", "bounce_of_whole_speed", "13",
+       "The speed along the normal after a bounce is e times the whole speed before it: it is e times the "
+       "part along the normal, -e vn."},
       {"falls_through", "falls_through", "1",
        "The ball goes through the floor: no contact is found, or the velocity is not changed."},
       {"both_turned", "both_turned", "1",
@@ -129,10 +176,12 @@ std::vector<Predictable> predictable_mistakes() {
       {"always_elastic", "restitution_ignored", "1",
        "All of the speed comes back: multiply it by the restitution."},
       {"always_elastic", "always_elastic", "3", "Every collision is elastic: restitution is not used."},
-      {"restitution*0", "restitution_zero", "1", "None of the speed comes back: restitution is not used."},
+      {"restitution*0", "restitution_zero", "1",
+       "None of the speed comes back: restitution is not used, or what it gives is taken back in the same "
+       "step. If you go over contacts several times, compute the bounce -e vn once, before the first time."},
       {"restitution*0", "restitution_ignored", "3",
-       "None of the speed comes back: restitution is not used. If you go over contacts several times, "
-       "compute the bounce once, before the first time."},
+       "None of the speed comes back: restitution is not used, or what it gives is taken back in the same "
+       "step. If you go over contacts several times, compute the bounce -e vn once, before the first time."},
       {"restitution*0.5", "restitution_halved", "13",
        "Half of the restitution acts: is the sum of the two bodies' divided, or the impulse applied in two "
        "halves?"},
@@ -169,6 +218,9 @@ std::vector<Predictable> predictable_mistakes() {
       {"force*2", "force_twice", "24",
        "The force acts twice a step: add it once, and go through forces once."},
       {"force*-1", "force_backwards", "24", "The force pushes backwards: add it, do not subtract it."},
+      {"weight_with_every_force", "weight_with_every_force", "2",
+       "Each force brings the body's weight along: gravity acts once a step and body, whatever the number of "
+       "forces."},
       {"force*9.81", "force_in_kilograms", "2",
        "9.81 times too fast: the force is in newtons already, F/m is the acceleration."},
       {"force*0.1019367991845056", "force_in_kilograms", "2",
@@ -252,6 +304,9 @@ std::vector<Predictable> predictable_mistakes() {
        "They touch at twice the larger radius: they touch at r1 + r2."},
       {"smaller_radius", "smaller_radius", "3",
        "They touch at twice the smaller radius: they touch at r1 + r2."},
+      {"sum_of_squared_radii", "sum_of_squared_radii", "3",
+       "They touch at the root of r1^2 + r2^2: they touch at r1 + r2, whose square is (r1 + r2)^2."},
+      {"mean_of_radii", "mean_of_radii", "3", "They touch at (r1 + r2)/2: they touch at r1 + r2."},
       {"square_of_distance", "square_of_distance", "3",
        "The square of the distance is compared with r1 + r2: compare it with (r1 + r2)^2."},
       {"normal_flipped", "normal_flipped", "3",
@@ -273,6 +328,8 @@ std::vector<Predictable> predictable_mistakes() {
        "The normal of two circles is taken along an axis: it points along the line of centres, (b - a)/|b - "
        "a|."},
       {"normal_along_velocity", "normal_along_velocity", "3",
+       "The impulse follows the velocity: it follows the line of centres."},
+      {"normal_along_approach", "normal_along_velocity", "3",
        "The impulse follows the velocity: it follows the line of centres."},
       {"tangent", "tangent", "3", "The parts along and across the line of centres are mixed up."},
       {"y_of_normal_flipped", "y_of_normal_flipped", "3", "The y of the normal has the wrong sign."},
@@ -365,6 +422,10 @@ std::vector<Predictable> predictable_mistakes() {
       {"inertia_of_one", "inertia_of_one", "45", "The inertia is 1, or forgotten: w grows by torque dt/I."},
       {"inertia_without_mass", "inertia_without_mass", "45",
        "The mass is left out of the inertia: a box has m (w^2 + h^2)/12, a disc m r^2/2."},
+      {"second_moment_of_area", "second_moment_of_area", "45", kSecondMoment},
+      {"second_moment_about_height", "second_moment_of_area", "45", kSecondMoment},
+      {"second_moment_without_mass", "second_moment_of_area", "45", kSecondMoment},
+      {"polar_moment_of_area", "second_moment_of_area", "45", kSecondMoment},
       {"disc_as_ring", "disc_as_ring", "4", "The disc spins as a ring does: m r^2/2, not m r^2."},
       {"disc_as_sphere", "disc_as_sphere", "4", "The disc spins as a sphere does: m r^2/2, not 2/5 m r^2."},
       {"disc_as_box", "disc_as_box", "4", "The disc spins as the box around it does: m r^2/2."},
@@ -432,6 +493,14 @@ std::vector<Predictable> predictable_mistakes() {
       {"largest_overlap", "largest_overlap", "4",
        "The box goes through, or is moved out at the side: the normal is the axis with the least overlap, "
        "not the one with the most."},
+      {"first_arm_for_both", "arm_of_the_other", "4", kArmOfTheOther},
+      {"second_arm_for_both", "arm_of_the_other", "4", kArmOfTheOther},
+      {"arms_swapped", "arm_of_the_other", "4", kArmOfTheOther},
+      {"second_sees_new_velocity", "impulses_not_opposite", "34", kNotOpposite},
+      {"first_sees_new_velocity", "impulses_not_opposite", "34", kNotOpposite},
+      {"each_push_clamped", "sum_not_kept", "34",
+       "An impulse that was too strong is never taken back: keep the sum of each contact's impulses from "
+       "becoming negative, not each impulse by itself."},
       {"one_body_only", "one_body_only", "4",
        "Only the first body gets an impulse: the second gets the opposite one."},
       {"other_body_only", "one_body_only", "4",
@@ -473,7 +542,10 @@ std::vector<Predictable> predictable_mistakes() {
       {"one_corner", "one_corner", "4",
        "Only one corner gets an impulse: a flat landing has two contact points; go over them several times."},
       {"sinks", "sinks", "4", "The box sinks: correct its position by a share of the overlap each step."},
-      {"friction_ignored", "friction_ignored", "4", "The box does not slow down: friction is not used."},
+      {"friction_ignored", "friction_ignored", "4",
+       "The box does not slow down: friction is not used, or its limit becomes 0. The sum of friction's "
+       "impulses in a step is at most mu times the sum of the impulses along the normal, not times the last "
+       "of them."},
       {"friction_unlimited", "friction_unlimited", "4",
        "The box stops at once: the impulse of friction is at most mu times the impulse along the normal."},
       {"friction_backwards", "friction_backwards", "4",
@@ -553,6 +625,24 @@ std::vector<Predictable> predictable_mistakes() {
        "The hinge's impulse never changes the spin: add r x j/I to w."},
       {"joint_without_rotation", "effective_mass_without_rotation", "5",
        "The effective mass of the hinge lacks (r x n)^2/I: its impulse is too strong."},
+      {"joint_spins_the_first_only", "one_body_never_spins", "5", kOneNeverSpins},
+      {"joint_spins_the_second_only", "one_body_never_spins", "5", kOneNeverSpins},
+      {"joint_arms_swapped", "arm_of_the_other", "5", kArmOfTheOther},
+      {"joint_first_arm_for_both", "arm_of_the_other", "5", kArmOfTheOther},
+      {"joint_second_arm_for_both", "arm_of_the_other", "5", kArmOfTheOther},
+      {"stick_only_pulls", "stick_only_pulls", "5",
+       "The stick holds as a rope does, and gives way when its ends are pushed together: its impulse and its "
+       "correction have both signs."},
+      {"stick_only_pushes", "stick_only_pushes", "5",
+       "The stick gives way when its ends are pulled apart: its impulse and its correction have both signs."},
+      {"correction_of_the_first_end_only", "correction_of_one_end", "5", kOneEnd},
+      {"correction_of_the_second_end_only", "correction_of_one_end", "5", kOneEnd},
+      {"correction_turns_backwards", "correction_turns_backwards", "5",
+       "Correcting the hinge's positions turns the bodies the wrong way: the angle changes by (r x push)/I, "
+       "with the push that moves this body."},
+      {"correction_never_turns", "correction_never_turns", "5",
+       "Correcting the hinge's positions moves bodies and does not turn them: the push at the anchor also "
+       "changes the angle by (r x push)/I."},
       {"joined_bodies_collide", "joined_bodies_collide", "5",
        "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not collide, "
        "unless \"collide\" is true."},

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -93,12 +95,16 @@ struct Fit {
   double off;  // distance of the paths over that from the right ones
   // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
   int verdicts = 0, readings = 0;
+  double elsewhere = 0;  ///< largest `off` of the other checks that fail
+  int signs = 0;         ///< checks that see a mistake in its motion, and not in that of the engine
 };
 
 // Runs the checks of a chapter on the learner's engine, each at most once for each mistake.
 class Predictions {
  public:
-  Predictions(const Lab& lab, const std::vector<Outcome>& chapter) : lab_(lab), chapter_(chapter) {}
+  Predictions(const Lab& lab, const std::vector<Outcome>& chapter) : lab_(lab), chapter_(chapter) {
+    for (const Outcome& outcome : chapter) seen_.push_back(outcome.finding.mistake);
+  }
 
   const std::optional<Attempt>& of(const std::string& planted, std::size_t check) {
     const auto [place, is_new] = attempts_.try_emplace({planted, check});
@@ -120,14 +126,50 @@ class Predictions {
         ++fit.verdicts;
       else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
         ++fit.readings;
+      else if (seen.verdict == Verdict::Fail)
+        fit.elsewhere = std::max(fit.elsewhere, off(i, predicted->runs));
+      if (predicted) fit.signs += sees_another(i, predicted->finding);
     }
+    fit.signs += sees_another(check, of(planted, check)->finding);
+  }
+
+  // Returns true if a check sees a mistake in the motion that was predicted, and not in the engine's.
+  bool sees_another(std::size_t check, const Finding& predicted) const {
+    return predicted.observed && predicted.mistake != seen_[check];
+  }
+
+  // Returns the distance of the engine's paths from those of a mistake, over that of the right ones from
+  // them. If only velocities are wrong it is 0: readings decide alone.
+  double off(std::size_t check, const std::vector<Recorded>& wrong) {
+    const auto& right = of("", check);
+    if (!right) return 0;
+    const double way = distance(right->runs, wrong);
+    return way > 1e-9 ? distance(chapter_[check].runs, wrong) / way : 0;
   }
 
  private:
   const Lab& lab_;
   const std::vector<Outcome>& chapter_;
+  std::vector<std::string> seen_;  ///< the mistakes that the checks themselves saw
   std::map<std::pair<std::string, std::size_t>, std::optional<Attempt>> attempts_;
 };
+
+// Returns true if the learner's engine without a mistake fails in the same way: it is the declared method's
+// own motion, and no mistake has to explain it.
+bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::size_t check) {
+  const auto& right = predictions.of("", check);
+  return right && right->finding.verdict == Verdict::Fail && same_readings(outcome.finding, right->finding);
+}
+
+// Returns true if the mistake of a name would fail a check.
+bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predictions,
+                   const std::string& name, std::size_t check) {
+  return std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
+    if (name != mistake.name) return false;
+    const auto& run = predictions.of(mistake.planted, check);
+    return run && run->finding.verdict == Verdict::Fail;
+  });
+}
 
 bool finite(const Finding& finding) {
   return std::all_of(finding.readings.begin(), finding.readings.end(),
@@ -140,23 +182,21 @@ bool better(const Fit& a, const Fit& b) {
 
 // Returns the mistakes that fit, the best first, one for each name.
 std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
-                      const std::vector<Outcome>& chapter, std::size_t check) {
+                      const std::vector<Outcome>& chapter, std::size_t check, const std::string& named) {
   std::vector<Fit> out;
   const Outcome& outcome = chapter[check];
-  const auto right = predictions.of("", check);
-  if (!right) return out;
+  if (!predictions.of("", check)) return out;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
   for (const Predictable& mistake : mistakes) {
-    if (std::string_view(mistake.chapters).find(digit) == std::string_view::npos) continue;
+    const bool belongs = std::string_view(mistake.chapters).find(digit) != std::string_view::npos;
+    if (!belongs && named != mistake.name) continue;
     for (const char* sweeps : {"", ", one sweep"}) {
       const std::string planted = std::string(mistake.planted) + sweeps;
       const auto& wrong = predictions.of(planted, check);
       if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
       if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
-      const double way = distance(right->runs, wrong->runs), off = distance(outcome.runs, wrong->runs);
-      // If only velocities are wrong, readings decide alone.
-      const double share = way > 1e-9 ? off / way : 0;
+      const double share = predictions.off(check, wrong->runs);
       if (!std::isfinite(share) || share > kSamePath) continue;
       out.push_back({&mistake, share});
       predictions.refute(planted, check, out.back());
@@ -172,8 +212,8 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   return names;
 }
 
-void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found, const Outcome& outcome,
-                Finding& finding) {
+// Drops the mistakes that fit clearly worse than the best, here or in the other checks.
+void narrow(std::vector<Fit>& found, const Outcome& outcome) {
   if (!found.empty()) {
     const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
     const Fit best = found.front();
@@ -184,7 +224,30 @@ void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found
       const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
       return fit.off > most || (worse && (fit.off >= least || best.off <= (exact ? kRounding : kEqual)));
     });
+    // So do their motions there, if none is refuted by figures.
+    double nearest = std::numeric_limits<double>::infinity();
+    int signs = std::numeric_limits<int>::max();
+    for (const Fit& fit : found)
+      nearest = std::min(nearest, fit.elsewhere), signs = std::min(signs, fit.signs);
+    std::erase_if(found, [&](const Fit& fit) {
+      return fit.elsewhere > kClearly * std::max(nearest, kEqual) || fit.signs > signs;
+    });
   }
+}
+
+// Keeps one of several mistakes: the one that an earlier check has named, or that alone fits another check.
+void choose(std::vector<Fit>& found, const std::string& known, const std::set<std::string>& alone) {
+  if (found.size() < 2) return;
+  const auto keep = [&](const auto& is_it) {
+    const auto n = std::count_if(found.begin(), found.end(), is_it);
+    if (n == 1) std::erase_if(found, [&](const Fit& fit) { return !is_it(fit); });
+    return n == 1;
+  };
+  if (keep([&](const Fit& fit) { return known == fit.mistake->name; })) return;
+  keep([&](const Fit& fit) { return alone.contains(fit.mistake->name); });
+}
+
+void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>& found, Finding& finding) {
   const auto computed = [&](const std::string& name) {
     return std::any_of(mistakes.begin(), mistakes.end(),
                        [&](const Predictable& mistake) { return name == mistake.name; });
@@ -214,7 +277,7 @@ void name_check(const std::vector<Predictable>& mistakes, std::vector<Fit> found
 
 }  // namespace
 
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter) {
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named) {
   using reference::Scheme;
   const Scheme scheme = lab.scheme();
   if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
@@ -222,11 +285,44 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter) {
     return;
   const std::vector<Predictable> mistakes = predictable_mistakes();
   Predictions predictions(lab, chapter);
+  std::vector<std::vector<Fit>> found(chapter.size());
+  std::set<std::string> alone;
   for (std::size_t i = 0; i < chapter.size(); ++i) {
-    Finding& finding = chapter[i].finding;
+    const Finding& finding = chapter[i].finding;
     if (finding.verdict != Verdict::Fail || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer)
       continue;
-    name_check(mistakes, fits(mistakes, predictions, chapter, i), chapter[i], finding);
+    found[i] = fits(mistakes, predictions, chapter, i, named);
+    narrow(found[i], chapter[i]);
+    if (found[i].size() == 1) alone.insert(found[i].front().mistake->name);
+  }
+  std::string known = named;
+  for (std::size_t i = 0; i < chapter.size(); ++i) {
+    Finding& finding = chapter[i].finding;
+    if (finding.verdict != Verdict::Fail || finding.mistake == kRunsDiffer) continue;
+    if (chapter[i].check->repeatable && !is_the_methods_own(predictions, chapter[i], i)) {
+      choose(found[i], known, alone);
+      name_check(mistakes, found[i], finding);
+    }
+    // Blames no second mistake for what the first one does as well.
+    if (found[i].empty() && !finding.mistake.empty() && finding.mistake != known &&
+        fails_as_well(mistakes, predictions, known, i)) {
+      finding.mistake.clear();
+      finding.says = fmt::format("{}, which is named above, spoils this as well.", known);
+    }
+    finding.computed = std::any_of(found[i].begin(), found[i].end(),
+                                   [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
+    if (known.empty() && finding.computed) known = finding.mistake;
+  }
+  // Gives the only mistake that the motions show to the checks that it fails and that have no name.
+  if (alone.size() != 1 || !alone.contains(known)) return;
+  for (std::size_t i = 0; i < chapter.size() && chapter[i].finding.mistake != known; ++i) {
+    Finding& finding = chapter[i].finding;
+    if (finding.verdict != Verdict::Fail || !finding.mistake.empty() || !found[i].empty()) continue;
+    if (!fails_as_well(mistakes, predictions, known, i)) continue;
+    finding.mistake = known;
+    finding.says = std::find_if(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
+                     return known == mistake.name;
+                   })->says;
   }
 }
 

@@ -24,7 +24,9 @@ std::vector<Predictable> predictable_mistakes();
 /// several, those are refuted that fail other checks of the chapter than the engine does. If one is left, it
 /// gives the check its name. If several are, all are described and none is named. If none is, a name that
 /// stands for certain figures is taken back if the learner's engine can make that mistake: its motion is
-/// another. Does nothing for methods that the learner's engine does not have.
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter);
+/// another. A mistake that is named, by an earlier check or as `named` of an earlier chapter (or empty), is
+/// preferred wherever it fits, and another name is taken back where it would fail as well. Does nothing for
+/// methods that the learner's engine does not have.
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named = "");
 
 }  // namespace plumb::course

@@ -8,12 +8,25 @@ namespace plumb::harness::hunt {
 
 namespace {
 
-// Checks two of the relations per scene, in turn, because each costs a run or more; or the one called `law`.
+// Judges that cost no more than the run itself, or that each scene of theirs is made for.
+bool is_always_due(const std::string& name) {
+  return name == "life" || name == "twins" || name == "collisions" || name == "integrated" ||
+         name == "formulas" || name == "wind" || name == "as_formulas";
+}
+
+// Checks two of the relations per scene, in turn, because each costs a run or more, and those that are always
+// due; or the one called `law`.
 void check_some(const std::vector<Relation>& relations, const Engine& engine, const Case& one,
                 const std::string& law, const Motion& motion, Examined& out) {
   std::vector<const Relation*> apply;
-  for (const Relation& each : relations)
-    if ((law.empty() || each.name == law) && each.applies(one, engine)) apply.push_back(&each);
+  for (const Relation& each : relations) {
+    if ((!law.empty() && each.name != law) || !each.applies(one, engine)) continue;
+    if (law.empty() && is_always_due(each.name)) {
+      if (Verdict verdict = each.judge(one, engine, motion)) out.objections.push_back(std::move(*verdict));
+    } else {
+      apply.push_back(&each);
+    }
+  }
   const std::size_t count = apply.size();
   for (std::size_t i = 0; i < count; ++i) {
     const bool due = i == one.index % count || i == (one.index / count + one.index + 1) % count;

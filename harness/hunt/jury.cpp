@@ -13,7 +13,7 @@ namespace plumb::harness::hunt {
 
 namespace {
 
-constexpr double kSeconds = 2;     // time limit of another engine
+constexpr double kSeconds = 0.5;   // time limit of another engine
 constexpr double kShare = 0.2;     // of the largest body
 constexpr std::size_t kMost = 12;  // largest number of dynamic bodies for Precise
 constexpr double kCalm = 0.02;

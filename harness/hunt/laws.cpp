@@ -13,6 +13,9 @@ namespace {
 // Semi-implicit Euler conserves an energy that differs from the true one by a fraction of w h / 2.
 constexpr double kEnergyShare = 0.02, kMostShare = 0.3;
 constexpr double kPreciseShare = 1e-5;
+// s, of processor time, that a body or joint may cost in a step: thirty times that of the costliest scenes
+// drawn, so that a slow machine is not taken for a search without end.
+constexpr double kCost = 1e-3;
 
 /// Energies that bound a motion's energy.
 struct Budget {
@@ -103,7 +106,8 @@ const std::vector<Law>& laws() {
                                     {"angular_momentum", angular_momentum_law},
                                     {"events", event_law},
                                     {"sensors", sensor_law},
-                                    {"sleep", sleep_law}};
+                                    {"sleep", sleep_law},
+                                    {"cost", cost_law}};
   return all;
 }
 
@@ -113,6 +117,31 @@ Verdict finite_law(const Case& one, const Engine&, const Motion& motion) {
                    .what = motion.failure,
                    .right = "the run goes on to its end, and every number is finite",
                    .time = static_cast<double>(motion.samples.size()) * one.dt};
+}
+
+Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
+  if (!engine.is_world() || motion.costs.empty()) return {};
+  const double most = kCost * static_cast<double>(1 + one.scene.bodies.size() + one.scene.joints.size());
+  for (std::size_t k = 0; k < motion.costs.size(); ++k) {
+    if (motion.costs[k] <= most) continue;
+    // Other processes may have held it up: a step that is slow takes as long each time.
+    double least = motion.costs[k];
+    for (int again = 0; again < 3 && least > most; ++again) {
+      Case part = one;
+      part.steps = static_cast<int>(k) + 1;
+      const Motion other = run(engine, part);
+      least = other.costs.size() > k ? std::min(least, other.costs[k]) : 0;
+    }
+    if (least <= most) continue;
+    return Objection{.judge = "cost",
+                     .what = fmt::format("step {} takes {:.3g} s", k + 1, least),
+                     .right = "a step's work is bounded by how many bodies and joints there are",
+                     .figure = least,
+                     .bound = most,
+                     .unit = "s",
+                     .time = static_cast<double>(k + 1) * one.dt};
+  }
+  return {};
 }
 
 Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) {

@@ -37,6 +37,7 @@ struct Motion {
   };
   std::vector<EventFault> event_faults{};
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
+  std::vector<double> costs{};               ///< s of processor time, of each step of a World
   std::vector<Digest> digests{};             ///< of a World after each step, if asked for
   std::string broken_promise{};              ///< of a World in a guise, in one line; empty if there is none
 };
@@ -58,7 +59,7 @@ struct RunOptions {
   Guise guise = Guise::Plain;         ///< of a World
   bool digests = false;               ///< fills `Motion::digests`
   std::optional<double> tolerance{};  ///< of an engine that chooses its steps; none: its own
-  double seconds = 5;                 ///< limit of processor time
+  double seconds = 2;                 ///< limit of processor time
 };
 
 /// Returns why `engine` does not support `one`; empty if it does.

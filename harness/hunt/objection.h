@@ -44,5 +44,6 @@ Verdict expectation_law(const Case& one, const Engine& engine, const Motion& mot
 Verdict event_law(const Case& one, const Engine& engine, const Motion& motion);
 Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion);
 Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion);
+Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion);
 
 }  // namespace plumb::harness::hunt

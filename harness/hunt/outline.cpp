@@ -108,6 +108,37 @@ double width_of(const Outline& outline) {
   return least + 2 * outline.radius;
 }
 
+AreaMoments moments_of(const Outline& outline) {
+  // Directions in which the outline's farthest points are its corners, or points of its arcs.
+  constexpr int kDirections = 360;
+  const Vec2d origin = outline.core.front();
+  std::vector<Vec2d> points;
+  for (int i = 0; i < kDirections && outline.radius > 0; ++i) {
+    const Rotation<double> turn = rotation_of(6.283185307179586 * i / kDirections);
+    const Vec2d to{turn.c, turn.s};
+    Vec2d best = outline.core.front();
+    for (const Vec2d p : outline.core)
+      if (dot(p, to) > dot(best, to)) best = p;
+    points.push_back(best - origin + outline.radius * to);
+  }
+  for (std::size_t i = 0; i < outline.core.size() && outline.radius == 0; ++i)
+    points.push_back(outline.core[i] - origin);
+  AreaMoments out;
+  double about_origin = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2d a = points[i], b = points[(i + 1) % points.size()];
+    const double twice = cross(a, b);
+    out.area += twice / 2;
+    out.centroid += (twice / 6) * (a + b);
+    about_origin += twice / 12 * (dot(a, a) + dot(a, b) + dot(b, b));
+  }
+  if (out.area <= 0) return {};
+  out.centroid = (1 / out.area) * out.centroid;
+  out.second = about_origin - out.area * dot(out.centroid, out.centroid);
+  out.centroid += origin;
+  return out;
+}
+
 double reach_of(const Outline& outline) {
   double most = 0;
   for (const Vec2d p : outline.core) most = std::max(most, length(p));

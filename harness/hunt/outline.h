@@ -30,4 +30,13 @@ double separation(const Outline& a, const Outline& b);
 double width_of(const Outline& outline);
 double reach_of(const Outline& outline);
 
+/// Area of an outline, m^2, its centroid, m, and its second moment about that, m^4.
+struct AreaMoments {
+  double area = 0, second = 0;
+  Vec2d centroid{};
+};
+
+/// Returns the moments by Green's theorem; round outlines as a polygon, with an error of 1e-4.
+AreaMoments moments_of(const Outline& outline);
+
 }  // namespace plumb::harness::hunt

@@ -81,6 +81,7 @@ Verdict overrun(const Case& one, const Engine& engine, const Motion&) {
 }
 
 bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }
+bool is_plumb(const Case&, const Engine& engine) { return engine.kind != Engine::Kind::Other; }
 bool simulates(const Case& one, const Engine& engine) {
   return !one.world_only() && engine.kind != Engine::Kind::Other;
 }
@@ -98,6 +99,10 @@ const std::vector<Relation>& promises() {
                                          {"refused", is_world, refused},
                                          {"labels", is_world, labelled},
                                          {"overrun", is_world, overrun},
+                                         {"life", is_world, life},
+                                         {"wind", is_world, wind},
+                                         {"formulas", is_plumb, formulas},
+                                         {"twins", is_world, twins},
                                          {"simulation_restore", simulates, simulation_restored},
                                          {"simulation_stages", simulates, simulation_stages},
                                          {"simulation_stop", simulates_world, simulation_stops},

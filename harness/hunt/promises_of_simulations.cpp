@@ -15,7 +15,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr int kMostSteps = 150;
-constexpr rlim_t kSeconds = 5;  // of processor time, of Precise
+constexpr rlim_t kSeconds = 2;  // of processor time, of Precise
 
 Realtime realtime_of(const Case& one, const Engine& engine) {
   return {.dt = one.dt,

@@ -186,6 +186,7 @@ bool unscaled(const Case& one, const Engine& engine) {
 }
 bool is_precise(const Case&, const Engine& engine) { return engine.kind == Engine::Kind::Precise; }
 bool plain_world(const Case& one, const Engine& engine) { return plain(one, engine) && engine.is_world(); }
+bool smooth_discs(const Case& one, const Engine&) { return are_smooth_discs(one); }
 bool law_free(const Case& one, const Engine& engine) {
   return plain(one, engine) &&
          std::none_of(one.scene.forces.begin(), one.scene.forces.end(), [](const auto& law) {
@@ -238,7 +239,9 @@ const std::vector<Relation>& relations() {
                                          {"jury", plain, jury_relation},
                                          {"sampling", is_precise, sampling},
                                          {"tolerance", is_precise, tolerance},
-                                         {"integrated", plain, integrated_relation}};
+                                         {"integrated", plain, integrated_relation},
+                                         {"as_formulas", has_laws_as_formulas, as_formulas_relation},
+                                         {"collisions", smooth_discs, collisions_relation}};
   return all;
 }
 

@@ -19,10 +19,18 @@ const std::vector<Relation>& relations();
 Verdict precise_relation(const Case& one, const Engine& engine, const Motion& motion);
 Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion);
 Verdict integrated_relation(const Case& one, const Engine& engine, const Motion& motion);
+Verdict collisions_relation(const Case& one, const Engine& engine, const Motion& motion);
 
 /// Returns true if the harness itself can integrate the motion up to the first contact: there are forces,
 /// but no joints or locks.
 bool integrable(const Case& one);
+
+Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion& motion);
+/// Returns true if all force laws of a case can be written as formulas, and there are some.
+bool has_laws_as_formulas(const Case& one, const Engine& engine);
+
+/// Returns true if the harness itself knows how bodies collide: discs without friction or gravity.
+bool are_smooth_discs(const Case& one);
 
 /// Returns the distance of two motions at each sample, m: that of the dynamic body that is farthest off,
 /// including its rotation times its reach.

@@ -114,6 +114,21 @@ class EventBook {
   std::map<Key, std::size_t> bodies_;
 };
 
+/// Returns true if joints that do not break hold springs, or motors with a speed: they do work.
+bool is_driven_by_joints(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+    return std::visit(
+        [](const auto& j) {
+          if (j.break_force > 0 || j.break_torque > 0) return false;
+          bool drives = false;
+          if constexpr (requires { j.spring.has_value(); }) drives = j.spring.has_value();
+          if constexpr (requires { j.motor->speed; }) drives = drives || (j.motor && j.motor->speed != 0);
+          return drives;
+        },
+        joint);
+  });
+}
+
 /// Sets the width of vector registers for as long as it lives.
 class WithWidth {
  public:
@@ -167,8 +182,14 @@ class Run {
         const double dt = step_of(step) / options_.refine;
         forces.apply(world_, dt);
         if (monitor_) monitor_->begin_step();
+        const double from = processor_seconds();
         world_.step(dt, case_.substeps);
-        if (monitor_) monitor_->end_step();
+        if (part == 0) out.costs.push_back(processor_seconds() - from);
+        if (monitor_)
+          if (const auto error = monitor_->end_step();
+              error && case_.actions.empty() && is_driven_by_joints(case_.scene) &&
+              std::string(error->what()).find("energy") != std::string::npos)
+            out.broken_promise = fmt::format("a monitor takes a drive's work for a fault: {}", error->what());
         if (!world_.events().quarantined.empty()) {
           const QuarantineEvent& bad = world_.events().quarantined.front();
           out.failure = fmt::format("body '{}' was quarantined at step {}: {} is {}", bad.name, step + 1,

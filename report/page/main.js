@@ -102,9 +102,12 @@ function verdict(row) {
   return `in ${row.worse} of ${row.points}${noise ? (noise === row.worse ? ", within noise" : `, ${noise} within noise`) : ""}`;
 }
 
+// A label may be broken after its slashes, rather than within a word.
+const breakable = (label) => label.split(/(?<=\/)/).flatMap((part, i) => (i > 0 ? [make("wbr"), part] : [part]));
+
 function standingTable() {
   return table([
-    {name: "scene", text: (row) => make("a", {href: "#", text: row.label, click: (event) => { event.preventDefault(); goTo(row.label); }}),
+    {name: "scene", text: (row) => make("a", {href: "#", click: (event) => { event.preventDefault(); goTo(row.label); }}, ...breakable(row.label)),
       value: (row) => row.label},
     {name: "rival", text: (row) => row.rival},
     {name: "plumb is worse", text: verdict,

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Checks that each folder of engine/ compiles as one source, as the preset `library` does: names that are hidden in a
-file (anonymous namespaces) are unique within their folder, or shared by a header.
+"""Checks that each folder of engine/ and scenarios/ compiles as one source, as the preset `library` and the page for
+browsers do: names that are hidden in a file (anonymous namespaces) are unique within their folder, or shared by a header;
+each scenario has a namespace of its own.
 
     folders.py BUILD     a build folder with compile_commands.json
 
@@ -23,11 +24,14 @@ OPTIONS_OF_THEIR_OWN = "-fno-tree-slp-vectorize"
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    engine = pathlib.Path(__file__).resolve().parents[2] / "engine"
+    root = pathlib.Path(__file__).resolve().parents[2]
+    engine = root / "engine"
     folders = collections.defaultdict(list)
     for entry in json.loads((pathlib.Path(sys.argv[1]) / "compile_commands.json").read_text(encoding="utf-8")):
         file = pathlib.Path(entry["file"])
-        if engine not in file.parents or str(file.relative_to(engine)) in APART:
+        if engine not in file.parents and root / "scenarios" not in file.parents:
+            continue
+        if engine in file.parents and str(file.relative_to(engine)) in APART:
             continue
         if OPTIONS_OF_THEIR_OWN not in entry["command"]:
             folders[file.parent].append(entry)
@@ -45,7 +49,7 @@ def main():
                                  capture_output=True, text=True)
         if run.returncode != 0:
             wrong += 1
-            print(f"{folder.relative_to(engine.parent)}: names of its files collide, or cannot be compiled as one source")
+            print(f"{folder.relative_to(root)}: names of its files collide, or cannot be compiled as one source")
             print("\n".join(line for line in run.stderr.splitlines() if "error" in line)[:2000])
     print(f"{len(folders)} folders, {wrong} problems")
     return 1 if wrong else 0

@@ -114,8 +114,25 @@ constexpr Seed kSeeds[] = {
     {"inertia_sixth", "hinged_rod", "inertia_sixth"},
     {"too_few_iterations", "chain_swings", "too_few_iterations"},
     {"joint_ignored", "ragdoll_flies", "joint_ignored"},
-    {"stick_one_body_only", "ragdoll_flies", "momentum_not_kept"},
-    {"joint_ignored", "ragdoll_drops", "comes_apart"},
+    {"stick_one_body_only", "ragdoll_flies", "one_body_only"},
+    {"joint_ignored", "ragdoll_drops", "joint_ignored"},
+    {"answers_before_the_step", "falls", "a_step_late"},
+    {"first_step_twice", "falls", "a_step_ahead"},
+    {"speed below which bodies stop*0.3", "falls", "slow_is_stopped"},
+    {"wall_normal_from_centre", "bounces", "normal_from_centre"},
+    {"bounce_of_whole_speed", "bounces", "bounce_of_whole_speed"},
+    {"gravity_off_while_touching", "settles", "gravity_off_while_touching"},
+    {"weight_with_every_force", "forces_add", "weight_with_every_force"},
+    {"sum_of_squared_radii", "heavy_hits_light", "sum_of_squared_radii"},
+    {"normal_along_approach", "oblique", "normal_along_velocity"},
+    {"second_sees_new_velocity", "equal_masses_swap", "impulses_not_opposite"},
+    {"second_moment_of_area", "torque_spins", "second_moment_of_area"},
+    {"first_arm_for_both", "ball_hits_rod", "arm_of_the_other"},
+    {"each_push_clamped", "lands_flat", "sum_not_kept"},
+    {"joint_spins_the_second_only", "hinge_turns_both", "one_body_never_spins"},
+    {"correction_of_the_second_end_only", "stick_weighs_masses", "correction_of_one_end"},
+    {"stick_only_pulls", "stick_weighs_masses", "stick_only_pulls"},
+    {"correction_turns_backwards", "hinged_rod", "correction_turns_backwards"},
 };
 
 // Runs the whole chapter: what a mistake does in the other checks tells it from others.
@@ -155,6 +172,10 @@ TEST(Mistakes, EachIsRecognisedByName) {
       ++described;
       continue;
     }
+    // Accepts that an earlier check has named it.
+    if (finding.mistake.empty() &&
+        finding.says.starts_with(std::string(seed.recognised) + ", which is named"))
+      continue;
     EXPECT_EQ(finding.mistake, seed.recognised)
         << seed.planted << " in " << seed.check << ": " << finding.says << readings;
   }

@@ -190,9 +190,9 @@ FEATURES = [
     feature("Mechanisms of hinges (pendulums, chains, levers, trees)", WORLD + "joint_solver/hinge_tree.cpp",
             "constexpr double kClosed = 1e-11;", "constexpr double kClosed = 1e-5;", "world/hinge_trees"),
     feature("Direct solve of articulated islands", WORLD + "islands/direct_islands.cpp",
-            "(!alike || w.settings.solver == Solver::Direct)", "!alike", "world/direct_solver"),
+            "const bool always = !alike || w.settings.solver == Solver::Direct;", "const bool always = !alike;", "world/direct_solver"),
     feature("Jointed islands of unlike masses", WORLD + "islands/direct_islands.cpp",
-            "(!alike || w.settings.solver == Solver::Direct)", "w.settings.solver == Solver::Direct", "world/mechanisms"),
+            "const bool always = !alike || w.settings.solver == Solver::Direct;", "const bool always = w.settings.solver == Solver::Direct;", "world/mechanisms"),
     feature("Closing of joints that a shock has opened", WORLD + "solvers/soft_step.cpp",
             "close_joint_gaps(w, h, substeps);", "(void)0;", "world/mechanisms"),
 

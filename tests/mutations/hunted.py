@@ -41,7 +41,10 @@ ENGINES = {
     "simulation": "plumb",
     "agreement": "plumb-float,plumb",
     "precise": "plumb-precise",
+    "scene": "plumb-float,plumb",
 }
+# Of the programs and builds, beside what else a machine does.
+NICE = "10"
 # Scenes that are drawn before findings are looked at again.
 BATCH = 25
 # Shares of the time that each bug gets in a round, before any gets more.
@@ -85,7 +88,7 @@ class Hunt:
             if len(self.scenes) >= scenes:
                 return
             self.folder.mkdir(parents=True, exist_ok=True)
-            command = ["nice", "-n", "19", self.program, "hunt", "--engine", self.engines, "--jobs", "1", "--shrinks", "0",
+            command = ["nice", "-n", NICE, self.program, "hunt", "--engine", self.engines, "--jobs", "1", "--shrinks", "0",
                        "--seed", self.seed, "--scenes", scenes, "--out", self.folder]
             child = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL,
                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -139,7 +142,7 @@ class Bench:
             try:
                 if bug:
                     file.write_text(bug.apply(text), encoding="utf-8")
-                checkout_copy.run(["nice", "-n", "19", "ninja", "-C", self.build, "programs"])
+                checkout_copy.run(["nice", "-n", NICE, "ninja", "-C", self.build, "programs"])
             finally:
                 file.write_text(text, encoding="utf-8")
             folder.mkdir(parents=True, exist_ok=True)

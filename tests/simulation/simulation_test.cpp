@@ -204,12 +204,12 @@ TEST(Simulation, GoldenHashes) {
     double restitution;
     std::uint64_t hash;
   } table[] = {
-      {Precision::Double, Solver::SoftSteps, 0.0, 5729274271429572295ull},
-      {Precision::Double, Solver::SoftSteps, 0.5, 17745963885277470914ull},
-      {Precision::Double, Solver::Direct, 0.5, 4270586826982709517ull},
-      {Precision::Float, Solver::SoftSteps, 0.0, 2513220054713266788ull},
-      {Precision::Float, Solver::SoftSteps, 0.5, 2178720544711267887ull},
-      {Precision::Float, Solver::Direct, 0.5, 14202110481890469868ull},
+      {Precision::Double, Solver::SoftSteps, 0.0, 14646895679324977463ull},
+      {Precision::Double, Solver::SoftSteps, 0.5, 12613079225320208656ull},
+      {Precision::Double, Solver::Direct, 0.5, 15361967362842508ull},
+      {Precision::Float, Solver::SoftSteps, 0.0, 17570903860675857906ull},
+      {Precision::Float, Solver::SoftSteps, 0.5, 14502317201720121837ull},
+      {Precision::Float, Solver::Direct, 0.5, 9080785023232269465ull},
   };
   for (const auto& row : table) {
     Simulation world =

@@ -61,6 +61,26 @@ TEST(Rasteriser, ColoursAreMixedBetweenCorners) {
   for (int x = 10; x < 70; ++x) EXPECT_NEAR(canvas.at(x, 30).r, 255 * (x + 0.5 - 10) / 60, 1) << x;
 }
 
+// A colon's glyph is a column 1 px wide, far from the texture's origin: its dots have the whole colour.
+TEST(Rasteriser, NarrowGlyphsHaveTheirWholeColour) {
+  for (const char* text : {":", "'", "|", "."}) {
+    const Canvas canvas = drawn([&](ImDrawList& list) { list.AddText({40, 20}, 0xffffffff, text); });
+    int whole = 0, partly = 0;
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        const int value = canvas.at(x, y).r;
+        if (value == 255) {
+          ++whole;
+        } else if (value > 0) {
+          ++partly;
+        }
+      }
+    }
+    EXPECT_GT(whole, 0) << text;
+    EXPECT_EQ(partly, 0) << text;
+  }
+}
+
 TEST(Rasteriser, NothingIsPaintedOutsideTheClip) {
   const Canvas canvas = drawn([](ImDrawList& list) {
     list.PushClipRect({20, 20}, {30, 30});

@@ -201,7 +201,7 @@ TYPED_TEST(Mechanisms, AWeldedGridThatLandsLiesStill) {
 
 // Draws whose bodies hang on what stops them: they fell ever faster without falling.
 TYPED_TEST(Mechanisms, WhatIsStoppedGainsNoEnergy) {
-  for (const std::uint64_t seed : {89, 233, 310, 464, 575, 813, 1122}) {
+  for (const std::uint64_t seed : {89, 233, 310, 464, 575, 813, 1122, 8314}) {
     Draw draw(seed);
     const Plan plan = test::draw_plan(draw);
     auto m = test::build<TypeParam>(plan, seed);
@@ -214,6 +214,7 @@ TYPED_TEST(Mechanisms, WhatIsStoppedGainsNoEnergy) {
 TYPED_TEST(Mechanisms, DrawnAtRandomGainNoEnergy) {
   const char* more = std::getenv("PLUMB_PROPERTY_CASES");
   const std::uint64_t cases = 60 * (more != nullptr ? std::strtoull(more, nullptr, 10) : 1);
+  std::uint64_t open = 0;
   for (std::uint64_t seed = 0; seed < cases; ++seed) {
     Draw draw(seed);
     const Plan plan = test::draw_plan(draw);
@@ -221,13 +222,100 @@ TYPED_TEST(Mechanisms, DrawnAtRandomGainNoEnergy) {
     const Verdict v = test::run_mechanism(m, 120);
     ASSERT_FALSE(v.lost) << "seed " << seed << ": " << plan.text();
     EXPECT_LT(v.growth, 0.02) << "seed " << seed << ": " << plan.text();
+    open += v.gap < 0.01 ? 0 : 1;
+  }
+  EXPECT_LE(15 * open, cases);  // of 10,000 draws 3 % open by more than 1 % of their shortest link
+}
+
+// A straight bridge between two hooks pulls at them with a force that only rounding limits. The iterations
+// that take it over, as soon as its hinges have brakes, must not start from that.
+TYPED_TEST(Mechanisms, LeftToIterationsTheyGainNoEnergy) {
+  constexpr int kPlanks = 26;
+  Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};
+  const BodyId ground = m.world.create_body({.type = BodyType::Static});
+  std::vector<RevoluteDefinition> hinges;
+  BodyId last = ground;
+  for (int i = 0; i <= kPlanks; ++i) {
+    const BodyId next = i == kPlanks
+                            ? ground
+                            : m.world.create_body({.position = {i + 0.5, 0}},
+                                                  {.geometry = Box{1, 0.2}, .filter = {.group = -1}});
+    hinges.push_back(
+        {.anchor_a = {i == 0 ? 0.0 : 0.5, 0}, .anchor_b = {next == ground ? double(kPlanks) : -0.5, 0}});
+    m.joints.push_back(m.world.create_joint(last, next, {.kind = hinges.back()}));
+    if (next != ground) m.bodies.push_back(next);
+    last = next;
+  }
+  m.world.step();
+  const double start = m.energy(), unit = kPlanks * m.world.mass(m.bodies[0]) * 9.81;
+  for (std::size_t i = 0; i < hinges.size(); ++i) {
+    hinges[i].motor = Motor{.speed = 0, .max_force = 0.1};
+    m.world.change(m.joints[i], hinges[i]);
+  }
+  for (int i = 0; i < 120; ++i) {
+    m.world.step();
+    ASSERT_LT(m.energy(), start + 1e-3 * unit) << "step " << i;
   }
 }
 
-// Iterations leave open what a shock opens within a step: here the last link of a chain is given 10 m/s
-// across it. The gaps are closed in the metric of the masses, which moves no centre of mass.
+// Draws that have just struck a floor, solved as one, are left to iterations: these must not start from the
+// impulses that stopped them.
+TYPED_TEST(Mechanisms, LeftToIterationsAfterAnImpactTheyGainNoEnergy) {
+  int struck = 0;
+  for (const std::uint64_t seed : {18, 32, 41, 62, 181, 233, 6123, 7432, 8543}) {
+    Draw draw(seed);
+    const Plan plan = test::draw_plan(draw);
+    auto m = test::build<TypeParam>(plan, seed, {.solver = Solver::Direct});
+    const double start = m.energy();
+    double before = start, scale = 0;
+    for (const BodyId b : m.bodies) scale += m.world.mass(b) * 9.81 * m.size;
+    for (int i = 0; i < 120 && m.energy() > start - 0.02 * scale; ++i) before = m.energy(), m.world.step();
+    if (m.energy() > before - 0.02 * scale) continue;
+    ++struck;
+    const double after = m.energy();
+    m.world.set_solver(Solver::SequentialImpulses);
+    for (int i = 0; i < 10; ++i) {
+      m.world.step();
+      EXPECT_LT(m.energy(), after + 0.02 * scale) << "seed " << seed << ", step " << i << ": " << plan.text();
+    }
+  }
+  EXPECT_GE(struck, 5);
+}
+
+// A parallelogram of cranks of 1 m passes its flat positions, where it could also turn over: its coupler
+// would no longer keep its direction. It stays on its branch, and keeps its speed, for 13 and 32 turns.
+TYPED_TEST(Mechanisms, AParallelogramPassesItsFlatPositions) {
+  for (const double spin : {4.0, 10.0}) {
+    BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+    const BodyId ground = world.create_body({.type = BodyType::Static});
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    const auto link = [&](Vec2d at, double angle, Vec2d velocity, double turns, double length) {
+      return world.create_body(
+          {.position = at, .angle = angle, .velocity = velocity, .angular_velocity = turns},
+          {.geometry = Box{length, 0.05}, .filter = {.group = -1}});
+    };
+    const auto hinge = [&](BodyId a, BodyId b, double at_a, double at_b) {
+      world.create_joint(a, b, {.kind = RevoluteDefinition{.anchor_a = {at_a, 0}, .anchor_b = {at_b, 0}}});
+    };
+    const Vec2d middle{-0.5 * s * spin, 0.5 * c * spin};
+    const BodyId first = link({0.5 * c, 0.5 * s}, 0.3, middle, spin, 1);
+    const BodyId second = link({3 + 0.5 * c, 0.5 * s}, 0.3, middle, spin, 1);
+    const BodyId coupler = link({1.5 + c, s}, 0, 2.0 * middle, 0, 3);
+    hinge(ground, first, 0, -0.5), hinge(ground, second, 3, -0.5);
+    hinge(first, coupler, 0.5, -1.5), hinge(coupler, second, 1.5, 0.5);
+    for (int i = 0; i < 1200; ++i) {
+      world.step();
+      ASSERT_LT(std::abs(world.angle(coupler)), 2e-3) << spin << " rad/s, step " << i;
+    }
+    EXPECT_NEAR(world.angular_velocity(first), spin, 0.01 * spin);
+  }
+}
+
+// Iterations, which chains of more than 16 limits are left to, leave open what a shock opens within a step:
+// here the last link of a chain is given 10 m/s across it. The gaps are closed in the metric of the masses,
+// which moves no centre of mass.
 TYPED_TEST(Mechanisms, AShockOpensNoChain) {
-  Plan plan{.layout = Layout::Chain, .ties = Ties::Limits, .count = 10};
+  Plan plan{.layout = Layout::Chain, .ties = Ties::Limits, .count = 20};
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     auto m = test::build<TypeParam>(plan, seed);
     if (m.joints.size() == m.bodies.size()) continue;  // hung up
@@ -251,9 +339,8 @@ TYPED_TEST(Mechanisms, AShockOpensNoChain) {
   }
 }
 
-// A gap counts as a share of the rod, however small the bob: the rod of a fast pendulum is 0.14 % too long at
-// the rate at which iterations balance the pull. Closing this in each step takes 13 % of m g l in 4 s from a
-// bob of 2 cm; iterations alone are off by 0.7 %.
+// A gap counts as a share of the rod, however small the bob: where iterations balance the pull, the rod of a
+// fast pendulum is 0.14 % too long. Closing this in each step takes 13 % of m g l in 4 s from a bob of 2 cm.
 TYPED_TEST(Mechanisms, AFastPendulumOnARodKeepsItsEnergy) {
   for (const double radius : {0.2, 0.02}) {
     Mechanism<TypeParam> m{BasicWorld<TypeParam>{WorldDefinition{}}};

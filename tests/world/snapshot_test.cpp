@@ -323,5 +323,92 @@ TEST(Snapshot, HoldsBodiesOfAnySize) {
   goes_round();
 }
 
+// A world keeps what it has found out about its islands and mechanisms until something changes it; a restored
+// one finds it anew.
+TYPED_TEST(Snapshot, AfterEachCallARestoredWorldGoesOnAlike) {
+  using W = BasicWorld<TypeParam>;
+  using Call = void (*)(W&, BodyId, JointId);
+  const std::pair<const char*, Call> calls[] = {
+      {"no call", [](W&, BodyId, JointId) {}},
+      {"set_direct_islands", [](W& w, BodyId, JointId) { w.set_direct_islands(false); }},
+      {"set_direct_islands on", [](W& w, BodyId, JointId) { w.set_direct_islands(true); }},
+      {"set_solver", [](W& w, BodyId, JointId) { w.set_solver(Solver::Direct); }},
+      {"set_solver XPBD", [](W& w, BodyId, JointId) { w.set_solver(Solver::Xpbd); }},
+      {"set_iterations", [](W& w, BodyId, JointId) { w.set_iterations(7); }},
+      {"set_sleeping", [](W& w, BodyId, JointId) { w.set_sleeping(false); }},
+      {"set_gravity",
+       [](W& w, BodyId, JointId) {
+         w.set_gravity({1, 0});
+       }},
+      {"set_continuous", [](W& w, BodyId, JointId) { w.set_continuous(false); }},
+      {"set_thresholds", [](W& w, BodyId, JointId) { w.set_thresholds({.sleep = 0.5}); }},
+      {"set_locks", [](W& w, BodyId body, JointId) { w.set_locks(body, true, false, false); }},
+      {"set_type", [](W& w, BodyId body, JointId) { w.set_type(body, BodyType::Static); }},
+      {"set_mass", [](W& w, BodyId body, JointId) { w.set_mass(body, {.mass = 900, .inertia = 100}); }},
+      {"set_enabled", [](W& w, BodyId body, JointId) { w.set_enabled(body, false); }},
+      {"set_awake", [](W& w, BodyId body, JointId) { w.set_awake(body, false); }},
+      {"set_position", [](W& w, BodyId body, JointId) { w.set_position(body, {0.3, 0.1}, 1); }},
+      {"change", [](W& w, BodyId, JointId joint) { w.change(joint, WeldDefinition{.anchor_b = {0, 1}}); }},
+      {"destroy a joint", [](W& w, BodyId, JointId joint) { w.destroy(joint); }},
+      {"destroy a body", [](W& w, BodyId body, JointId) { w.destroy(body); }}};
+  for (const bool direct : {true, false}) {
+    for (const auto& [name, call] : calls) {
+      W world({.sleeping = false, .direct_islands = direct});
+      const BodyId ground =
+          world.create_body({.type = BodyType::Static, .position = {0, -9}}, {.geometry = Box{90, 1}});
+      const BodyId bob = world.create_body({.position = {1, -1}}, {.geometry = Box{0.5, 0.5}});
+      const JointId hinge = world.create_joint(
+          ground, bob, {.kind = RevoluteDefinition{.anchor_a = {0, 9}, .anchor_b = {-1, 1}}});
+      BodyId last = ground;
+      for (int i = 0; i < 3; ++i) {
+        const BodyId next = world.create_body({.position = {9.5 + i, 0}},
+                                              {.geometry = Box{0.9, 0.2}, .density = 1 + 30.0 * i});
+        world.create_joint(last, next,
+                           {.kind = RevoluteDefinition{.anchor_a = i == 0 ? Vec2d{9, 9} : Vec2d{0.5, 0},
+                                                       .anchor_b = {-0.5, 0}}});
+        last = next;
+      }
+      for (int i = 0; i < 4; ++i)
+        world.create_body({.position = {-9, -8.0 + 1.01 * i}}, {.geometry = Box{1, 1}});
+      for (int i = 0; i < 40; ++i) world.step();
+      call(world, bob, hinge);
+      W restored;
+      restore(restored, save(world));
+      for (int i = 0; i < 20; ++i) {
+        world.step(), restored.step();
+        ASSERT_EQ(full_hash(world), full_hash(restored))
+            << name << (direct ? ", with" : ", without") << " direct islands, step " << i;
+      }
+    }
+  }
+}
+
+// The rules of a pulley and a ratchet follow from what they have met since they were made, and a joint that
+// sleeps is not prepared for a step.
+TYPED_TEST(Snapshot, JointsThatSleepReadAsBefore) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}});
+  const BodyId ground = world.create_body({.type = BodyType::Static});
+  const BodyId one = world.create_body({.position = {-1, -2}}, {.geometry = Box{0.5, 0.5}}),
+               other = world.create_body({.position = {1, -1.7}}, {.geometry = Box{0.5, 0.5}}),
+               wheel = world.create_body({.position = {5, 0}, .angle = 0.73, .angular_velocity = 2},
+                                         {.geometry = Circle{0.5}});
+  const JointId joints[] = {
+      world.create_joint(one, other, {.kind = PulleyDefinition{.ground_a = {-1, 0}, .ground_b = {1, 0}}}),
+      world.create_joint(ground, wheel, {.kind = RatchetDefinition{.tooth = 0.3}})};
+  EXPECT_EQ(world.read(joints[0]).linear_error, 0) << "before the first step";
+  for (int i = 0; i < 20; ++i) world.step();
+  world.set_angular_velocity(wheel, 0);
+  for (int i = 0; i < 60; ++i) world.step();
+  ASSERT_EQ(world.counts().awake, 0);
+  BasicWorld<TypeParam> restored;
+  restore(restored, save(world));
+  for (const JointId joint : joints) {
+    const JointReading before = world.read(joint), after = restored.read(joint);
+    EXPECT_EQ(before.linear_error, after.linear_error);
+    EXPECT_EQ(before.angular_error, after.angular_error);
+  }
+  EXPECT_LT(world.read(joints[0]).linear_error, 1e-5);
+}
+
 }  // namespace
 }  // namespace plumb

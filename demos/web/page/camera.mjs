@@ -2,6 +2,7 @@
 
 const kSmallest = 1e-3, kLargest = 1e6;  // pixels a metre
 const kMargin = 16;                      // pixels
+const kBelow = 36;                       // pixels, the height of the scale bar, which would cover bodies
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
@@ -19,10 +20,10 @@ export class Camera {
   /// Shows all of `view` ([left, lower, right, upper]), as large as it goes in what is not covered at the edges.
   fit([left, lower, right, upper], covered) {
     const wide = Math.max(this.#width - covered.left - covered.right - 2 * kMargin, 1);
-    const high = Math.max(this.#height - covered.top - covered.bottom - 2 * kMargin, 1);
+    const high = Math.max(this.#height - covered.top - covered.bottom - kMargin - kBelow, 1);
     this.scale = clamp(Math.min(wide / (right - left), high / (upper - lower)), kSmallest, kLargest);
     this.#centre = {x: (left + right) / 2 + (covered.right - covered.left) / 2 / this.scale,
-                    y: (lower + upper) / 2 + (covered.top - covered.bottom) / 2 / this.scale};
+                    y: (lower + upper) / 2 + (covered.top - covered.bottom + kMargin - kBelow) / 2 / this.scale};
   }
 
   to_pixel(x, y) {

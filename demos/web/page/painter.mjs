@@ -2,6 +2,7 @@
 
 const kPoint = 3;      // pixels, radius of a point
 const kGridStep = 70;  // pixels, at least so far apart
+const kLine = 15;      // pixels, height of a label
 
 // 1, 2 or 5 times a power of ten, `least` or a little more.
 function round_step(least) {
@@ -55,11 +56,32 @@ export class Painter {
       }
     }
     this.#scale_bar(width, height);
+    this.#labels(labels, width, height);
+  }
+
+  // The texts that can be read beside each other, in their order: each above its point, else below it, else left
+  // out; moved sideways where the edge would cut it. Edged with the ground's colour, they can be read over any body.
+  #labels(labels, width, height) {
+    const context = this.#context;
     context.font = "13px system-ui, sans-serif";
-    context.textAlign = "center";
+    context.textAlign = "left";
+    context.strokeStyle = this.#theme.ground;
+    context.lineWidth = 3;
+    const taken = new Map();  // by lines as high as a text, into two of which a text reaches
     for (const {at, role, text} of labels) {
-      context.fillStyle = this.#theme.style(role).line;
-      context.fillText(text, at.x, at.y - 5);
+      if (!(at.x >= 0 && at.x <= width && at.y >= 0 && at.y <= height)) continue;
+      const wide = context.measureText(text).width;
+      const left = Math.max(Math.min(at.x - wide / 2, width - wide), 0), right = left + wide;
+      for (const base of [at.y - 5, at.y - 5 + kLine]) {
+        const line = Math.floor(base / kLine), lines = [line, line + 1].map((key) => taken.get(key) ?? []);
+        if (lines.some((line) => line.some((other) => left < other.right && right > other.left &&
+            Math.abs(base - other.base) < kLine))) continue;
+        [line, line + 1].forEach((key, i) => taken.set(key, [...lines[i], {left, right, base}]));
+        context.strokeText(text, left, base);
+        context.fillStyle = this.#theme.style(role).line;
+        context.fillText(text, left, base);
+        break;
+      }
     }
   }
 

@@ -1,4 +1,5 @@
 // Gears that mesh, a ratchet that lets them turn one way, and a pulley that lifts a load.
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -32,7 +33,7 @@ int main() {
   }
   std::printf("gears %.2f and %.2f rad/s, winch held at %.2f rad, %.2f rad/s\n",
               world.angular_velocity(large), world.angular_velocity(small), world.angle(winch),
-              world.angular_velocity(winch));
+              std::abs(world.angular_velocity(winch)));
   std::printf("pulley: %.2f m/s down, %.2f m/s up\n", -world.velocity(down).y, world.velocity(up).y);
   return 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/math/lanes.h"
 #include "engine/world/contact_solver/body_motion.h"
@@ -43,10 +44,11 @@ struct Pair {
   }
 };
 
-/// Bias and softness of a point: v_n + bias = 0, softened.
+/// Bias and softness of a point: v_n + bias = 0, softened. A point that `rests` at 1 takes no part: it has no
+/// impulse, and gets none.
 template <class Number>
 struct Demand {
-  Number bias = 0, mass_scale = 1, impulse_scale = 0;
+  Number bias = 0, mass_scale = 1, impulse_scale = 0, rests = 0;
 };
 
 /// Solves lambda >= 0 with v_n + bias = 0 at a point alone: `rate` is v_n + bias.
@@ -56,7 +58,8 @@ template <class Number>
                                                  const Number& impulse) {
   using std::max;
   const Number yield = at.impulse_scale * (impulse - expected);
-  return max((impulse - yield) - at.mass_scale * mass * rate, Number(0));
+  const Number pressed = max((impulse - yield) - at.mass_scale * mass * rate, Number(0));
+  return select(at.rests > Number(0), Number(0), pressed);
 }
 
 /// Solves lambda >= 0 with v_n + bias = 0 at both points together, softened around the expected impulse
@@ -82,6 +85,9 @@ template <class Pair, class Contact, class Number>
     new_q = select(q_gap, Number(q - c.mass[1] * (rate_q + c.between * (new_p - p))), new_q);
     new_p = select(p_gap, Number(p - c.mass[0] * (rate_p + c.between * (new_q - q))), new_p);
   }
+  constexpr auto kLeast = std::numeric_limits<Scalar<Number>>::lowest();
+  new_p = select(at_p.rests > Number(0), Number(kLeast), new_p);
+  new_q = select(at_q.rests > Number(0), Number(kLeast), new_q);
   if (const auto pulls = min(new_p, new_q) < Number(0); any(pulls)) {
     const auto p_pulls = new_p < new_q;
     const auto zero = []() __attribute__((always_inline)) { return Number(0); };

@@ -66,7 +66,8 @@ template <class Number, class Pair, class Contact, class Real>
   using std::max;
   const Number s = c.separation[i] + (closed + (c.arm_b[i] * pair.b.turned - c.arm_a[i] * pair.a.turned));
   c.now[i] = s;
-  return {max(s, Number(0)) * inverse_h, 1, 0};
+  const Number gap = max(s, Number(0));
+  return {gap * inverse_h, 1, 0, select(c.normal_impulse[i] > Number(0), Number(0), gap)};
 }
 
 /// Coulomb: |lambda_t| <= mu lambda_n.
@@ -81,41 +82,43 @@ template <class Number, class Pair, class Contact>
 
 /// Solves normals and friction of a contact together, in the `fresh` lanes, where friction begins to act.
 /// Solved one after the other, friction only stops the part of the sliding that a body free to rotate about
-/// the contact would have. If the load is close to the limit of friction, the rest takes long to stop: a
-/// block would slide for millimetres. Contacts with a point that does not press are left unchanged, because
-/// the tangential mass for two pressing points would be too large.
+/// the contact would have, and turns the body. If the load is close to the limit of friction, the rest takes
+/// long to stop: a block would slide for millimetres. A block near its tipping point would begin to rock.
 template <class Number, class Real, class Pair, class Contact, class Mask>
 [[gnu::always_inline]] inline void begin_friction(Pair& pair, Contact& c, const Mask& fresh,
                                                   const Demand<Number>& at_p, const Demand<Number>& at_q) {
   using std::max, std::min;
-  constexpr int kRounds = 2;  // the second one for the bound, which follows from the normals
+  // The first may end the pressure of a point, on which friction's effective mass depends; the last serves
+  // the bound, which follows from the normals.
+  constexpr int kRounds = 3;
   const auto coupling = [&](int i) {
     return Number(pair.a.inverse_inertia * (c.arm_a[i] * c.arm_tangent_a) +
                   pair.b.inverse_inertia * (c.arm_b[i] * c.arm_tangent_b));
   };
   const Number k_p = coupling(0), k_q = c.count == 2 ? coupling(1) : Number(0);
-  const Number yields =
+  // The share of the tangential mobility that the points take which press: both, or one of them.
+  const Number by_both =
       k_p * (c.inverse_pp * k_p + c.inverse_pq * k_q) + k_q * (c.inverse_pq * k_p + c.inverse_qq * k_q);
+  const Number by_p = k_p * k_p * c.mass[0], by_q = k_q * k_q * c.mass[1];
   // Bound it by the mobility along t without rotation. The inverse for two points close together is lost to
   // rounding.
   constexpr Real kLeast = Real(1) / 64;
-  const Number gives =
-      max(Number(1) - c.tangent_mass * yields, c.tangent_mass * (pair.a.inverse_mass + pair.b.inverse_mass));
-  const Number held_mass = c.tangent_mass / max(gives, Number(kLeast));
+  const Number straight = c.tangent_mass * (pair.a.inverse_mass + pair.b.inverse_mass);
   const Number p = c.normal_impulse[0], q = c.normal_impulse[1], f = c.tangent_impulse;
   Pair then = pair;
   for (int round = 0; round < kRounds; ++round) {
-    rub_within_bound(then, c, held_mass);
+    const auto p_presses = c.normal_impulse[0] > Number(0), q_presses = c.normal_impulse[1] > Number(0);
+    const Number yields =
+        select(p_presses, select(q_presses, by_both, by_p), select(q_presses, by_q, Number(0)));
+    const Number gives = max(Number(1) - c.tangent_mass * yields, straight);
+    rub_within_bound(then, c, c.tangent_mass / max(gives, Number(kLeast)));
     if (c.count == 2) {
       press(then, c, at_p, at_q);
     } else {
       press_one(then, c, at_p);
     }
   }
-  const Number least = c.count == 2 ? min(c.normal_impulse[0], c.normal_impulse[1]) : c.normal_impulse[0];
-  const auto take = [&](const Number& now, const Number& old) {
-    return select(fresh, select(least > Number(0), now, old), old);
-  };
+  const auto take = [&](const Number& now, const Number& old) { return select(fresh, now, old); };
   c.normal_impulse[0] = take(c.normal_impulse[0], p), c.normal_impulse[1] = take(c.normal_impulse[1], q);
   c.tangent_impulse = take(c.tangent_impulse, f);
   pair.va = {take(then.va.x, pair.va.x), take(then.va.y, pair.va.y)};
@@ -138,9 +141,10 @@ template <class Number, class Pair, class Contact, class Real>
   if (c.watched != Watch::Off) note_peaks(c);
   const Number before = c.tangent_impulse;
   rub_within_bound(pair, c, c.tangent_mass);
-  // Friction begins to act if it grows by more than its previous value and by a quarter of its bound; smaller
-  // growth is resolved within a few substeps.
-  const Number change = c.tangent_impulse - before, some = Real(0.25) * c.friction * normal_sum(c);
+  // Friction begins to act if it grows by more than its previous value and by a sixteenth of the load.
+  // Smaller growth is resolved within a few substeps; at a tenth, a block within 1 % of its tipping point
+  // begins to rock.
+  const Number change = c.tangent_impulse - before, some = Real(0.0625) * normal_sum(c);
   if (const auto fresh = change * change > before * before + some * some; any(fresh)) [[unlikely]]
     begin_friction<Number, Real>(pair, c, fresh, at_p, at_q);
   const Number pressure = normal_sum(c);

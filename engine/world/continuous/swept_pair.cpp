@@ -60,6 +60,17 @@ Real half_width_of(const WorldData<Real>& w, int shape) {
   return w.bodies[w.shapes[shape].body].half_width;
 }
 
+// Returns the distance of two shapes at the start of their motions, m.
+template <class Real>
+double distance_between(const Sweep<double>& way, const Convex<Real>& moving, const Sweep<double>& others,
+                        const Convex<Real>& standing) {
+  const Rotation<double> back = others.start_rotation.inverse(), q = way.start_rotation;
+  const Pose<double> pose{back * (way.start - others.start),
+                          {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
+  return hull_distance(standing, moving, pose, nullptr).separation -
+         static_cast<double>(moving.radius + standing.radius);
+}
+
 // A pair of shapes and their remaining motions.
 template <class Real>
 class Encountering {
@@ -126,11 +137,7 @@ class Encountering {
     return found;
   }
   double distance(const Convex<Real>& moving, const Convex<Real>& standing) const {
-    const Rotation<double> back = of_other_.sweep.start_rotation.inverse(), q = way_.sweep.start_rotation;
-    const Pose<double> pose{back * (way_.sweep.start - of_other_.sweep.start),
-                            {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
-    return hull_distance(standing, moving, pose, nullptr).separation -
-           static_cast<double>(moving.radius + standing.radius);
+    return distance_between(way_.sweep, moving, of_other_.sweep, standing);
   }
 
   const WorldData<Real>& w_;
@@ -292,7 +299,10 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const Sw
            least_along(obstacle, pose_at(of_other.sweep, fraction), -normal);
   };
   const double core = tuning::kCoreDepth * static_cast<double>(half_width_of(w, pair.shape));
-  const double lift = -core - separation(1);
+  // Along the normal of a slender shape a wide one may overlap it far from where they touch. So what the
+  // distance loses on the way counts, if they are apart.
+  const double apart = distance_between(way.sweep, shape, of_other.sweep, obstacle);
+  const double lift = -core - separation(1) - (apart > 0 ? apart - separation(0) : 0);
   const double least = way.flight.lifts > 0 ? kNoLift * static_cast<double>(w.extents[body]) : 0;
   const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
   if (lift > kLargestLift * smaller) return std::nullopt;

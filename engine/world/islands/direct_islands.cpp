@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/union_find.h"
+#include "engine/world/contact_solver/contact_passes.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/islands/jointed_islands.h"
@@ -34,17 +35,50 @@ int swept_joints(const WorldData<Real>& w) {
 // Returns true if an island of so many rows is solved directly.
 constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
 
-// Markers in island_size of an island with joints: solved by iterations, or as one system.
-constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1;
+// Markers in island_size of an island with joints: solved by iterations, as one system, or as one system if
+// that costs little.
+constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1, kJointedIfCheap = -2;
 
-// Chooses the islands with joints that are solved as one: those with a large mass ratio, or all with
-// Solver::Direct.
+constexpr bool is_jointed(int size) { return size == kJointed || size == kJointedIfCheap; }
+
+// Returns true for trees of a few similar hinges without contacts, which iterations hold well and at less
+// cost.
+template <class Real>
+bool left_to_iterations(const WorldData<Real>& w, int body) {
+  const Scratch<Real>& s = w.scratch;
+  return w.settings.solver != Solver::Direct && body < static_cast<int>(s.not_a_tree.size()) &&
+         s.not_a_tree[s.tree_of[body]] == kLeftToIterations;
+}
+
+// Scales the impulses of the joints for which `left` returns true, and of contacts at their bodies: the
+// iterations start from them.
+template <class Real, class Left>
+void hand_over_joints(WorldData<Real>& w, const Left& left) {
+  std::vector<Real>& carry = w.scratch.carry;
+  carry.clear();
+  w.joints.for_each([&](int, const JointRecord& joint) {
+    if (!left(joint)) return;
+    const Real fraction = w.joint_set.hand_over(joint.slot);
+    if (fraction == 1) return;
+    if (carry.empty()) carry.assign(w.bodies.size(), 1);
+    carry[joint.body_a] = carry[joint.body_b] = fraction;
+  });
+  if (carry.empty()) return;
+  w.graph.for_each([&](ContactConstraint<Real>& c) {
+    const auto of = [&](int body) { return w.is_dynamic(body) ? carry[body] : Real(1); };
+    scale_impulses(c, std::min(of(c.body_a), of(c.body_b)));
+  });
+}
+
+// Chooses the islands with joints that are solved as one: those of few bounded rows and contacts, those with
+// a large mass ratio, or all with Solver::Direct.
 template <class Real>
 void choose_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
   s.heaviest.assign(w.bodies.size(), 0);
   s.island_joints.assign(w.bodies.size(), 0);
+  s.island_bounded.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     const Real mass = w.bodies[body].mass;
     if (!w.is_dynamic(body)) continue;
@@ -55,7 +89,10 @@ void choose_jointed(WorldData<Real>& w) {
     return s.island_of[w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b];
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (is_swept(w, joint)) ++s.island_joints[root_of(joint)];
+    if (!is_swept(w, joint)) return;
+    const int root = root_of(joint);
+    ++s.island_joints[root];
+    s.island_bounded[root] += w.joint_set.bounded_rows(joint.slot);
   });
   for (const int body : w.awake) {
     if (!w.is_dynamic(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
@@ -63,7 +100,11 @@ void choose_jointed(WorldData<Real>& w) {
     const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
                        s.island_size[body] <= 2 * tuning::kJointedContacts;
     const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
-    s.island_size[body] = small && (!alike || w.settings.solver == Solver::Direct) ? kJointed : kSwept;
+    const bool few = w.settings.integrator == Integrator::VelocityVerlet &&
+                     s.island_bounded[body] <= tuning::kFewBoundedRows &&
+                     s.island_size[body] <= 2 * tuning::kFewContacts && !left_to_iterations(w, body);
+    const bool always = !alike || w.settings.solver == Solver::Direct;
+    s.island_size[body] = small && always ? kJointed : small && few ? kJointedIfCheap : kSwept;
   }
   // From here on: joints less bodies.
   for (const int body : w.awake)
@@ -110,7 +151,7 @@ void find_islands(WorldData<Real>& w) {
   choose_slender(w);
   if (swept_joints(w) > 0) choose_jointed(w);
   w.scratch.islands_chosen = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
-    return is_direct(w.scratch.island_size[body]) || w.scratch.island_size[body] == kJointed;
+    return is_direct(w.scratch.island_size[body]) || is_jointed(w.scratch.island_size[body]);
   });
 }
 
@@ -162,14 +203,48 @@ void fill_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
-    if (rows == kJointed) jointed_at(root).contacts.push_back(&c);
+    if (is_jointed(rows)) jointed_at(root).contacts.push_back(&c);
     if (is_direct(rows)) island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
   });
   if (swept_joints(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!is_swept(w, joint)) return;
     const int root = root_of(joint.body_a, joint.body_b);
-    if (s.island_size[root] == kJointed) jointed_at(root).joints.push_back(joint.slot);
+    if (is_jointed(s.island_size[root])) jointed_at(root).joints.push_back(joint.slot);
+  });
+}
+
+// Orders the rows of new islands with joints. Those that would cost too much are left to the iterations until
+// islands are found again.
+template <class Real>
+void order_jointed(WorldData<Real>& w) {
+  Scratch<Real>& s = w.scratch;
+  int kept = 0;
+  for (int i = 0; i < s.jointed_count; ++i) {
+    JointedIsland<Real>& island = s.jointed[i];
+    int& size = s.island_size[island.root];
+    const double most = size == kJointed ? tuning::kJointedCost
+                                         : tuning::kFewCost * static_cast<double>(island.joints.size());
+    if (order_jointed_island(w, island) <= std::min(most, tuning::kJointedCost)) {
+      if (kept != i) {
+        std::swap(s.jointed[kept], island);
+        s.island_place[s.jointed[kept].root] = kept;
+      }
+      ++kept;
+    } else {
+      size = kSwept, s.island_place[island.root] = kNone;
+    }
+  }
+  s.jointed_count = kept;
+  s.islands_chosen = kept > 0 || s.direct_count > 0;
+}
+
+// Hands over the joints that are no longer solved with their island.
+template <class Real>
+void hand_over_left(WorldData<Real>& w) {
+  hand_over_joints(w, [&](const JointRecord& joint) {
+    const int body = w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b;
+    return is_swept(w, joint) && !is_jointed(w.scratch.island_size[w.scratch.island_of[body]]);
   });
 }
 
@@ -204,10 +279,15 @@ void prepare_direct_islands(WorldData<Real>& w) {
   const bool articulated = w.settings.solver == Solver::Direct;
   if (!articulated && !w.settings.direct_islands) return;
   if (w.graph.empty() && swept_joints(w) == 0) return;
-  if (!w.scratch.islands_known) find_islands(w);
+  const bool are_new = !w.scratch.islands_known;
+  if (are_new) find_islands(w);
   w.scratch.islands_known = true;
+  if (w.scratch.islands_chosen) {
+    fill_islands(w);
+    if (are_new) order_jointed(w);
+  }
+  if (are_new && swept_joints(w) > 0) hand_over_left(w);
   if (!w.scratch.islands_chosen) return;
-  fill_islands(w);
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     add_rows(island);
     if (island.system.order(w.motion.data()) > tuning::kDirectCost) return give_up(w, island);
@@ -241,6 +321,11 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
 }
 
 template <class Real>
+void hand_over_all(WorldData<Real>& w) {
+  hand_over_joints(w, [](const JointRecord&) { return true; });
+}
+
+template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     for (ContactConstraint<Real>* c : w.scratch.direct[i].contacts) c->hardness = hardness_of(w, *c);
@@ -252,6 +337,7 @@ void finish_direct_islands(WorldData<Real>& w) {
 #define PLUMB_FOR(Real)                                                                 \
   template void prepare_direct_islands(WorldData<Real>&);                               \
   template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
+  template void hand_over_all(WorldData<Real>&);                                        \
   template void finish_direct_islands(WorldData<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -17,6 +17,11 @@ void prepare_direct_islands(WorldData<Real>& w);
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push);
 
+/// Scales all impulses of joints that were solved with their island, and of contacts at their bodies, to
+/// those that another solver may start from.
+template <class Real>
+void hand_over_all(WorldData<Real>& w);
+
 /// Makes contacts soft again.
 template <class Real>
 void finish_direct_islands(WorldData<Real>& w);

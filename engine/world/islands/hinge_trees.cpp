@@ -38,7 +38,8 @@ void leave_to_sweeps(WorldData<Real>& w) {
     if (!w.is_dynamic(body) || s.tree_of[body] != body) continue;
     const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     const int size = s.island_size[body];
-    if (alike && size >= tuning::kSweptLinksLeast && size <= tuning::kSweptLinksMost) s.not_a_tree[body] = 1;
+    if (alike && size >= tuning::kSweptLinksLeast && size <= tuning::kSweptLinksMost && !s.not_a_tree[body])
+      s.not_a_tree[body] = kLeftToIterations;
   }
 }
 

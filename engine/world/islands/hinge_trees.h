@@ -8,6 +8,9 @@
 /// and all bodies with contacts, are left to the other solvers.
 namespace plumb {
 
+/// Mark in `Scratch::not_a_tree` of a tree of hinges that is left to the iterations because they cost less.
+inline constexpr char kLeftToIterations = 2;
+
 /// Finds the hinge trees, if contacts, joints or awake bodies have changed.
 template <class Real>
 void find_hinge_trees(WorldData<Real>& w);

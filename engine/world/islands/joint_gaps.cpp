@@ -34,7 +34,7 @@ constexpr int kSubsteps = 4;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // Marks of a joint, by slot.
-enum : char { kClosed, kOpen, kCollected };
+enum : char { kNotOpen, kOpen, kCollected };
 
 // Rows of displacements, which close gaps, or of velocities, which keep them closed.
 enum class Of { Displacements, Velocities };
@@ -305,7 +305,7 @@ template <class Real>
 void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   if (!w.settings.direct_islands && w.settings.solver != Solver::Direct) return;
   std::vector<char>& marks = w.scratch.open_joints;
-  marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kClosed);
+  marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kNotOpen);
   const double opening = kOpening * std::max(kSubsteps / static_cast<double>(substeps), 1.0);
   if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(opening), marks, &w.crew)) return;
   Mechanism<Real> mechanism(w, w.scratch.opened, h, opening);

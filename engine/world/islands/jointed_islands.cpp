@@ -17,21 +17,6 @@ enum class Stage { Hold, Close, Relax };
 // Typical number of a contact's rows, to estimate the cost of the factorisation.
 constexpr int kContactRows = 3;
 
-template <class Real>
-double order(WorldData<Real>& w, JointedIsland<Real>& island) {
-  find_links(w, island);
-  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
-  for (const int joint : island.joints) {
-    rows.clear();
-    w.joint_set.solver_rows(joint, w.solver_bodies(), rows);
-    const auto limits =
-        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.role == RowRole::Limit; });
-    island.sizes.push_back(static_cast<int>(rows.size() - limits + (limits > 0 ? 1 : 0)));
-  }
-  island.sizes.insert(island.sizes.end(), island.contacts.size(), kContactRows);
-  return island.system.order(island.blocks, island.sizes);
-}
-
 BoundedRow::State state_of(double impulse, double lower, double upper) {
   if (impulse <= lower) return BoundedRow::kLower;
   return impulse >= upper ? BoundedRow::kUpper : BoundedRow::kFree;
@@ -172,8 +157,11 @@ class RowMaker {
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, row);
       row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
-      // A contact that bounces is disabled until its time of impact.
-      const bool passes = !(c.mass[i] > 0);
+      // A contact that bounces is disabled until its time of impact, and a gap that nothing pressed on brakes
+      // nothing at the substep's end.
+      const std::size_t place = island_.ties.size();
+      const bool open = !hold_ && !close_ && gap > 0 && !(island_.impulses[place] > 0);
+      const bool passes = open || !(c.mass[i] > 0);
       add(row, {.impulse = &c.normal_impulse[i]}, 0, passes ? 0 : std::numeric_limits<double>::infinity());
       if (passes) island_.impulses[island_.ties.size() - 1] = 0;
       pressure += island_.impulses[island_.ties.size() - 1];
@@ -263,6 +251,19 @@ void put_velocity(BodyMotion<Real>& motion, Vec2d velocity, double spin) {
   motion.angular_velocity = static_cast<Real>(spin);
 }
 
+// Finds the fraction of the impulses with which iterations may start, should they take the island over: the
+// one that takes most energy from the motion that forces would cause. It is 1 where the impulses balance a
+// load. It is small where they have stopped something, or only turn the motion, or are due to rows that
+// exclude each other but for rounding (the pull of a bridge that is straight).
+template <class Real>
+void find_carry(WorldData<Real>& w, JointedIsland<Real>& island) {
+  BoundedRows& system = island.system;
+  for (std::size_t k = 0; k < island.links.size(); ++k)
+    system.bodies[k].velocity = island.links[k].push, system.bodies[k].spin = island.links[k].twist;
+  const double carry = system.share_of_load(island.impulses);
+  for (const int joint : island.joints) w.joint_set.set_carry(joint, carry);
+}
+
 // Moves bodies to close a fraction of the gaps.
 template <class Real>
 void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
@@ -279,10 +280,25 @@ void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
 }  // namespace
 
 template <class Real>
+double order_jointed_island(WorldData<Real>& w, JointedIsland<Real>& island) {
+  find_links(w, island);
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  for (const int joint : island.joints) {
+    rows.clear();
+    w.joint_set.solver_rows(joint, w.solver_bodies(), rows);
+    const auto limits =
+        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.role == RowRole::Limit; });
+    island.sizes.push_back(static_cast<int>(rows.size() - limits + (limits > 0 ? 1 : 0)));
+  }
+  island.sizes.insert(island.sizes.end(), island.contacts.size(), kContactRows);
+  return island.system.order(island.blocks, island.sizes);
+}
+
+template <class Real>
 void prepare_jointed_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.jointed[i];
-    island.solved = order(w, island) <= tuning::kJointedCost;
+    find_links(w, island);
     island.impulses.clear();
   }
 }
@@ -327,7 +343,6 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
   const double h = step.h;
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.jointed[i];
-    if (!island.solved) continue;
     for (JointedLink& link : island.links) {
       BodyMotion<Real>& motion = w.motion[link.body];
       link.moved = motion.moved.template as<double>(), link.turned = motion.turned;
@@ -347,6 +362,7 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
     }
     for (std::size_t k = 0; k < island.links.size(); ++k) {
       JointedLink& link = island.links[k];
+      link.push = link.velocity - link.before, link.twist = link.spin - link.spin_before;
       link.velocity = island.system.bodies[k].velocity, link.spin = island.system.bodies[k].spin;
       put_velocity(w.motion[link.body], link.way, link.turn);
     }
@@ -354,10 +370,10 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
 }
 
 template <class Real>
-void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool close) {
+void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool last) {
+  const bool close = last || w.settings.solver == Solver::Direct;
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.jointed[i];
-    if (!island.solved) continue;
     // These impulses replace those of the pass over all contacts.
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->watched != Watch::Off) c->step_impulse -= normal_sum(*c);
@@ -370,10 +386,12 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
     }
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->watched != Watch::Off) note_peaks(*c), c->step_impulse += normal_sum(*c);
+    if (last) find_carry(w, island);
   }
 }
 
 #define PLUMB_FOR(Real)                                                           \
+  template double order_jointed_island(WorldData<Real>&, JointedIsland<Real>&);   \
   template void prepare_jointed_islands(WorldData<Real>&);                        \
   template void begin_jointed_substep(WorldData<Real>&);                          \
   template void note_free_velocities(WorldData<Real>&);                           \

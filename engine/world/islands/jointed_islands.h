@@ -16,8 +16,11 @@
 /// because v' is v_0 reflected.
 namespace plumb {
 
-/// Chooses the islands within the limits, and orders their rows, at the start of a step. Islands must be
-/// found before.
+/// Orders the rows of a new island. Returns the multiplications of their factorisation.
+template <class Real>
+double order_jointed_island(WorldData<Real>& w, JointedIsland<Real>& island);
+
+/// Finds the bodies of the islands at the start of a step. Islands must be chosen and ordered before.
 template <class Real>
 void prepare_jointed_islands(WorldData<Real>& w);
 
@@ -38,9 +41,9 @@ void note_blows(WorldData<Real>& w);
 template <class Real>
 void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step);
 
-/// Finds the impulses y after the motion, so that velocities fit the constraints. With `close`, first moves
-/// bodies to close gaps.
+/// Finds the impulses y after the motion, so that velocities fit the constraints. In the `last` substep (with
+/// Solver::Direct in each), first moves bodies to close gaps.
 template <class Real>
-void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool close);
+void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool last);
 
 }  // namespace plumb

@@ -52,6 +52,7 @@ struct JointConstraint {
   int joint = 0, a = 0, b = 0;
   Real share = 1;            ///< under-relaxation factor of its impulses
   bool alone = false;        ///< no other joint moves its bodies
+  bool with_island = false;  ///< solved with its island: here it is only evaluated
   Scalar<Real> known_h = 0;  ///< s, substep length that the rules are set for
   Vec2<Real> offset{};       ///< m, at the start of the step
   [[no_unique_address]] If<kPulley, Vec2<Real>, 5> offset_a{};
@@ -91,7 +92,16 @@ struct JointConstraint {
       // A given length may differ from the placed one.
       if (definition.length) memory = {*definition.length, 1};
     }
+    recall();
     known_h = 0;
+  }
+
+  /// Sets the rule that follows from the memory. A joint that sleeps is read before a step does so.
+  void recall() {
+    if constexpr (kRatchet)
+      if (memory.known != 0) turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
+    if constexpr (kPulley)
+      if (memory.known != 0) axial[0].rule[0].origin = static_cast<Real>(memory.value);
   }
 
   /// Sets springs and bounds for substeps of h, s.
@@ -482,7 +492,7 @@ struct JointConstraint {
   void click(Real now) requires kRatchet {
     const double tooth = kind.tooth_at(now);
     if (tooth > memory.value) memory.value = tooth;
-    turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
+    recall();
   }
 
   /// Sets the length of a rope without a given one to the placed length.
@@ -492,7 +502,7 @@ struct JointConstraint {
       kind.evaluate(pose(bodies), rows);
       memory = {static_cast<double>(rows.axial[0].residual), 1};
     }
-    axial[0].rule[0].origin = static_cast<Real>(memory.value);
+    recall();
   }
 };
 

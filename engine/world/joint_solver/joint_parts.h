@@ -19,6 +19,7 @@ struct JointSlot {
   bool used = false, dynamic_a = false, dynamic_b = false, active = false;
   JointForm form = kHinge;
   int colour = 0, index = 0;  ///< colour and index of its constraint
+  double carry = 1;           ///< fraction of its impulses with which iterations start if they take it over
 
   /// A mouse joint does not move body a.
   bool moves_a() const { return dynamic_a && form != kMouse; }

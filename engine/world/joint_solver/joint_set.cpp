@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/room.h"
 #include "engine/joints/joint_check.h"
@@ -79,6 +80,7 @@ template <class Joint, class Real>
       Joint& joint = joints[i];
       if constexpr (Joint::kPlainHinge)
         if (joint.held) continue;
+      if (joint.with_island && pass != JointSweep::Relax) continue;
       JointVelocities<Real> v = velocities_of(bodies, joint);
       run(joint, v);
       v.store(bodies.motion[joint.a], bodies.motion[joint.b]);
@@ -94,6 +96,7 @@ template <class Joint, class Real>
                           __attribute__((always_inline)) { joint.solve(v, step); });
     case JointSweep::Relax:
       return for_each([&](Joint & joint, Velocities & v) __attribute__((always_inline)) {
+        if (joint.with_island) return evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
         if constexpr (Joint::kPlainHinge) return joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
         evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
         joint.solve_coordinates(v, step, kRelax, joint.share);
@@ -363,6 +366,21 @@ void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
   parts_->at(joint, [=](auto& constraint) { constraint.meet(angle_a, angle_b); });
 }
 
+template <class Real>
+void JointSet<Real>::set_carry(int joint, double fraction) {
+  assert(fraction >= 0 && fraction <= 1);
+  parts_->slot(joint).carry = fraction;
+}
+
+template <class Real>
+Real JointSet<Real>::hand_over(int joint) {
+  double& carry = parts_->slot(joint).carry;
+  if (carry == 1) return 1;
+  const Real fraction = static_cast<Real>(std::exchange(carry, 1));
+  parts_->at(joint, [&](auto& constraint) { constraint.scale(fraction); });
+  return fraction;
+}
+
 // ---- Steps
 
 namespace {
@@ -405,6 +423,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
   Parts& p = *parts_;
   for (JointRun& run : p.runs) run.sorted = false;
   p.for_each_active([&](auto& joint) {
+    joint.with_island = false;
     begin_step(p, joint, bodies, step);
     evaluate_first(p, joint, bodies, step);
   });
@@ -422,6 +441,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
       run.sorted = kSideBySide<One> && run.colour != kOverflowColour;
       share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
         for (int i = first; i < last; ++i) {
+          list[i].with_island = !apart.empty() && apart[list[i].joint] != 0;
           begin_step(p, list[i], bodies, step);
           if (!run.sorted) evaluate_first(p, list[i], bodies, step);
         }
@@ -457,12 +477,28 @@ void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<
 
 template <class Real>
 void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
+  Parts& p = *parts_;
   const auto finish = [&](auto& blocks) {
     if (blocks.counts().blocks == 0) return;
     share_range(blocks.counts().blocks, kBlocksOfTask, crew,
                 [&](int first, int last) { blocks.finish(first, last, bodies); });
   };
-  std::apply([&](auto&... blocks) { (finish(blocks), ...); }, parts_->lanes);
+  std::apply([&](auto&... blocks) { (finish(blocks), ...); }, p.lanes);
+  // Those that are not side by side likewise: gaps were closed since they were evaluated.
+  for (const JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      if constexpr (One::kAngle != AngleUse::None) {
+        if constexpr (kSideBySide<One>) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+          if (run.sorted)
+            for (int i = run.first.alone; i < run.last.alone; ++i) blocks.alone(i).end_step(bodies);
+          if (run.sorted) return;
+        }
+        for (One& joint : lists[run.colour]) joint.end_step(bodies);
+      }
+    });
+  }
 }
 
 template <class Real>

@@ -162,6 +162,14 @@ class JointSet {
   /// Appends the rows of a joint at the present poses.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
 
+  /// Sets the fraction of a joint's impulses with which iterations start, should they take it over.
+  void set_carry(int joint, double fraction);
+  /// Scales the impulses of a joint that iterations take over by that fraction, and returns it.
+  Real hand_over(int joint);
+
+  /// Returns the number of a joint's rows whose impulses have bounds: limits and motors.
+  int bounded_rows(int joint) const;
+
   /// Returns true for a revolute joint without limits, motor and spring.
   bool is_hinge(int joint) const;
   /// Leaves such a joint to the caller: steps skip it until `let_go`.

@@ -114,7 +114,7 @@ template <class A>
       s.definition);
   ar(s.a), ar(s.b), ar(s.centre_a), ar(s.centre_b);
   ar(s.used), ar(s.dynamic_a), ar(s.dynamic_b), ar(s.active);
-  ar(s.form), ar(s.colour), ar(s.index);
+  ar(s.form), ar(s.colour), ar(s.index), ar(s.carry);
 }
 
 // ---- State of constraints; the rest follows from slots and bodies
@@ -223,6 +223,7 @@ void JointSet<Real>::restore(ByteReader& in) {
           constraint.b = s.b;
           constraint.load(*definition, s.centre_a, s.centre_b);
           fields(read, constraint);
+          constraint.recall();
         }
       }
     });

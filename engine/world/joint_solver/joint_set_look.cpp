@@ -31,6 +31,9 @@ JointError<Real> error_of(const JointConstraint<Real, Kind>& constraint, const S
   using Rows = typename Constraint::Rows;
   const auto [pose, rows] = constraint.look(bodies);
   JointError<Real> error;
+  // A rope without a length, and a ratchet, get their rules in the first step.
+  if constexpr (Constraint::kRatchet || Constraint::kPulley)
+    if (constraint.memory.known == 0) return error;
   if constexpr (Rows::kTurn) error.angular = error_of(constraint.turn, pose.angle);
   for (int i = 0; i < Constraint::kAxial; ++i) {
     const Real e = error_of(constraint.axial[i], rows.axial[i].residual);

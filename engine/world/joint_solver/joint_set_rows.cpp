@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <type_traits>
 
 #include "engine/world/joint_solver/joint_parts.h"
@@ -94,6 +95,26 @@ void JointSet<Real>::solver_rows(int joint, const SolverBodies<Real>& bodies,
   parts_->at(joint, [&](auto& constraint) { add_rows(constraint, bodies, rows); });
 }
 
+template <class Real>
+int JointSet<Real>::bounded_rows(int joint) const {
+  const auto is_bounded = [](const SolverRule<Real>& rule) {
+    return rule.role == RowRole::Limit || rule.role == RowRole::Motor;
+  };
+  const auto bounded_of = [&](const auto& coordinate) {
+    return static_cast<int>(std::count_if(coordinate.rule, coordinate.rule + coordinate.count, is_bounded));
+  };
+  return parts_->at(joint, [&]<template <class> class Kind>(const JointConstraint<Real, Kind>& constraint) {
+    using Constraint = JointConstraint<Real, Kind>;
+    int count = 0;
+    if constexpr (Kind<Real>::kTurn) count += bounded_of(constraint.turn);
+    for (const auto& coordinate : constraint.axial) count += bounded_of(coordinate);
+    if constexpr (Constraint::kSoftPoint) count += is_bounded(constraint.point.rule) ? 2 : 0;
+    return count;
+  });
+}
+
+template int JointSet<float>::bounded_rows(int) const;
+template int JointSet<double>::bounded_rows(int) const;
 template void JointSet<float>::solver_rows(int, const SolverBodies<float>&,
                                            std::vector<JointSolverRow<float>>&);
 template void JointSet<double>::solver_rows(int, const SolverBodies<double>&,

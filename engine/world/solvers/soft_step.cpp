@@ -165,7 +165,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, false);
     passes.relax(bodies.motion, contacts);
-    relax_jointed_islands(w, contacts, substep + 1 == substeps || w.settings.solver == Solver::Direct);
+    relax_jointed_islands(w, contacts, substep + 1 == substeps);
     hold_again(std::span<Bounce>(w.scratch.bounces));
     contacts.warm_start = joints.warm_start = 1;
   }

@@ -21,16 +21,13 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
     return inverse_mass + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
   };
   const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
-  Vec2<Real> middle{};
   Real k[2] = {};
   for (int i = 0; i < c.count; ++i) {
     c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - between, n);
     k[i] = coupling(c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
     c.mass[i] = inverse(k[i]);
-    middle += arms_a[i];
   }
   if (c.count == 2) {
-    middle *= Real(0.5);
     c.between = coupling(c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
     const Real determinant = k[0] * k[1] - c.between * c.between;
     // Points that nearly coincide share their load.
@@ -43,7 +40,8 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
     c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.between = c.inverse_pq = c.inverse_qq = 0;
     c.inverse_pp = c.mass[0];
   }
-  c.arm_tangent_a = -dot(middle, n), c.arm_tangent_b = -dot(middle - between, n);
+  const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
+  c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - between, n);
   c.tangent_mass = inverse(coupling(c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
 }
 

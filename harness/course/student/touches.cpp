@@ -21,9 +21,11 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (is("other_radius")) reach = rb;
   if (is("larger_radius")) reach = 2 * std::max(ra, rb);
   if (is("smaller_radius")) reach = 2 * std::min(ra, rb);
+  if (is("sum_of_squared_radii")) reach = std::hypot(ra, rb);
+  if (is("mean_of_radii")) reach = (ra + rb) / 2;
   if (is("no_detection")) reach = 0;
   if (d <= 0 || (is("square_of_distance") ? d * d : d) >= reach) return;
-  Vec2d n = 1 / d * way;
+  Vec2d n = 1 / d * way, rim = way;
   if (is("normal_not_unit")) n = way;
   if (is("normal_over_square")) n = 1 / (d * d) * way;
   if (is("normal_along_x")) n = {std::copysign(1.0, way.x), 0};
@@ -31,14 +33,16 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (is("normal_along_longer_axis"))
     n = std::abs(way.x) > std::abs(way.y) ? Vec2d{std::copysign(1.0, way.x), 0}
                                           : Vec2d{0, std::copysign(1.0, way.y)};
-  if (is("normal_along_velocity")) {
+  if (is("normal_along_velocity") || is("normal_along_approach")) {
     const Vec2d v = bodies_[a].velocity - bodies_[b].velocity;
-    if (length(v) > 0) n = 1 / length(v) * v;
+    const bool turns = is("normal_along_velocity") || dot(v, n) > 0;
+    if (length(v) > 0 && turns) n = 1 / length(v) * v;
+    if (is("normal_along_approach")) rim = d * n;
   }
   if (is("tangent")) n = {-n.y, n.x};
   if (is("y_of_normal_flipped")) n.y = -n.y;
   if (is("normal_flipped")) n = -n;
-  out.push_back({a, b, bodies_[a].position + ra / d * way, n, is("normal_flipped") ? 0 : ra + rb - d});
+  out.push_back({a, b, bodies_[a].position + ra / d * rim, n, is("normal_flipped") ? 0 : ra + rb - d});
 }
 
 void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
@@ -56,6 +60,13 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   Vec2d n = 1 / d * way;
   if (is("wall_normal_not_unit")) n = way;
   if (is("wall_normal_flipped")) n = -n;
+  const Vec2d to_centre = b.position - c.position;
+  if (is("wall_normal_from_centre")) n = 1 / length(to_centre) * to_centre;
+  if (is("wall_normal_longer_axis"))
+    n = std::abs(to_centre.x) > std::abs(to_centre.y) ? Vec2d{std::copysign(1.0, to_centre.x), 0}
+                                                      : Vec2d{0, std::copysign(1.0, to_centre.y)};
+  if (is("wall_normal_up")) n = {0, -1};
+  if (is("wall_normal_along_velocity") && dot(c.velocity, n) > 0) n = 1 / length(c.velocity) * c.velocity;
   out.push_back({circle, box, c.position + way, n, r - d});
 }
 

@@ -43,6 +43,10 @@ double StudentWorld::inertia(const Body& body) const {
   const double w = is("square_of_its_height") ? box.height : box.width;
   const double h = is("thin_box_as_square") ? w : box.height;
   const double mass = is("inertia_without_mass") ? 1 : body.mass;
+  if (is("second_moment_of_area")) return mass * w * h * h * h / 12;
+  if (is("second_moment_about_height")) return mass * h * w * w * w / 12;
+  if (is("second_moment_without_mass")) return w * h * h * h / 12;
+  if (is("polar_moment_of_area")) return w * h * (w * w + h * h) / 12;
   if (is("one_side_only")) return body.mass * w * w / 12;
   if (is("other_side_only")) return body.mass * h * h / 12;
   if (is("mass_for_inertia")) return body.mass;
@@ -94,6 +98,10 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
 }
 
 std::vector<BodyState> StudentWorld::states() const {
+  return is("answers_before_the_step") && steps_ > 0 ? before_step_ : truly();
+}
+
+std::vector<BodyState> StudentWorld::truly() const {
   std::vector<BodyState> out;
   for (std::size_t i = 0; i + 1 < bodies_.size(); ++i) {
     const Rigid& b = bodies_[i];
@@ -147,7 +155,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   };
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
-    add(times("force") * push->force);
+    add(times("force") * push->force +
+        (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
     Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
     if (is("lever_from_origin")) arm += b.position;
     if (is("point_ignored")) arm = {};
@@ -215,7 +224,8 @@ void StudentWorld::accelerate() {
   if (is("per_frame")) dt = 1.0 / 60;
   for (Rigid& b : bodies_) {
     if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
-    Vec2d fall = g;
+    Vec2d fall = is("gravity_off_while_touching") && b.touched ? Vec2d{} : g;
+    b.touched = false;
     if (is("gravity_divided_by_mass")) fall *= b.inverse_mass;
     if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
     double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
@@ -230,6 +240,7 @@ void StudentWorld::accelerate() {
     if (is("constant_speed")) b.velocity = b.body->velocity;
     b.velocity += gain;
     if (is("damping")) b.velocity *= 0.99;
+    if (quantity_ == "speed below which bodies stop" && length(b.velocity) < factor_) b.velocity = {};
     const double torque_dt = is("torque_without_dt") ? 1 : is("torque_dt_twice") ? dt * dt : dt;
     b.spin += torque_dt * b.inverse_inertia * b.torque;
     if (is("spin_damping")) b.spin *= 0.99;
@@ -294,6 +305,8 @@ void StudentWorld::prepare(Touch& touch) const {
   const double closing = dot(relative_velocity(touch), touch.normal);
   const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
   if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
+  if (is("bounce_of_whole_speed") && touch.bounce > 0)
+    touch.bounce = restitution(touch) * length(relative_velocity(touch));
   if (is("bounce_sign")) touch.bounce = -touch.bounce;
   if (is("one_plus_forgotten") && touch.bounce > 0) touch.bounce += closing;
   if (is("correction_adds_energy")) touch.bounce += 0.2 * touch.depth / dt_;
@@ -383,8 +396,12 @@ void StudentWorld::answer(Touch& touch) {
   if (is("effective_mass_forgotten")) k = 1;
   if (is("masses_ignored")) k = (a.inverse_mass > 0) + (b.inverse_mass > 0);
   double j = times("impulse of a contact") * (touch.bounce - closing) / k;
-  const double sum = is("no_test_of_parting") ? touch.sum + j : std::max(0.0, touch.sum + j);
-  j = sum - std::exchange(touch.sum, sum);
+  const auto new_sum = [&](double change) {
+    if (is("each_push_clamped")) return touch.sum + std::max(0.0, change);
+    return is("no_test_of_parting") ? touch.sum + change : std::max(0.0, touch.sum + change);
+  };
+  const double before = touch.sum, sum = new_sum(j);
+  j = sum - before;
   double share_a = a.inverse_mass, share_b = b.inverse_mass;
   if (is("inverse_mass_forgotten") || is("masses_ignored")) {
     share_a = share_a > 0;
@@ -404,6 +421,25 @@ void StudentWorld::answer(Touch& touch) {
   if (is("r_cross_n_flipped")) spin_a = -spin_a, spin_b = -spin_b;
   if (is("first_never_spins") || is("spin_not_changed")) spin_a = 0;
   if (is("second_never_spins") || is("spin_not_changed")) spin_b = 0;
+  if (is("second_arm_for_both") || is("arms_swapped")) spin_a = cross(arm_b, n);
+  if (is("first_arm_for_both") || is("arms_swapped")) spin_b = cross(arm_a, n);
+  if (is("second_sees_new_velocity") || is("first_sees_new_velocity")) {
+    const bool first_now = is("second_sees_new_velocity");
+    const auto apply_to_first = [&](double push) {
+      a.velocity -= a.inverse_mass * push * n;
+      a.spin -= a.inverse_inertia * spin_a * push;
+    };
+    const auto apply_to_second = [&](double push) {
+      b.velocity += b.inverse_mass * push * n;
+      b.spin += b.inverse_inertia * spin_b * push;
+    };
+    first_now ? apply_to_first(j) : apply_to_second(j);
+    const double again = new_sum((touch.bounce - dot(relative_velocity(touch), n)) / k) - before;
+    first_now ? apply_to_second(again) : apply_to_first(again);
+    touch.sum = sum;
+    return rub(touch);
+  }
+  touch.sum = sum;
   Vec2d push = j * n;
   if (is("along_wall_changed") && j > 0 && touch.sum == j) {
     Rigid& moves = a.inverse_mass > 0 ? a : b;
@@ -445,7 +481,8 @@ void StudentWorld::rub(Touch& touch) {
   const double against = is("friction_backwards") ? -sliding : sliding;
   const double sum = std::clamp(touch.sum_across - against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);
-  apply_impulse(touch.a, touch.b, arm_a, arm_b, j * t);
+  apply_impulse(touch.a, touch.b, is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a,
+                is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b, j * t);
 }
 
 void StudentWorld::push_out() {
@@ -509,6 +546,8 @@ void StudentWorld::solve(const Joint& joint) {
     if (!is("joint_without_rotation")) k += a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
     if (is("joint_masses_in_place_of_inverses"))
       k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
+    if (stick && is("stick_only_pulls") && (speed < 0 || gap < std::get<DistanceJoint>(joint).length)) break;
+    if (stick && is("stick_only_pushes") && (speed > 0 || gap > std::get<DistanceJoint>(joint).length)) break;
     if (n.x == 0 && is("hinge_along_x_only") && !stick) break;
     if (n.y == 0 && is("hinge_along_y_only") && !stick) continue;
     if (is("stick_masses_ignored")) {
@@ -527,6 +566,13 @@ void StudentWorld::solve(const Joint& joint) {
     } else if (is("joint_never_spins")) {
       a.velocity += a.inverse_mass * speed / k * n;
       b.velocity -= b.inverse_mass * speed / k * n;
+    } else if (is("joint_spins_the_first_only") || is("joint_spins_the_second_only")) {
+      const bool first = is("joint_spins_the_first_only");
+      apply_impulse(e.a, e.b, first ? e.arm_a : Vec2d{}, first ? Vec2d{} : e.arm_b, -speed / k * n);
+    } else if (is("joint_arms_swapped") || is("joint_first_arm_for_both") ||
+               is("joint_second_arm_for_both")) {
+      apply_impulse(e.a, e.b, is("joint_first_arm_for_both") ? e.arm_a : e.arm_b,
+                    is("joint_second_arm_for_both") ? e.arm_b : e.arm_a, -speed / k * n);
     } else {
       apply_impulse(e.a, e.b, e.arm_a, e.arm_b, -times("impulse of a joint") * speed / k * n);
     }
@@ -542,24 +588,40 @@ void StudentWorld::correct(const Joint& joint) {
     error *= 1 - times("length of a stick") * stick->length / length(e.gap);
   const double size = length(error);
   if (size == 0) return;
+  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
+  if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
   const Vec2d n = 1 / size * error;
   const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
   const double k =
       a.inverse_mass + b.inverse_mass + a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
   const double push = times("correction of a joint") * kPushShare * size / k;
-  a.position += a.inverse_mass * push * n;
+  const double turn = is("correction_turns_backwards") ? -push : is("correction_never_turns") ? 0 : push;
+  if (!is("correction_of_the_second_end_only")) {
+    a.position += a.inverse_mass * push * n;
+    a.angle += a.inverse_inertia * sa * turn;
+  }
+  if (is("correction_of_the_first_end_only")) return;
   b.position -= b.inverse_mass * push * n;
-  a.angle += a.inverse_inertia * sa * push;
-  b.angle -= b.inverse_inertia * sb * push;
+  b.angle -= b.inverse_inertia * sb * turn;
 }
 
 void StudentWorld::step() {
+  if (is("answers_before_the_step")) before_step_ = truly();
+  if (is("first_step_twice") && steps_ == 0) advance();
+  advance();
+  ++steps_;
+}
+
+void StudentWorld::advance() {
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
   accelerate();
   std::vector<Touch> found = touches();
-  for (Touch& touch : found) prepare(touch);
+  for (Touch& touch : found) {
+    prepare(touch);
+    bodies_[touch.a].touched = bodies_[touch.b].touched = true;
+  }
   const bool joints = !is("joint_ignored");
   for (int sweep = 0; sweep < (is("too_few_iterations") ? 1 : kSweeps); ++sweep) {
     for (const Joint& joint : scene_.joints)
@@ -572,7 +634,6 @@ void StudentWorld::step() {
   if (joints && !is("no_position_correction"))
     for (int sweep = 0; sweep < (is("too_few_iterations") ? 1 : kSweeps / 4); ++sweep)
       for (const Joint& joint : scene_.joints) correct(joint);
-  ++steps_;
 }
 
 }  // namespace plumb::course

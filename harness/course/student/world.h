@@ -14,6 +14,7 @@ struct Rigid {
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
+  bool touched = false;  ///< had a contact in the last step
   const Body* body = nullptr;
 
   Vec2d to_world(Vec2d local) const;
@@ -41,6 +42,8 @@ class StudentWorld {
 
  private:
   bool is(std::string_view mistake) const { return mistake_ == mistake; }
+  void advance();
+  std::vector<BodyState> truly() const;           ///< the states of now, whatever is answered
   double times(std::string_view quantity) const;  ///< the factor by which a quantity is wrong, or 1
   double shown(double angle) const;
   double radius(const Rigid& body) const;
@@ -79,7 +82,8 @@ class StudentWorld {
   bool touched_ = false;  ///< there was a contact
   bool once_ = false;     ///< contacts are answered once a step
   long steps_ = 0;
-  std::vector<Rigid> bodies_;  ///< the scene's, then the world
+  std::vector<BodyState> before_step_;  ///< the states before the last step
+  std::vector<Rigid> bodies_;           ///< the scene's, then the world
 };
 
 }  // namespace plumb::course

@@ -24,7 +24,7 @@ struct JointBench {
   int substeps = 4;
   double last_h = 0;
   bool side_by_side = false;  ///< as a world solves them
-  std::vector<char> apart;    ///< joints that are not
+  std::vector<char> apart;    ///< by joint: solved elsewhere
 
   /// A body by its inverse mass and inertia; it is static when both are 0.
   int body(Vec2d at, double inverse_mass, double inverse_inertia, double angle_at = 0) {

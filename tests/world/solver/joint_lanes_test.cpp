@@ -52,7 +52,6 @@ JointBench<Real> crowd(bool side_by_side) {
       bench.motion[b].angular_velocity = Real(1 + number % 15);
       const int made = bench.join(kind, a, b);
       if (pair.held) bench.joints.hold(made);
-      bench.apart.push_back(number % 11 == 10);
       ++number;
     }
   }
@@ -75,7 +74,6 @@ JointBench<Real> crowd(bool side_by_side) {
                         .motor = Motor{2, 1}}};
     bench.motion[b].velocity = {Real(0.1 * (i % 9)), Real(-0.5)};
     bench.join(kinds[i % 6], a, b);
-    bench.apart.push_back(0);
   }
   for (int star = 0; star < 24; ++star) {
     const int hub = bench.body({3.0 * star, 100}, 8, 30);
@@ -83,7 +81,6 @@ JointBench<Real> crowd(bool side_by_side) {
       const int spoke = bench.body({3.0 * star + 0.9, 99.8 + 0.1 * i}, 1, 12, 0.02 * i);
       bench.motion[spoke].velocity = {Real(0.3 * i), Real(-0.3)};
       bench.join(joint(2 + star % 8 + 3 * (i % 2)), hub, spoke);
-      bench.apart.push_back(0);
     }
   }
   return bench;
@@ -107,6 +104,29 @@ TYPED_TEST(JointLanesTest, GiveEachJointTheBitsItHasOneAtATime) {
     for (std::size_t body = 0; body < one.motion.size(); ++body)
       ASSERT_EQ(std::memcmp(&one.motion[body], &wide.motion[body], sizeof one.motion[body]), 0) << body;
     EXPECT_TRUE(bytes_of(one.joints) == bytes_of(wide.joints));
+  });
+}
+
+// Joints that are solved with their island are only evaluated: they move nothing, and those around them act
+// as if they were not there.
+TYPED_TEST(JointLanesTest, LeaveJointsOfSolvedIslandsAlone) {
+  using Real = TypeParam;
+  test::at_each_vector_width([](VectorWidth) {
+    JointBench<Real> bench;
+    bench.side_by_side = true;
+    constexpr int kCount = 40;
+    for (int i = 0; i < kCount; ++i) {
+      const int a = bench.body({3.0 * i, 0}, 1, 2), b = bench.body({3.0 * i + 1, 0.1}, 1, 2);
+      bench.motion[b].velocity = {0, Real(1)};
+      bench.join(i % 2 == 0 ? JointKind(RevoluteDefinition{.anchor_a = {1, 0}}) : JointKind(WeldDefinition{}),
+                 a, b);
+      bench.apart.push_back(i % 3 == 0);
+    }
+    bench.step(1.0 / 60);
+    for (int i = 0; i < kCount; ++i) {
+      EXPECT_EQ(bench.motion[2 * i + 1].velocity.y == Real(1), i % 3 == 0) << i;
+      EXPECT_EQ(bench.motion[2 * i].velocity.y == Real(0), i % 3 == 0) << i;
+    }
   });
 }
 

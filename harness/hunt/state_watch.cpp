@@ -1,0 +1,417 @@
+#include "harness/hunt/state_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/world/world_data.h"
+#include "harness/hunt/shapes_of_world.h"
+
+namespace plumb::harness::hunt {
+namespace {
+
+template <class Tag>
+std::pair<std::uint32_t, std::uint32_t> key_of(Handle<Tag> handle) {
+  return {handle.index, handle.generation};
+}
+
+// Of the sizes of both: rounding of shapes and rotations to floats, a hundredfold.
+constexpr double kRounding = 2e-5;
+// Of the smaller width: depth from which shapes must be in contact, and of the sizes: distance beyond which
+// they are in none. Contacts of a step are found before it moves its bodies, so the way of a step is added.
+constexpr double kDeep = 0.02, kApart = 0.02;
+// Of the impulse: what a change of momentum along a normal may be off it. Contacts turn with the bodies.
+constexpr double kBalance = 0.05;
+// rad, in a step: beyond it an angle is rounded.
+constexpr double kWhirl = 3;
+// m, m/s, rad/s: the world's limits.
+constexpr double kLargest = 1e12;
+
+double size_of(const Outline& outline) { return length(outline.high - outline.low); }
+
+}  // namespace
+
+template <class Real>
+StateWatch<Real>::StateWatch(const BasicWorld<Real>& world) : world_(world) {
+  for (const BodyId body : world.bodies())
+    for (const ContactReading& contact : world.contacts(body))
+      open_.insert(std::minmax(key_of(contact.shape_a), key_of(contact.shape_b)));
+}
+
+template <class Real>
+void StateWatch<Real>::before_step() {
+  before_.clear();
+  for (const BodyId body : world_.bodies()) {
+    before_[key_of(body)] = {
+        world_.centre(body),
+        world_.velocity(body),
+        world_.angle(body),
+        world_.angular_velocity(body),
+        world_.awake(body),
+        world_.type(body) == BodyType::Dynamic,
+        world_.mass(body),
+        world_.data().loads.get(static_cast<int>(body.index)).force.template as<double>()};
+    const std::vector<ContactReading> contacts = world_.contacts(body);
+    if (contacts.size() == 1)
+      before_[key_of(body)].only = {key_of(contacts.front().shape_a), key_of(contacts.front().shape_b)};
+  }
+}
+
+template <class Real>
+std::string StateWatch<Real>::after_step(double dt) {
+  // Turns of so many a step are not counted to a part of one. Of what a joint holds they may be taken back
+  // within the step: as many as its way has sizes.
+  for (const BodyId body : world_.bodies()) {
+    const auto before = before_.find(key_of(body));
+    if (before == before_.end()) continue;
+    const double speed = std::max(length(world_.velocity(body)), length(before->second.velocity));
+    const Aabb<double> box = world_.box(body);
+    if (std::abs(world_.angle(body) - before->second.angle) > kWhirl ||
+        (!world_.joints(body).empty() && dt * speed > kWhirl * length(box.upper - box.lower)))
+      whirled_.insert(key_of(body));
+  }
+  if (std::string wrong = impulses(dt); !wrong.empty()) return wrong;
+  if (std::string wrong = touches(); !wrong.empty()) return wrong;
+  // Asks large worlds less often: the rest costs as much as a step or more.
+  const std::int64_t between = 1 + world_.counts().shapes / 8;
+  if (world_.step_count() % between != 0) return {};
+  for (const auto& check :
+       {&StateWatch::counts, &StateWatch::moved, &StateWatch::sleep_events, &StateWatch::islands,
+        &StateWatch::sensors, &StateWatch::joints, &StateWatch::boxes, &StateWatch::limits})
+    if (std::string wrong = (this->*check)(); !wrong.empty()) return wrong;
+  return distances(dt);
+}
+
+template <class Real>
+std::string StateWatch<Real>::counts() const {
+  const WorldCounts counts = world_.counts();
+  int bodies = 0, shapes = 0;
+  std::set<Key> joints;
+  for (const BodyId body : world_.bodies()) {
+    ++bodies;
+    shapes += static_cast<int>(world_.shapes(body).size());
+    for (const JointId joint : world_.joints(body)) joints.insert(key_of(joint));
+  }
+  if (counts.bodies != bodies || counts.shapes != shapes || counts.joints != static_cast<int>(joints.size()))
+    return fmt::format("counts {} bodies, {} shapes, {} joints, and lists {}, {}, {}", counts.bodies,
+                       counts.shapes, counts.joints, bodies, shapes, joints.size());
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::moved() const {
+  std::vector<BodyId> list(world_.bodies().size());
+  list.resize(std::min(list.size(), world_.moved(list)));
+  std::set<Key> told;
+  for (const BodyId body : list) told.insert(key_of(body));
+  for (const BodyId body : world_.bodies()) {
+    const auto before = before_.find(key_of(body));
+    if (before == before_.end() || told.contains(key_of(body))) continue;
+    if (world_.centre(body) != before->second.position || world_.angle(body) != before->second.angle)
+      return fmt::format("'{}' moved, and is not told to have", world_.name(body));
+  }
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::sleep_events() const {
+  std::set<Key> fell;
+  for (const BodyId body : world_.events().fell_asleep) fell.insert(key_of(body));
+  for (const BodyId body : world_.bodies()) {
+    const auto before = before_.find(key_of(body));
+    if (before == before_.end() || world_.type(body) != BodyType::Dynamic || !world_.enabled(body)) continue;
+    if (before->second.awake && !world_.awake(body) && !fell.contains(key_of(body)))
+      return fmt::format("'{}' fell asleep, and is not told to have", world_.name(body));
+    if (!world_.awake(body) && world_.velocity(body) != Vec2d{} &&
+        length(world_.centre(body) - before->second.position) > 0 && !before->second.awake)
+      return fmt::format("'{}' moves asleep", world_.name(body));
+  }
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::touches() {
+  const Events& events = world_.events();
+  std::map<Pair, int> change;
+  for (const TouchEvent& event : events.begin)
+    ++change[std::minmax(key_of(event.shape_a), key_of(event.shape_b))];
+  for (const TouchEvent& event : events.end)
+    --change[std::minmax(key_of(event.shape_a), key_of(event.shape_b))];
+  for (const auto& [pair, by] : change) {
+    const int open = (open_.contains(pair) ? 1 : 0) + by;
+    if (open < 0 || open > 1)
+      return open < 0 ? "a touch ends that had not begun" : "a touch begins that had begun";
+    if (open == 1) open_.insert(pair);
+    if (open == 0) open_.erase(pair);
+  }
+  return {};
+}
+
+// Checks that touching pairs have begun to touch, and that pairs far apart have ended. Contacts are found
+// where a step begins, so shapes may have moved as far as a step takes them.
+template <class Real>
+std::string StateWatch<Real>::distances(double dt) {
+  struct Placed {
+    ShapeId shape{};
+    BodyId body{};
+    Outline outline{};
+    double way = 0;  // m, in a step
+  };
+  std::vector<Placed> all;
+  for (const BodyId body : world_.bodies()) {
+    const auto before = before_.find(key_of(body));
+    if (before == before_.end() || !world_.enabled(body)) continue;
+    for (const ShapeId shape : world_.shapes(body)) {
+      if (world_.sensor(shape) || world_.valid(world_.chain(shape))) continue;
+      Placed one{shape, body, outline_in_world(world_, shape)};
+      const double speed = std::max(length(world_.velocity(body)), length(before->second.velocity)),
+                   spin = std::max(std::abs(world_.angular_velocity(body)), std::abs(before->second.spin));
+      const Aabb<double> box = world_.box(body);
+      one.way = dt * (speed + spin * (length(box.upper - box.lower) + size_of(one.outline)) +
+                      dt * length(world_.gravity())) +
+                length(world_.centre(body) - before->second.position);
+      all.push_back(std::move(one));
+    }
+  }
+  std::map<Pair, int> wrong;
+  // Returns true in the third step in which something is wrong with a pair: what calls have just put
+  // somewhere is found a step later.
+  const auto lasts = [&](const Pair& pair) {
+    const auto known = wrong_.find(pair);
+    return (wrong[pair] = known != wrong_.end() ? known->second + 1 : 1) >= 3;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const Placed &a = all[i], &b = all[j];
+      if (a.body == b.body) continue;
+      const double way = a.way + b.way + kApart * (size_of(a.outline) + size_of(b.outline));
+      const Pair pair = std::minmax(key_of(a.shape), key_of(b.shape));
+      const bool open = open_.contains(pair);
+      const bool far = a.outline.low.x > b.outline.high.x || a.outline.low.y > b.outline.high.y ||
+                       b.outline.low.x > a.outline.high.x || b.outline.low.y > a.outline.high.y;
+      if (!open && far) continue;
+      const double apart = separation(a.outline, b.outline);
+      if (open && apart > way && (world_.awake(a.body) || world_.awake(b.body))) {
+        if (!lasts(pair)) continue;
+        return fmt::format("a touch of '{}' and '{}' does not end, {:.3g} m away", world_.name(a.body),
+                           world_.name(b.body), apart);
+      }
+      if (open || apart > -kDeep * std::min(width_of(a.outline), width_of(b.outline)) - a.way - b.way ||
+          !may_touch(world_.filter(a.shape), world_.filter(b.shape)) || is_held(a.body, b.body) ||
+          (world_.type(a.body) != BodyType::Dynamic && world_.type(b.body) != BodyType::Dynamic) ||
+          (!world_.awake(a.body) && !world_.awake(b.body)))
+        continue;
+      // A point in two shapes at once, also of one body, may be taken for the other's, so only pairs that lie
+      // alone are judged.
+      const auto meets_others = [&](const Placed& one, const Placed& other) {
+        return std::any_of(all.begin(), all.end(), [&](const Placed& third) {
+          return third.shape != one.shape && third.shape != other.shape &&
+                 separation(third.outline, one.outline) < one.way + kApart * size_of(one.outline);
+        });
+      };
+      if (meets_others(a, b) || meets_others(b, a) || !lasts(pair)) continue;
+      return fmt::format("'{}' and '{}' lie in each other by {:.3g} m, and no touch has begun",
+                         world_.name(a.body), world_.name(b.body), -apart);
+    }
+  wrong_ = std::move(wrong);
+  return {};
+}
+
+// Joints keep the bodies that they join from colliding, unless they say otherwise.
+template <class Real>
+bool StateWatch<Real>::is_held(BodyId one, BodyId other) const {
+  for (const JointId joint : world_.joints(one)) {
+    const auto [a, b] = world_.bodies(joint);
+    if ((a == other || b == other) && !world_.definition(joint).collide) return true;
+  }
+  return false;
+}
+
+// Checks that bodies that touch or are joined sleep as a whole.
+template <class Real>
+std::string StateWatch<Real>::islands() const {
+  const auto differs = [&](BodyId a, BodyId b) {
+    return world_.type(a) == BodyType::Dynamic && world_.type(b) == BodyType::Dynamic && world_.enabled(a) &&
+           world_.enabled(b) && world_.awake(a) != world_.awake(b);
+  };
+  for (const BodyId body : world_.bodies()) {
+    for (const JointId joint : world_.joints(body)) {
+      const auto [a, b] = world_.bodies(joint);
+      if (differs(a, b))
+        return fmt::format("of '{}' and '{}', which a joint holds, one sleeps", world_.name(a),
+                           world_.name(b));
+    }
+    for (const ContactReading& contact : world_.contacts(body)) {
+      const double least = contact.count > 1 ? std::min(contact.separations[0], contact.separations[1])
+                                             : contact.separations[0];
+      if (contact.count == 0 || least > 0 || world_.sensor(contact.shape_a) || world_.sensor(contact.shape_b))
+        continue;
+      const BodyId a = world_.body(contact.shape_a), b = world_.body(contact.shape_b);
+      if (differs(a, b))
+        return fmt::format("of '{}' and '{}', which touch, one sleeps", world_.name(a), world_.name(b));
+    }
+  }
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::sensors() const {
+  for (const BodyId body : world_.bodies()) {
+    for (const ShapeId sensor : world_.shapes(body)) {
+      if (!world_.sensor(sensor) || !world_.enabled(body)) continue;
+      const std::vector<ShapeId> seen = world_.overlapping(sensor);
+      const Outline own = outline_in_world(world_, sensor);
+      for (const BodyId other : world_.bodies()) {
+        if (other == body || !world_.enabled(other)) continue;
+        if (world_.type(other) == BodyType::Static && world_.type(body) == BodyType::Static) continue;
+        for (const ShapeId shape : world_.shapes(other)) {
+          if (world_.sensor(shape) || !may_touch(world_.filter(sensor), world_.filter(shape))) continue;
+          const Outline outline = outline_in_world(world_, shape);
+          const double apart = separation(own, outline);
+          const double slack = kRounding * (size_of(own) + size_of(outline) +
+                                            1e-3 * length(world_.centre(body) - world_.centre(other)));
+          const bool is_seen = std::find(seen.begin(), seen.end(), shape) != seen.end();
+          if (std::abs(apart) <= slack || is_seen == (apart < 0)) continue;
+          return fmt::format("a sensor of '{}' {} '{}', {:.3g} m {}", world_.name(body),
+                             is_seen ? "sees" : "does not see", world_.name(other), std::abs(apart),
+                             apart > 0 ? "away" : "inside");
+        }
+      }
+    }
+  }
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::joints() const {
+  std::map<Key, JointLoadEvent> told;
+  for (const JointLoadEvent& event : world_.events().loaded) told[key_of(event.joint)] = event;
+  for (const BodyId body : world_.bodies())
+    for (const JointId joint : world_.joints(body)) {
+      const auto [a, b] = world_.bodies(joint);
+      if (a != body || !world_.enabled(a) || !world_.enabled(b)) continue;
+      const JointReading reading = world_.read(joint);
+      const JointDefinition definition = world_.definition(joint);
+      // Loads of sleepers are those of before, and are not told again.
+      const auto is_awake = [&](BodyId of) {
+        const auto before = before_.find(key_of(of));
+        return before != before_.end() && before->second.dynamic && before->second.awake && world_.awake(of);
+      };
+      const bool awake = is_awake(a) || is_awake(b);
+      const auto beyond = [](double load, double limit, double share) {
+        return limit > 0 && load > limit * (1 + share);
+      };
+      const bool surely = beyond(reading.force, definition.report_force, 1e-5) ||
+                          beyond(reading.torque, definition.report_torque, 1e-5);
+      const bool perhaps = beyond(reading.force, definition.report_force, -1e-5) ||
+                           beyond(reading.torque, definition.report_torque, -1e-5);
+      const bool is_told = told.contains(key_of(joint));
+      if (awake && (is_told ? !perhaps : surely))
+        return fmt::format("a joint of '{}' bears {:.6g} N and {:.6g} N m; of {:.6g} and {:.6g} it is {}",
+                           world_.name(b), reading.force, reading.torque, definition.report_force,
+                           definition.report_torque, is_told ? "told" : "not told");
+      if (beyond(reading.force, definition.break_force, 1e-3) && awake)
+        return fmt::format("a joint of '{}' bears {:.6g} N and holds, where {:.6g} break it", world_.name(b),
+                           reading.force, definition.break_force);
+      if (beyond(reading.torque, definition.break_torque, 1e-3) && awake)
+        return fmt::format("a joint of '{}' bears {:.6g} N m and holds, where {:.6g} break it",
+                           world_.name(b), reading.torque, definition.break_torque);
+      if (const auto* hinge = std::get_if<RevoluteDefinition>(&world_.kind(joint))) {
+        const Vec2d on_a = world_.world_point(a, hinge->anchor_a),
+                    on_b = world_.world_point(b, hinge->anchor_b);
+        const double gap = length(on_a - on_b);
+        const Aabb<double> box_a = world_.box(a), box_b = world_.box(b);
+        const double size = length(hinge->anchor_a) + length(hinge->anchor_b) +
+                            length(box_a.upper - box_a.lower) + length(box_b.upper - box_b.lower);
+        if (std::abs(reading.linear_error - gap) > kRounding * (size + gap + 1e-3 * length(on_a)))
+          return fmt::format("a hinge of '{}' is {:.4g} m open, and reads {:.4g}", world_.name(b), gap,
+                             reading.linear_error);
+        if (whirled_.contains(key_of(a)) || whirled_.contains(key_of(b))) continue;
+        const double turns = (reading.angle - (world_.angle(b) - world_.angle(a) - hinge->reference_angle)) /
+                             6.283185307179586;
+        if (std::abs(turns - std::round(turns)) >
+            2e-3 * (1 + 1e-3 * std::abs(world_.angle(b)) + 1e-3 * std::abs(world_.angle(a))))
+          return fmt::format("a hinge of '{}' reads an angle that is {:.3g} turns off", world_.name(b),
+                             turns - std::round(turns));
+      }
+    }
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::boxes() const {
+  for (const BodyId body : world_.bodies()) {
+    if (!world_.enabled(body)) continue;
+    const Aabb<double> all = world_.box(body);
+    for (const ShapeId shape : world_.shapes(body)) {
+      const Outline outline = outline_in_world(world_, shape);
+      const double slack =
+          1e-2 * size_of(outline) + kRounding * (length(world_.centre(body)) + length(outline.low));
+      for (const Aabb<double>& box : {all, world_.box(shape)})
+        if (outline.low.x < box.lower.x - slack || outline.low.y < box.lower.y - slack ||
+            outline.high.x > box.upper.x + slack || outline.high.y > box.upper.y + slack)
+          return fmt::format(
+              "a box of '{}' ends at {:.4g}, {:.4g} and {:.4g}, {:.4g}, its shape at {:.4g}, {:.4g} and "
+              "{:.4g}, {:.4g}",
+              world_.name(body), box.lower.x, box.lower.y, box.upper.x, box.upper.y, outline.low.x,
+              outline.low.y, outline.high.x, outline.high.y);
+    }
+  }
+  return {};
+}
+
+// A body that only rests on or strikes what does not move, without friction's help along the normal: its
+// momentum along the normal changes by its weight and the contact's impulse.
+template <class Real>
+std::string StateWatch<Real>::impulses(double dt) const {
+  for (const BodyId body : world_.bodies()) {
+    const auto before = before_.find(key_of(body));
+    if (before == before_.end() || !before->second.dynamic || world_.type(body) != BodyType::Dynamic ||
+        !world_.awake(body) || !before->second.awake || !world_.joints(body).empty() || !world_.enabled(body))
+      continue;
+    const std::vector<ContactReading> contacts = world_.contacts(body);
+    if (contacts.size() != 1 || world_.linear_damping(body) != 0) continue;
+    const ContactReading& contact = contacts.front();
+    // Others may have come and gone within the step.
+    if (before->second.only != Pair{key_of(contact.shape_a), key_of(contact.shape_b)}) continue;
+    const bool is_a = world_.body(contact.shape_a) == body;
+    const BodyId other = world_.body(is_a ? contact.shape_b : contact.shape_a);
+    const bool counted = world_.hit_events(contact.shape_a) || world_.hit_events(contact.shape_b) ||
+                         world_.pre_solve(contact.shape_a) || world_.pre_solve(contact.shape_b);
+    const BodyLocks locks = world_.locks(body);
+    if (!counted || world_.type(other) != BodyType::Static || locks.x || locks.y) continue;
+    const double mass = world_.mass(body);
+    if (mass != before->second.mass) continue;
+    const Vec2d n = is_a ? -1.0 * contact.normal : contact.normal;
+    const Vec2d gain = world_.velocity(body) - before->second.velocity -
+                       dt * world_.gravity_scale(body) * world_.gravity() -
+                       (dt / mass) * before->second.force;
+    const double off = mass * dot(gain, n) - contact.step_impulse;
+    const double bound = kBalance * contact.step_impulse +
+                         mass * (0.1 * length(gain) + 0.05 * dt * length(world_.gravity()) +
+                                 0.02 * (length(world_.velocity(body)) + length(before->second.velocity)));
+    if (contact.step_impulse > 0 && std::abs(off) > bound && std::abs(off) > 1e-6 * mass)
+      return fmt::format("'{}' is pushed by {:.4g} N s, and its contact says {:.4g}", world_.name(body),
+                         mass * dot(gain, n), contact.step_impulse);
+  }
+  return {};
+}
+
+template <class Real>
+std::string StateWatch<Real>::limits() const {
+  for (const BodyId body : world_.bodies()) {
+    if (world_.quarantined(body)) continue;
+    const BodyState s = world_.state(body);
+    for (const double value :
+         {s.position.x, s.position.y, s.angle, s.velocity.x, s.velocity.y, s.angular_velocity})
+      if (!(std::abs(value) <= kLargest))
+        return fmt::format("'{}' goes on with {:.6g}", world_.name(body), value);
+  }
+  return {};
+}
+
+template class StateWatch<float>;
+template class StateWatch<double>;
+
+}  // namespace plumb::harness::hunt
