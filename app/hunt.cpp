@@ -1,5 +1,6 @@
 #include "harness/hunt/hunt.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <thread>

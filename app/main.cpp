@@ -1,4 +1,5 @@
 // Command line of `plumb`.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <string>

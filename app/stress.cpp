@@ -1,5 +1,6 @@
 #include "harness/stress/stress.h"
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>

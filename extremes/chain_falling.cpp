@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 
 #include "extremes/parts/hanging.h"
 #include "scenarios/truth/rod_chain.h"

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "extremes/parts/hanging.h"
 #include "extremes/parts/swing.h"
 

@@ -7,6 +7,7 @@
 // complementarity problem a step, solved exactly.
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

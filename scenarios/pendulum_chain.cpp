@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/rod_chain.h"
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "engine/math/arc_tangent.h"
 #include "scenarios/truth/parts.h"
 

@@ -1,6 +1,7 @@
 #include "bench/field/measure.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>

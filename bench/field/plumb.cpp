@@ -1,5 +1,6 @@
 // plumb's own world, float, through its public interface. Masses are the scene's.
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "bench/field/adapters.h"

@@ -74,7 +74,7 @@ plumb::DrawOptions options_of(const plumb_draw_options* options) {
 /// Returns the poses kept of a world in `Real`; null if none are. Throws Error (Value) for the other
 /// precision's.
 template <class Real>
-const PastPoses<Real>* kept(const plumb_past_poses* past) {
+const PastPoses<Real>* kept_poses(const plumb_past_poses* past) {
   const auto& poses = require(past, "past poses").poses;
   if (std::holds_alternative<std::monostate>(poses)) return nullptr;
   if (const auto* found = std::get_if<PastPoses<Real>>(&poses)) return found;
@@ -108,7 +108,7 @@ plumb_status plumb_past_poses_keep(plumb_past_poses* past, const plumb_world* wo
 size_t plumb_past_poses_between(const plumb_past_poses* past, const plumb_world* world, double fraction,
                                 plumb_pose* to, size_t capacity) {
   return read_or<size_t>(0, world, [&]<class Real>(const BasicWorld<Real>& w) {
-    const PastPoses<Real>* poses = kept<Real>(past);
+    const PastPoses<Real>* poses = kept_poses<Real>(past);
     if (capacity > 0) require(to, "out");
     const std::vector<plumb::BodyId> bodies = w.bodies();
     for (size_t i = 0; i < bodies.size() && i < capacity; ++i)
@@ -135,7 +135,7 @@ plumb_status plumb_world_draw_between(const plumb_world* world, const plumb_past
                                       const plumb_debug_draw* draw, const plumb_draw_options* options) {
   return read_checked(world, [&]<class Real>(const BasicWorld<Real>& w) {
     Drawing drawing(require(draw, "draw"));
-    const PastPoses<Real>* poses = kept<Real>(past);
+    const PastPoses<Real>* poses = kept_poses<Real>(past);
     if (poses == nullptr) return plumb::draw(w, drawing, options_of(options));
     plumb::draw(w, *poses, fraction, drawing, options_of(options));
   });

@@ -1,5 +1,7 @@
 #include "engine/simulation/simulation.h"
 
+#include <algorithm>
+
 #include "bindings/c/handle.h"
 #include "engine/scene/json.h"
 #include "engine/world/add_scene.h"

@@ -37,7 +37,7 @@ function known(fields, object, subject) {
   if (object === null || typeof object !== "object" || Array.isArray(object))
     refuse(subject.split(" ").pop(), object, `must be {${[...fields].join(", ")}}`);
   for (const field of Object.keys(object))
-    if (!fields.has(field)) refuse(field, object[field], `is not a field of ${subject}`, "UnknownName");
+    if (!fields.has(field)) refuse(field, object[field], `is not a field of ${subject}, which has ${[...fields].join(", ")}`, "UnknownName");
   return object;
 }
 export function listed(list, field) {

@@ -1,5 +1,6 @@
 #include "bindings/python/arrays.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/world/world_data.h"

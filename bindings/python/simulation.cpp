@@ -1,6 +1,7 @@
 #include "engine/simulation/simulation.h"
 
 #include <algorithm>
+#include <memory>
 #include <thread>
 
 #include "bindings/python/held_world.h"

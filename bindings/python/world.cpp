@@ -1,5 +1,6 @@
 #include "engine/world/world.h"
 
+#include <memory>
 #include <optional>
 
 #include "bindings/python/handles.h"

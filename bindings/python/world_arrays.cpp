@@ -1,4 +1,5 @@
 #include <cstring>
+#include <memory>
 
 #include "bindings/python/arrays.h"
 #include "bindings/python/handles.h"

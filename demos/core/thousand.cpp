@@ -1,4 +1,5 @@
 #include <cmath>
+#include <memory>
 
 #include "demos/core/registry.h"
 #include "demos/core/world_demo.h"

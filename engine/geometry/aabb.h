@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "engine/math/vec2.h"
 
 namespace plumb {
@@ -30,8 +28,10 @@ struct Aabb {
 /// Returns the smallest box around both.
 template <class Real>
 Aabb<Real> merged(const Aabb<Real>& a, const Aabb<Real>& b) {
-  return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y)},
-          {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y)}};
+  const auto least = [](Real x, Real y) { return y < x ? y : x; };
+  const auto most = [](Real x, Real y) { return x < y ? y : x; };
+  return {{least(a.lower.x, b.lower.x), least(a.lower.y, b.lower.y)},
+          {most(a.upper.x, b.upper.x), most(a.upper.y, b.upper.y)}};
 }
 
 }  // namespace plumb

@@ -1,6 +1,10 @@
 #pragma once
 
+// Takes the compiler's own square root where there is one: <cmath> would double what including a public
+// header costs.
+#ifndef __GNUC__
 #include <cmath>
+#endif
 
 namespace plumb {
 
@@ -54,7 +58,13 @@ template <class Real>
 
 template <class Real>
 [[gnu::always_inline]] inline Real length(Vec2<Real> a) {
+#ifdef __GNUC__
+  static_assert(sizeof(Real) <= sizeof(double));
+  if constexpr (sizeof(Real) == sizeof(float)) return __builtin_sqrtf(length_squared(a));
+  return __builtin_sqrt(length_squared(a));
+#else
   return std::sqrt(length_squared(a));
+#endif
 }
 
 /// Rotates a by a quarter turn counter-clockwise.

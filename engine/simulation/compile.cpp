@@ -1,4 +1,5 @@
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -37,14 +38,14 @@ std::uint64_t identity_of(const Scene& scene, const Accuracy& accuracy,
   return out.value();
 }
 
-std::unique_ptr<Driver> make_driver(const Scene& scene, const Accuracy& accuracy,
-                                    const CompileOptions& options) {
+OwnedPointer<Driver> make_driver(const Scene& scene, const Accuracy& accuracy,
+                                 const CompileOptions& options) {
   if (const auto* precise = std::get_if<Precise>(&accuracy))
-    return make_precise_driver(scene, *precise, options);
+    return OwnedPointer(make_precise_driver(scene, *precise, options).release());
   const Realtime& realtime = std::get<Realtime>(accuracy);
   if (realtime.precision == Precision::Float)
-    return std::make_unique<WorldDriver<float>>(scene, realtime, options.every_stage);
-  return std::make_unique<WorldDriver<double>>(scene, realtime, options.every_stage);
+    return OwnedPointer<Driver>(new WorldDriver<float>(scene, realtime, options.every_stage));
+  return OwnedPointer<Driver>(new WorldDriver<double>(scene, realtime, options.every_stage));
 }
 
 }  // namespace

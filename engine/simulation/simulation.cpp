@@ -15,7 +15,7 @@
 namespace plumb {
 namespace {
 
-std::uint64_t checksum(std::span<const std::byte> bytes) {
+std::uint64_t sum_of_bytes(std::span<const std::byte> bytes) {
   Fnv1a hash;
   for (const std::byte byte : bytes) hash.add(static_cast<std::uint64_t>(byte));
   return hash.value();
@@ -44,7 +44,7 @@ struct SnapshotHeader {
 
 }  // namespace
 
-Simulation::Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, std::uint64_t identity)
+Simulation::Simulation(OwnedPointer<Driver> driver, std::size_t body_count, std::uint64_t identity)
     : driver_(std::move(driver)), body_count_(body_count), identity_(identity) {}
 
 void Simulation::step(int count) {
@@ -115,7 +115,7 @@ std::vector<std::byte> Simulation::save() const {
   SnapshotHeader header;
   header.identity = identity_;
   header.size = payload.size();
-  header.checksum = checksum(payload);
+  header.checksum = sum_of_bytes(payload);
   std::vector<std::byte> bytes(sizeof header + payload.size());
   std::memcpy(bytes.data(), &header, sizeof header);
   std::copy(payload.begin(), payload.end(), bytes.begin() + sizeof header);
@@ -133,7 +133,7 @@ void Simulation::restore(std::span<const std::byte> snapshot) {
     refuse("it is not one of plumb's");
   if (header.identity != identity_) refuse("it is of another scene or other settings");
   if (header.size != payload.size()) refuse("it has the wrong length");
-  if (header.checksum != checksum(payload)) refuse("its bytes have been changed");
+  if (header.checksum != sum_of_bytes(payload)) refuse("its bytes have been changed");
   driver_->restore(payload);
 }
 

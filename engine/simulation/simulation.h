@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/core/owned_pointer.h"
 #include "engine/driver/accuracy.h"
 #include "engine/driver/driver.h"
 #include "engine/driver/plan.h"
@@ -55,9 +55,9 @@ class Simulation {
 
  private:
   friend Simulation compile(const Scene&, const Accuracy&, CompileOptions);
-  Simulation(std::unique_ptr<Driver> driver, std::size_t body_count, std::uint64_t identity);
+  Simulation(OwnedPointer<Driver> driver, std::size_t body_count, std::uint64_t identity);
 
-  std::unique_ptr<Driver> driver_;
+  OwnedPointer<Driver> driver_;
   std::size_t body_count_;
   std::uint64_t identity_;  ///< of scene and accuracy, stamped on snapshots
   bool abandoned_ = false;  ///< a step was not finished

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "engine/core/owned_pointer.h"
 #include "engine/world/world.h"
 
 namespace plumb {
@@ -46,7 +46,7 @@ class Rollback {
   int find(std::int64_t step) const;
 
   BasicWorld<Real>* world_;
-  std::vector<std::unique_ptr<WorldData<Real>>> ring_;
+  std::vector<OwnedPointer<WorldData<Real>>> ring_;
   int first_ = 0, size_ = 0;
 };
 

@@ -42,7 +42,7 @@ void set_crew(WorldData<Real>& w, const Set& set) {
 }  // namespace
 
 template <class Real>
-BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(std::make_unique<WorldData<Real>>()) {
+BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(OwnedPointer(new WorldData<Real>)) {
   validate(definition);
   data_->settings = definition;
   data_->settings.threads = 1;  // the crew has them

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/owned_pointer.h"
 #include "engine/core/task_system.h"
 #include "engine/geometry/aabb.h"
 #include "engine/scene/error.h"
@@ -285,17 +285,17 @@ class BasicWorld {
   /// Owns the data. Every access to data that were moved away throws: no call can forget to ask.
   class Owned {
    public:
-    explicit Owned(std::unique_ptr<WorldData<Real>> data) : data_(std::move(data)) {}
+    explicit Owned(OwnedPointer<WorldData<Real>> data) : data_(std::move(data)) {}
     WorldData<Real>& operator*() const {
-      if (data_ == nullptr) report_moved();
+      if (moved_away()) report_moved();
       return *data_;
     }
     WorldData<Real>* operator->() const { return &**this; }
-    bool moved_away() const { return data_ == nullptr; }
+    bool moved_away() const { return data_.get() == nullptr; }
     WorldData<Real>* release() { return data_.release(); }
 
    private:
-    std::unique_ptr<WorldData<Real>> data_;
+    OwnedPointer<WorldData<Real>> data_;
   };
   Owned data_;
 };

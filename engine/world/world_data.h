@@ -355,6 +355,12 @@ struct Scratch {
 
 template <class Real>
 struct WorldData {
+  // Compiled once, in state/world_data.cpp: there are many members.
+  WorldData();
+  WorldData(const WorldData&) = delete;
+  WorldData& operator=(const WorldData&) = delete;
+  ~WorldData();
+
   WorldDefinition settings;
   double time = 0;
   std::int64_t steps = 0;

@@ -1,6 +1,7 @@
 #include "extremes/parts/bullet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace plumb::extremes {

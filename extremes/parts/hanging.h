@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "extremes/parts/scenes.h"
 
 namespace plumb::extremes {

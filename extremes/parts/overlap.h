@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "extremes/parts/scenes.h"
 
 namespace plumb::extremes {

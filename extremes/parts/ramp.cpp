@@ -1,5 +1,6 @@
 #include "extremes/parts/ramp.h"
 
+#include <cmath>
 #include <utility>
 
 namespace plumb::extremes {

@@ -1,5 +1,6 @@
 #include "reference/process_backend.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <mutex>

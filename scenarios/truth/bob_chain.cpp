@@ -1,5 +1,6 @@
 #include "scenarios/truth/bob_chain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -1,5 +1,6 @@
 // The order of convergence that each method claims, observed: the error at h, h/2 and h/4. The oracle is the
 // engine itself at other steps; what the error is measured against is the truth.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 // Friction and the inertia that follows from shapes: closed forms for what no scenario holds yet. The ground
 // is level and gravity is tilted instead, which is the same motion in turned axes.
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <string>

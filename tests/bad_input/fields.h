@@ -71,7 +71,7 @@ void visit_fields(T& value, const FieldPlace& at, Visit&& visit) {
       const std::string& name = names[next++];
       visit_fields(member, {stem + name, std::string(Members<T>::kStruct) + "." + name}, visit);
     };
-    std::apply([&](auto&... members) { (each(members), ...); }, Members<T>::of(value));
+    Members<T>::with(value, [&](auto&... members) { (each(members), ...); });
   }
 }
 

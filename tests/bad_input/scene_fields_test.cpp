@@ -2,6 +2,8 @@
 // accepted.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/scene/json.h"
 #include "engine/scene/validate.h"
 #include "engine/simulation/simulation.h"

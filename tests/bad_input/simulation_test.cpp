@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <climits>
+#include <cmath>
 
 #include "engine/simulation/simulation.h"
 #include "tests/bad_input/refusal.h"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that each folder of engine/ and scenarios/ compiles as one source, as the preset `library` and the page for
-browsers do: names that are hidden in a file (anonymous namespaces) are unique within their folder, or shared by a header;
-each scenario has a namespace of its own.
+browsers do: names that are hidden in a file (anonymous namespaces) are unique within their folder, or shared by a header,
+and are none of the headers that are precompiled there; each scenario has a namespace of its own.
 
     folders.py BUILD     a build folder with compile_commands.json
 
@@ -19,6 +19,7 @@ import tempfile
 
 APART = {"integrate/dop853.cpp", "linear_algebra/joint_system_hinges.cpp"}
 OPTIONS_OF_THEIR_OWN = "-fno-tree-slp-vectorize"
+PRECOMPILED = ["engine/world/world_data.h", "engine/scene/scene.h"]
 
 
 def main():
@@ -43,6 +44,8 @@ def main():
         if pathlib.Path(command[0]).name == "cmake":  # cmake -E env NAME=VALUE ccache COMPILER ...
             command = command[next(i for i, word in enumerate(command) if word.endswith("ccache")) + 1:]
         with tempfile.NamedTemporaryFile("w", suffix=".cpp") as source:
+            if engine in folder.parents:
+                source.write("".join(f'#include "{root / header}"\n' for header in PRECOMPILED))
             source.write("".join(f'#include "{entry["file"]}"\n' for entry in entries))
             source.flush()
             run = subprocess.run(command + ["-w", "-fsyntax-only", source.name], cwd=entries[0]["directory"],

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "engine/collision/distance/distance.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "engine/collision/distance/shape_cast.h"
 
 #include <gtest/gtest.h>

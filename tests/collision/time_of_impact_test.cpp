@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "engine/collision/distance/time_of_impact.h"
 
 #include <gtest/gtest.h>

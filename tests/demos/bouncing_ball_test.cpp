@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/simulation/simulation.h"
 #include "tests/demos/play.h"

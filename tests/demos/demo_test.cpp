@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "demos/core/source.h"
 #include "engine/scene/error.h"

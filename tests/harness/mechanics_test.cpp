@@ -1,4 +1,5 @@
 // Holds the energy and the gaps of joints that the harness measures against engines that are 2 % wrong.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

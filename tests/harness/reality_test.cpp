@@ -1,5 +1,6 @@
 #include "harness/reality/reality.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/hunt/finding.h"
 #include "harness/hunt/idiom.h"

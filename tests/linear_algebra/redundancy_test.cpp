@@ -1,6 +1,7 @@
 // Rows that others leave almost nothing of: from which share on they count, to 2 % of the threshold.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>

@@ -2,6 +2,7 @@
 // and its bits however time is cut.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/simulation/simulation.h"

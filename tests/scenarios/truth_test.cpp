@@ -1,6 +1,7 @@
 // The truths against published digits, other formulas and other formulations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/scene/json.h"
 #include "tests/scene/sample.h"
 

@@ -1,6 +1,8 @@
 #include "harness/sweep/explorer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include <gtest/gtest.h>

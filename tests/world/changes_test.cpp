@@ -2,6 +2,7 @@
 // Readers that fill a span give what those that return a vector give.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <map>
 #include <unordered_map>
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/world/solver_scenes.h"
 
 // Checks what is particular to Jakobsen's projections: they end where constraints hold, and more sweeps hold

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "engine/world/queries.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/world/solver_scenes.h"
 
 // Checks what is particular to sequential impulses: the gap that Baumgarte's feedback leaves, and the use of

@@ -1,9 +1,11 @@
 // Whatever a call could change is awake: each call of World on what sleeps acts as on a twin that is awake.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <regex>
 #include <set>
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/world/solver_scenes.h"
 
 // Checks what is particular to XPBD: compliance means the same whatever the step, and substeps are its

@@ -1,5 +1,6 @@
 #include "bench/field/gap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 
 #include "engine/collision/broad_phase/dynamic_tree.h"

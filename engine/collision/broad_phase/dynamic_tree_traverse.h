@@ -2,6 +2,7 @@
 
 // The templates of DynamicTree that take visitors; included by dynamic_tree.h.
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/collision/broad_phase/dynamic_tree.h"

@@ -17,7 +17,7 @@ Vec2d corner(const Convex<Real>& shape, int i) {
 constexpr Vec2d outward(Vec2d e) { return {e.y, -e.x}; }
 
 /// Normalises `v`; returns up for a zero vector.
-Vec2d unit(Vec2d v) {
+Vec2d direction_of(Vec2d v) {
   const double length = std::sqrt(length_squared(v));
   return length > 0 ? Vec2d{v.x / length, v.y / length} : Vec2d{0, 1};
 }
@@ -49,7 +49,7 @@ Nearest nearest_from_outside(const Convex<Real>& shape, Vec2d x) {
     if (square < least) {
       least = square;
       // On the line of an edge the difference is zero and has no direction: use the edge's.
-      best = {at, square > 0 ? unit(normal) : unit(outward(e)), std::sqrt(square)};
+      best = {at, square > 0 ? direction_of(normal) : direction_of(outward(e)), std::sqrt(square)};
     }
   }
   return best;
@@ -62,7 +62,7 @@ Nearest nearest_on_hull(const Convex<Real>& shape, Vec2d x) {
   for (int i = 0; i < shape.count; ++i) {
     const Vec2d p = corner(shape, i), e = corner(shape, i + 1) - p;
     if (!(length_squared(e) > 0)) continue;
-    const Vec2d normal = unit(outward(e));
+    const Vec2d normal = direction_of(outward(e));
     const double height = dot(normal, x - p);
     if (height > best.distance) best = {x - height * normal, normal, height};
   }
@@ -84,7 +84,7 @@ Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d way) {
   if (!(chord >= 0) || !(along > 0)) return {};
   const double fraction = (along - std::sqrt(chord)) / size;
   if (!(fraction >= 0)) return {};
-  return {fraction, radius > 0 ? unit(from + fraction * way) : unit(-way)};
+  return {fraction, radius > 0 ? direction_of(from + fraction * way) : direction_of(-way)};
 }
 
 /// Inward crossing of the edge p .. p + e moved out by `radius`.
@@ -118,7 +118,7 @@ Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
     }
   }
   if (!(enter.fraction <= leave)) return {};
-  enter.normal = unit(enter.normal);
+  enter.normal = direction_of(enter.normal);
   return enter;
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "engine/collision/manifold/hull_pair.h"
 
 namespace plumb {

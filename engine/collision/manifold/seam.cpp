@@ -1,6 +1,7 @@
 #include "engine/collision/manifold/seam.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/collision/manifold/hull_pair.h"
 

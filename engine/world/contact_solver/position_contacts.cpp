@@ -1,5 +1,6 @@
 #include "engine/world/contact_solver/position_contacts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/world/contact_solver/contact_rows.h"

@@ -1,5 +1,7 @@
 #include "engine/world/contact_solver/sequential_contacts.h"
 
+#include <algorithm>
+
 #include "engine/world/contact_solver/contact_rows.h"
 
 namespace plumb {

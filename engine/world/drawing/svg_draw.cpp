@@ -1,5 +1,6 @@
 #include "engine/world/svg_draw.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 

@@ -1,5 +1,7 @@
 #include "engine/world/force_laws.h"
 
+#include <cmath>
+
 #include "engine/forces/fluid_drag.h"
 #include "engine/scene/error.h"
 #include "engine/world/forces/law_bodies.h"

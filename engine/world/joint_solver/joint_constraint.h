@@ -68,8 +68,9 @@ struct JointConstraint {
   using Point = std::conditional_t<kSoftPoint, SoftPoint<Real>, RigidPoint<Real>>;
   [[no_unique_address]] If<Rows::kPoint, Point, 4> point{};
 
+  // Functions that are called less than once a step are compiled once for each form: their callers are many.
   /// Loads the definition's parameters; keeps impulses and memory that are still valid.
-  void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
+  [[gnu::noinline]] void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
     const Rows last = kind;
     const Range last_limits = limits();
     kind = Rows(definition, centre_a, centre_b);
@@ -104,7 +105,7 @@ struct JointConstraint {
   }
 
   /// Sets springs and bounds for substeps of h, s.
-  void set_substep(const Definition& definition, Real h) {
+  [[gnu::noinline]] void set_substep(const Definition& definition, Real h) {
     const JointRules rules = rules_of(definition);
     if constexpr (Rows::kTurn) turn.set_substep(rules.turn, h);
     for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], h);

@@ -1,8 +1,3 @@
-// g++ would pack pairs of these scalars into vectors, with more shuffles than that saves: a seventh slower.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
-
 #include "engine/world/joint_solver/joint_set.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <type_traits>
 
 #include "engine/joints/joint_check.h"
@@ -100,8 +101,9 @@ void fields(const A& ar, std::optional<T>& v) {
   if (v) fields(ar, *v);
 }
 
+/// Compiled once for both precisions.
 template <class A>
-void fields(const A& ar, JointSlot& s) {
+[[gnu::noinline]] void fields(const A& ar, JointSlot& s) {
   ar.kind(s.definition);
   std::visit(
       [&](auto& definition) {

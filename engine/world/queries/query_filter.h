@@ -2,7 +2,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -21,7 +20,7 @@ class FunctionRef<Result(Arguments...)> {
   template <class Function>
   requires(!std::same_as<std::remove_cvref_t<Function>, FunctionRef> &&
            std::is_invocable_r_v<Result, Function&, Arguments...>) FunctionRef(Function&& function)
-      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
+      : object_(const_cast<void*>(static_cast<const void*>(&function))),
         call_([](void* object, Arguments... arguments) -> Result {
           auto& callee = *static_cast<std::remove_reference_t<Function>*>(object);
           return callee(std::forward<Arguments>(arguments)...);
@@ -44,7 +43,7 @@ class ShapeCondition {
   template <class Function>
   requires(!std::same_as<Function, ShapeCondition> && std::is_invocable_r_v<bool, const Function&, ShapeId>)
       ShapeCondition(const Function& function)
-      : object_(std::addressof(function)), call_([](const void* object, ShapeId shape) -> bool {
+      : object_(&function), call_([](const void* object, ShapeId shape) -> bool {
           return (*static_cast<const Function*>(object))(shape);
         }) {}
   template <class Function>

@@ -54,7 +54,7 @@ class Encoder {
       put(static_cast<std::uint8_t>(value.index()));
       std::visit([&](const auto& held) { put(held); }, value);
     } else {
-      std::apply([&](const auto&... each) { (put(each), ...); }, Members<T>::of(value));
+      Members<T>::with(value, [&](const auto&... each) { (put(each), ...); });
     }
   }
 
@@ -71,7 +71,7 @@ class Encoder {
     } else if constexpr (std::is_bounded_array_v<T>) {
       for (const auto& each : value) pack(to, each);
     } else {
-      std::apply([&](const auto&... each) { (pack(to, each), ...); }, Members<T>::of(value));
+      Members<T>::with(value, [&](const auto&... each) { (pack(to, each), ...); });
     }
   }
 
@@ -128,7 +128,7 @@ class Decoder {
       require(index < static_cast<int>(std::variant_size_v<T>), field, "is of a kind that there is not");
       alternative<0>(value, index, field);
     } else {
-      std::apply([&](auto&... each) { (get(each, field), ...); }, Members<T>::of(value));
+      Members<T>::with(value, [&](auto&... each) { (get(each, field), ...); });
     }
   }
 
@@ -188,7 +188,7 @@ class Decoder {
     } else if constexpr (std::is_bounded_array_v<T>) {
       for (auto& each : value) unpack(from, each, sound);
     } else {
-      std::apply([&](auto&... each) { (unpack(from, each, sound), ...); }, Members<T>::of(value));
+      Members<T>::with(value, [&](auto&... each) { (unpack(from, each, sound), ...); });
     }
   }
 

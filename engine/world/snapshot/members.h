@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -13,24 +12,24 @@
 /// Member lists of structs, defined once for all code that writes or reads them.
 namespace plumb {
 
-/// `Members<T>::of(value)` is a tuple of references to all members of `value`, in their order. The lists are
-/// structured bindings, which must name every member: a list that misses a new one does not compile. `kNames`
-/// has their names, separated by commas.
+/// `Members<T>::with(value, act)` calls `act` with all members of `value`, in their order, and returns its
+/// result. The lists are structured bindings, which must name every member: a list that misses a new one does
+/// not compile. `kNames` has their names, separated by commas.
 template <class T>
 struct Members;
 
 template <class T>
-concept HasMembers = requires(T& value) {
-  Members<T>::of(value);
+concept HasMembers = requires {
+  Members<T>::kNames;
 };
 
 #define PLUMB_MEMBERS(Struct, ...)                                                               \
   template <>                                                                                    \
   struct Members<Struct> {                                                                       \
     [[maybe_unused]] static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
-    static constexpr auto of(auto& it) {                                                         \
+    static constexpr auto with(auto& it, const auto& act) {                                      \
       auto& [__VA_ARGS__] = it;                                                                  \
-      return std::tie(__VA_ARGS__);                                                              \
+      return act(__VA_ARGS__);                                                                   \
     }                                                                                            \
   };
 
@@ -38,9 +37,9 @@ concept HasMembers = requires(T& value) {
   template <class Real>                                                                          \
   struct Members<Struct<Real>> {                                                                 \
     [[maybe_unused]] static constexpr std::string_view kStruct = #Struct, kNames = #__VA_ARGS__; \
-    static constexpr auto of(auto& it) {                                                         \
+    static constexpr auto with(auto& it, const auto& act) {                                      \
       auto& [__VA_ARGS__] = it;                                                                  \
-      return std::tie(__VA_ARGS__);                                                              \
+      return act(__VA_ARGS__);                                                                   \
     }                                                                                            \
   };
 
@@ -67,10 +66,12 @@ consteval std::size_t packed_size() {
   } else if constexpr (std::is_bounded_array_v<T>) {
     return std::extent_v<T> * packed_size<std::remove_extent_t<T>>();
   } else if constexpr (HasMembers<T>) {
-    return []<class... Each>(std::type_identity<std::tuple<Each&...>>) {
-      const bool known = ((packed_size<Each>() > 0) && ...);
-      return known ? (packed_size<Each>() + ... + 0) : std::size_t{0};
-    }(std::type_identity<decltype(Members<T>::of(std::declval<T&>()))>{});
+    const auto sum = []<class... Each>(Each&...) {
+      constexpr bool kKnown = ((packed_size<Each>() > 0) && ...);
+      constexpr std::size_t kSize = kKnown ? (packed_size<Each>() + ... + 0) : 0;
+      return std::integral_constant<std::size_t, kSize>{};
+    };
+    return decltype(Members<T>::with(std::declval<T&>(), sum))::value;
   } else {
     return 0;
   }

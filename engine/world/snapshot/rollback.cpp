@@ -38,7 +38,7 @@ Rollback<Real>::Rollback(BasicWorld<Real>& world, int frames) : world_(&world) {
     throw Error(Error::Kind::Value, "rollback", "frames", std::to_string(frames),
                 "must be a number from 1 to 10000");
   }
-  for (int i = 0; i < frames; ++i) ring_.push_back(std::make_unique<WorldData<Real>>());
+  for (int i = 0; i < frames; ++i) ring_.push_back(OwnedPointer(new WorldData<Real>));
 }
 template <class Real>
 Rollback<Real>::~Rollback() = default;

@@ -21,7 +21,7 @@ bool is_finite(const T& value) {
   } else if constexpr (std::is_bounded_array_v<T>) {
     return std::all_of(std::begin(value), std::end(value), [](const auto& each) { return is_finite(each); });
   } else {
-    return std::apply([](const auto&... each) { return (is_finite(each) && ...); }, Members<T>::of(value));
+    return Members<T>::with(value, [](const auto&... each) { return (is_finite(each) && ...); });
   }
 }
 

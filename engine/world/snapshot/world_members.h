@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tuple>
+
 #include "engine/world/snapshot/members.h"
 #include "engine/world/world_data.h"
 
@@ -35,11 +37,11 @@ struct Members<WorldDefinition> {
       kNames =
           "gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator, "
           "iterations, direct_islands, quarantine, thresholds";
-  static constexpr auto of(auto& it) {
+  static constexpr auto with(auto& it, const auto& act) {
     auto& [gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
            iterations, direct_islands, quarantine, threads, thresholds] = it;
-    return std::tie(gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
-                    iterations, direct_islands, quarantine, thresholds);
+    return act(gravity, combine_friction, combine_restitution, sleeping, continuous, solver, integrator,
+               iterations, direct_islands, quarantine, thresholds);
   }
 };
 PLUMB_MEMBERS(Filter, category, mask, group)

@@ -1,6 +1,7 @@
 #include "engine/world/solvers/restitution.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/core/union_find.h"

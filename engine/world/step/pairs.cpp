@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"

@@ -1,5 +1,6 @@
 #include "harness/course/student/student.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <utility>

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "harness/hunt/idiom.h"
 
 namespace plumb::harness::hunt {

@@ -2,6 +2,7 @@
 // wrong.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>

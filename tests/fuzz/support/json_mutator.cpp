@@ -1,6 +1,7 @@
 // Changes JSON in other ways than byte by byte: numbers become extreme, members and elements are left out,
 // doubled and put elsewhere, so that most inputs are still JSON and get past the parser. Texts that are no
 // JSON as a whole are taken line by line. libFuzzer calls this where it is linked in.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

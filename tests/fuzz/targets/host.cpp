@@ -1,5 +1,6 @@
 // Lines that an engine might write, as plumb reads them: each is taken, or refused as not being what is due;
 // what is taken can be written again and reads back the same.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
