@@ -831,7 +831,7 @@ std::vector<Predictable> predictable_mistakes() {
       {"world_has_mass", "world_has_mass", "5",
        "The end named \"world\" has a mass: its inverse mass and inertia are 0, so that it takes no "
        "velocity."},
-      {"forces_after_contacts", "forces_too_late", "15",
+      {"forces_after_contacts", "forces_too_late", "5",
        "Forces and gravity change velocities after joints and contacts are solved: they come first, so that "
        "joints "
        "and contacts can answer them before bodies move."},
