@@ -164,6 +164,7 @@ void BasicWorld<Real>::set_position(BodyId body, Vec2d position, double angle) {
     require_finite("body", "position", position);
     require_finite("body", "angle", angle);
   });
+  settle(*data_);
   place_body(*data_, index, position, angle);
 }
 template <class Real>
@@ -184,7 +185,8 @@ void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity
   if (own_type(*data_, index) == BodyType::Static) return;
   settle(*data_);
   wake_moved(index);
-  data_->motion[index].angular_velocity = static_cast<Real>(angular_velocity);
+  const bool locked = data_->is_dynamic(index) && data_->bodies[index].lock_rotation;
+  data_->motion[index].angular_velocity = locked ? Real(0) : static_cast<Real>(angular_velocity);
 }
 template <class Real>
 void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, double dt) {

@@ -120,6 +120,29 @@ TYPED_TEST(Motion, GravityScaleAndLocks) {
   EXPECT_LT(world.position(bead).y, -4);
 }
 
+TYPED_TEST(Motion, ALockedRotationStaysWhateverSpinItIsGiven) {
+  BasicWorld<TypeParam> world;
+  const BodyId body = world.create_body({.angular_velocity = 3, .lock_rotation = true}, ShapeDefinition{});
+  run(world, 10);
+  EXPECT_EQ(world.angle(body), 0);
+  world.set_angular_velocity(body, 5);
+  EXPECT_EQ(world.angular_velocity(body), 0);
+  run(world, 10);
+  EXPECT_EQ(world.angle(body), 0);
+}
+
+// A shape that was just added waits for the next step to count: until then velocities are told of the new
+// centre of mass, at the body's present angle.
+TYPED_TEST(Motion, AJumpKeepsTheVelocityOfABodyWhoseMassHasJustChanged) {
+  BasicWorld<TypeParam> world;
+  const BodyId body = world.create_body({.velocity = {1, 2}, .angular_velocity = 3}, ShapeDefinition{});
+  world.create_shape(body, {.geometry = Circle{0.4}, .position = {0.8, 0.1}});
+  const Vec2d before = world.velocity(body);
+  EXPECT_NE(before, (Vec2d{1, 2}));
+  world.set_position(body, {5, 5}, 1.3);
+  EXPECT_EQ(world.velocity(body), before);
+}
+
 TYPED_TEST(Motion, KinematicBodiesMoveAsToldAndPush) {
   BasicWorld<TypeParam> world(weightless());
   BodyDefinition definition;

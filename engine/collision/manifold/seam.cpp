@@ -152,8 +152,8 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
     const Corner<Real>& corner = shape.corners[face];
     return Answer{Answer::Kind::Face, face, at_start, dot(corner.normal, touched.mover - corner.point)};
   };
-  // Returns the adjacent face beyond the edge's first or second corner. The corner with the seam is the second
-  // of the one and the first of the other.
+  // Returns the adjacent face beyond the edge's first or second corner. The corner with the seam is the
+  // second of the one and the first of the other.
   const auto across = [&](bool at_start) {
     return at_start ? previous_of(shape, edge) : next_of(shape, edge);
   };

@@ -307,22 +307,24 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const Sw
   // distance loses on the way counts, if they are apart.
   const double apart = distance_between(way.sweep, shape, of_other.sweep, obstacle);
   const double hidden = apart > 0 ? apart - separation(0) : 0;
-  // A core that enters without a loss along the normal enters elsewhere: across another side.
-  if (entered < 1 && separation(entered) + hidden > -0.5 * core) return std::nullopt;
+  // A core that enters without a loss along the normal enters elsewhere: across another side. It is held off
+  // by up to two tolerances, which is much for a needle.
+  const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
+  const double held_off = 2 * tuning::kImpactTolerance * smaller;
+  if (entered < 1 && separation(entered) + hidden > held_off - 0.5 * core) return std::nullopt;
   const double lift = -core - separation(1) - hidden;
   // On the way there corners turn on arcs. Another impact may end the flight where they are deepest: not
-  // deeper than a core can be held.
+  // deeper below both ends than from a core to the inner one, which can still be held.
   const double half_width = static_cast<double>(half_width_of(w, pair.shape));
   const double bend = static_cast<double>(w.extents[body]) * way.sweep.turn * way.sweep.turn +
                       2 * (std::abs(way.sweep.curve.x) + std::abs(way.sweep.curve.y));
-  const double room = 0.5 * (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
-  const double pieces = std::ceil(std::sqrt(0.125 * bend / room));
+  const double room = (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
+  const double pieces = std::ceil(std::sqrt(0.25 * bend / room));  // half of the room between two samples
   if (!(pieces <= kMostPieces)) return std::nullopt;
+  const double ends = std::min(separation(0), separation(1));
   for (int i = 1; i < static_cast<int>(pieces); ++i)
-    if (separation(i / pieces) + hidden + std::max(lift, 0.0) < room - tuning::kInnerDepth * half_width)
-      return std::nullopt;
+    if (separation(i / pieces) < ends - 0.5 * room) return std::nullopt;
   const double least = way.flight.lifts > 0 ? kNoLift * static_cast<double>(w.extents[body]) : 0;
-  const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
   if (lift > kLargestLift * smaller) return std::nullopt;
   return lift > least ? lift * normal : Vec2d{};
 }

@@ -124,7 +124,8 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
   }
   if (definition.type != BodyType::Static) {
     w.motion[body].velocity = definition.velocity.as<Real>();
-    w.motion[body].angular_velocity = static_cast<Real>(definition.angular_velocity);
+    const bool locked = definition.type == BodyType::Dynamic && definition.lock_rotation;
+    w.motion[body].angular_velocity = locked ? Real(0) : static_cast<Real>(definition.angular_velocity);
   }
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
     enter_tree(w, shape);
