@@ -121,12 +121,8 @@ Finding equal_masses_swap(const Lab& lab) {
   for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
   const bool caught = distance(trace, trace.states.size() - 1) < 0.9 * reach && nearest < reach / 4;
   Judgement judgement;
-  const Trace mirrored = head_on(lab, {.position = {1, 0}, .velocity = {w, 0}, .radius = r},
-                                 {.position = {-2, 0}, .velocity = {u, 0}, .radius = r}, 2);
   judgement.read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
-      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing)
-      .read("vx of the first, if it is on the right", "m/s", mirrored.last(0).velocity.x, u,
-            kShare * closing);
+      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) {
     return std::abs(t.last(0).velocity.x - w) + std::abs(t.last(1).velocity.x - u);
@@ -429,17 +425,6 @@ bool loses_contact(const Lab& lab, const Trace& trace, double g) {
   return 4 * falls > n - from && 4 * falls < 3 * (n - from);
 }
 
-// Returns true if most of an overlap of two balls at rest is removed within a second.
-bool overlap_is_removed(const Lab& lab) try {
-  const double r = 0.5, deep = 0.05;
-  const Trace trace = head_on(lab, {.position = {-r + deep / 2, 0}, .radius = r, .restitution = 0},
-                              {.position = {r - deep / 2, 0}, .radius = r, .restitution = 0}, 1);
-  return 2 * r - distance(trace, trace.states.size() - 1) < deep / 4;
-} catch (const Error& error) {
-  if (error.field() == "overlap") return true;  // an engine that refuses such a start
-  throw;
-}
-
 Finding pile_rests(const Lab& lab) {
   const double r = 0.5, g = 9.81, drop = 0.1;
   const Body floor =
@@ -457,9 +442,6 @@ Finding pile_rests(const Lab& lab) {
            tolerance;
   };
   const bool missed = through && rests_alone();
-  const bool sunk = !through && (height < -tolerance || gap < -tolerance);
-  const bool alone_is_right = sunk && rests_alone();
-  const bool too_few = alone_is_right && overlap_is_removed(lab);
   const bool lost = loses_contact(lab, trace, g);
   return Judgement()
       .read("lower ball above the floor", "m", height, 0, tolerance)
@@ -478,15 +460,6 @@ Finding pile_rests(const Lab& lab) {
       .mistake_if(through, "falls_through",
                   "A ball sinks through what it rests on: apply an impulse in each step in which two overlap "
                   "and close.")
-      .mistake_if(too_few, "too_few_iterations",
-                  "A ball alone rests at the right height, and two sink: the upper one presses the lower one "
-                  "into the "
-                  "floor. Go over all contacts 10 to 30 times a step, each time from the velocities that the "
-                  "others left.")
-      .mistake_if(
-          alone_is_right && !too_few, "overlaps_stay",
-          "A ball alone rests at the right height, and two sink into each other: correct the overlaps of "
-          "balls with balls as well.")
       .mistake_if(height < -tolerance || gap < -tolerance, "sinks",
                   "The pile sinks: correct positions as well as velocities, each ball by its share of the "
                   "inverse masses.")

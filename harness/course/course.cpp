@@ -60,16 +60,14 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
 }
 
 // Names a mistake that a free flight shows: it explains a failed check better than the figures do.
-// Returns true if one does.
-bool look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
+void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   for (const Recorded& run : runs) {
     const std::optional<Seen> seen = seen_in_flight(run);
     if (!seen || (seen->general && !finding.mistake.empty())) continue;
     finding.mistake = seen->mistake;
     finding.says = seen->says;
-    return true;
+    return;
   }
-  return false;
 }
 
 Finding run(const Check& check, const Lab& lab, int& timeouts) {
@@ -104,7 +102,7 @@ std::vector<Chapter> chapters() {
 
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
-                             const std::function<void(const Outcome&)>& done, const std::string& without) {
+                             const std::function<void(const Outcome&)>& done) {
   std::vector<Outcome> out;
   int timeouts = 0;
   std::string named, known;  // the first mistake, and the first whose motion was computed
@@ -118,20 +116,12 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                             : run(check, lab, timeouts);
       outcomes.push_back(std::move(outcome));
     }
-    name_by_motion(Lab(engine, settings), outcomes, known, without);
+    name_by_motion(Lab(engine, settings), outcomes, known);
     for (Outcome& outcome : outcomes) {
       Finding& finding = outcome.finding;
-      const bool runs_differ = finding.mistake == kRunsDiffer;
-      const bool seen = finding.verdict == Verdict::Fail && !runs_differ && !finding.computed &&
-                        look_at_flights(outcome.runs, finding);
+      if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
+        look_at_flights(outcome.runs, finding);
       if (!named.empty() && finding.mistake != named) finding.follows = named;
-      // Names no second mistake by what is seen of it if the first could give the same.
-      const bool certain = runs_differ || seen || finding.computed || finding.explained;
-      if (!finding.follows.empty() && finding.verdict == Verdict::Fail && !certain &&
-          may_spoil(Lab(engine, settings), outcome, named)) {
-        finding.mistake.clear();
-        finding.says = first_wrong(finding.readings) + ".";
-      }
       if (named.empty()) named = finding.mistake;
       if (known.empty() && finding.computed) known = finding.mistake;
       done(outcome);

@@ -49,12 +49,10 @@ inline constexpr const char* kRunsDiffer = "runs_differ";
 
 /// Runs `chapters` on `engine`, one check after another, and calls `done` for each at the end of its chapter:
 /// a mistake is named by what it does in all of the chapter's checks. If the engine fails, hangs or returns a
-/// non-finite figure, the check is broken. After `kPatience` hangs the rest is skipped. `without` is a
-/// mistake of the learner's engine that diagnoses do not know, for tests.
+/// non-finite figure, the check is broken. After `kPatience` hangs the rest is skipped.
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
-                             const std::function<void(const Outcome&)>& done,
-                             const std::string& without = "");
+                             const std::function<void(const Outcome&)>& done);
 
 inline constexpr int kPatience = 3;
 

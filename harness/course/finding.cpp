@@ -15,23 +15,19 @@ constexpr double kSmallestShare = 0.03, kLargestShare = 0.1;
 
 }  // namespace
 
-std::string first_wrong(const std::vector<Reading>& readings) {
+std::string describe(const std::vector<Reading>& readings) {
+  std::string out = "No known mistake gives this motion";
   for (const Reading& reading : readings) {
     if (reading.good()) continue;
-    if (reading.expected == 0) return fmt::format("{} should be 0", reading.what);
+    if (reading.expected == 0) return out + fmt::format(": {} should be 0.", reading.what);
     const double times = reading.measured / reading.expected;
-    if (times < 0) return fmt::format("{} has the wrong sign", reading.what);
+    if (times < 0) return out + fmt::format(": {} has the wrong sign.", reading.what);
     if (std::abs(times - 1) < 0.1)
-      return fmt::format("{} is {:.2g} % too {}", reading.what, 100 * std::abs(times - 1),
-                         times > 1 ? "large" : "small");
-    return fmt::format("{} is {:.4g} times what it should be", reading.what, times);
+      return out + fmt::format(": {} is {:.2g} % too {}.", reading.what, 100 * std::abs(times - 1),
+                               times > 1 ? "large" : "small");
+    return out + fmt::format(": {} is {:.4g} times what it should be.", reading.what, times);
   }
-  return "";
-}
-
-std::string describe(const std::vector<Reading>& readings) {
-  const std::string wrong = first_wrong(readings);
-  return "No known mistake gives this motion" + (wrong.empty() ? "" : ": " + wrong) + ".";
+  return out + ".";
 }
 
 bool Reading::good() const { return std::abs(measured - expected) <= tolerance; }
@@ -93,8 +89,7 @@ Finding Judgement::finding() const {
     least = off;
     nearest = &mistake;
   }
-  out.fallback = nearest == nullptr && !otherwise_.empty();
-  if (out.fallback) nearest = &otherwise_.front();
+  if (nearest == nullptr && !otherwise_.empty()) nearest = &otherwise_.front();
   if (nearest == nullptr) {
     out.says = describe(readings_);
     return out;

@@ -14,10 +14,7 @@ struct Reading {
   bool good() const;
 };
 
-/// Returns the first reading that is wrong, in words: "vx should be 0". Empty if all are good.
-std::string first_wrong(const std::vector<Reading>& readings);
-
-/// Returns a sentence about the first reading that is wrong, and that its cause is not known.
+/// Returns a sentence about the first reading that is wrong, without a cause.
 std::string describe(const std::vector<Reading>& readings);
 
 enum class Verdict {
@@ -34,11 +31,8 @@ struct Finding {
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
   bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
-  bool fallback = false;  ///< `mistake` is named because nothing else matches: it says what is seen
   bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
-  bool explained =
-      false;  ///< a mistake that an earlier check named fails this one as well: `says` has its name
 };
 
 /// Stands for a figure that a mistake leaves undetermined.

@@ -86,6 +86,17 @@ std::optional<int> decimals(std::span<const double> values, std::span<const doub
   return std::nullopt;
 }
 
+// Returns true if no force changes in time or with the motion: changes of velocity are then the same in each
+// step.
+bool forces_are_constant(const Scene& scene) {
+  return std::all_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
+    if (const auto* torque = std::get_if<Torque>(&law))
+      return torque->start == 0 && std::isinf(torque->duration);
+    const auto* push = std::get_if<PointForce>(&law);
+    return push != nullptr && push->start == 0 && std::isinf(push->duration) && push->point == Vec2d{};
+  });
+}
+
 // Returns the factor by which all changes differ from the right ones; nullopt if it is not the same for all.
 std::optional<double> factor_of(std::span<const Vec2d> changes, std::span<const Vec2d> right) {
   double most = 0, factor = 0;
@@ -207,15 +218,6 @@ std::optional<Seen> seen_of(const Recorded& run, std::size_t b) {
 }
 
 }  // namespace
-
-bool forces_are_constant(const Scene& scene) {
-  return std::all_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
-    if (const auto* torque = std::get_if<Torque>(&law))
-      return torque->start == 0 && std::isinf(torque->duration);
-    const auto* push = std::get_if<PointForce>(&law);
-    return push != nullptr && push->start == 0 && std::isinf(push->duration) && push->point == Vec2d{};
-  });
-}
 
 bool flies_freely(const Recorded& run) {
   if (!run.scene.joints.empty()) return false;

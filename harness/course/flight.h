@@ -23,8 +23,4 @@ std::optional<Seen> seen_in_flight(const Recorded& run);
 /// rounding.
 bool flies_freely(const Recorded& run);
 
-/// Returns true if no force changes in time or with the motion: changes of velocity are then the same in each
-/// step.
-bool forces_are_constant(const Scene& scene);
-
 }  // namespace plumb::course

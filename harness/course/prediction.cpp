@@ -28,31 +28,7 @@ constexpr double kClearly = 5;
 // Paths nearer than this fit equally well: with contacts, and in free flight, where only rounding differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
 
-// Returns true if the motion is the method's to rounding, however the engine is built.
-bool moves_exactly(const Recorded& run) { return flies_freely(run) && forces_are_constant(run.scene); }
-
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
-
-// s: turns a speed into a length, three steps. Some mistakes change velocities, and corrections of positions
-// hide them; a longer time would weigh the step in which a contact is found.
-constexpr double kSteps = 0.05;
-
-// Ways to build an engine of a chapter that are right, as far as its checks go: a mistake's motion may depend
-// on them.
-std::vector<const char*> ways(int chapter) {
-  switch (chapter) {
-    case 1:
-      return {"", ", one sweep", ", moves before, one sweep", ", split"};
-    case 2:
-      return {""};
-    case 3:
-      return {"", ", one sweep", ", moves before", ", moves before, one sweep", ", split"};
-    case 4:
-      return {"", ", one sweep", ", clipped", ", clipped, moves before", ", clipped, split"};
-    default:
-      return {"", ", one sweep", ", clipped", ", by positions"};
-  }
-}
 
 struct Attempt {
   Finding finding;
@@ -71,17 +47,14 @@ std::optional<Attempt> attempt(const Check& check, const reference::Backend& eng
   return out;
 }
 
-// Adds up the squared distances of the bodies' places, and of their velocities, in two runs.
+// Adds up the squared distances of the bodies' places in two runs.
 double distance(const Trace& a, const Trace& b) {
   double sum = 0;
   for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k)
     for (std::size_t i = 0; i < std::min(a.states[k].size(), b.states[k].size()); ++i) {
       const Vec2d way = a.states[k][i].position - b.states[k][i].position;
       const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
-      const Vec2d speed = kSteps * (a.states[k][i].velocity - b.states[k][i].velocity);
-      const double spin =
-          kSteps * kLever * (a.states[k][i].angular_velocity - b.states[k][i].angular_velocity);
-      sum += dot(way, way) + turn * turn + dot(speed, speed) + spin * spin;
+      sum += dot(way, way) + turn * turn;
     }
   return sum;
 }
@@ -120,10 +93,8 @@ bool static_moves(const std::vector<Recorded>& runs) {
 struct Fit {
   const Predictable* mistake;
   double off;  // distance of the paths over that from the right ones
-  // Other checks of the chapter that pass, and that it would fail; that fail, and that it would pass, with
-  // one of them; and that fail with other readings.
-  int too_many = 0, too_few = 0, readings = 0;
-  const Check* unexplained = nullptr;
+  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
+  int verdicts = 0, readings = 0;
   double elsewhere = 0;  ///< largest `off` of the other checks that fail
   int signs = 0;         ///< checks that see a mistake in its motion, and not in that of the engine
 };
@@ -151,12 +122,8 @@ class Predictions {
           seen.verdict == Verdict::Broken)
         continue;
       const auto& predicted = of(planted, i);
-      if (!predicted)
-        ++fit.readings;
-      else if (predicted->finding.verdict != seen.verdict && seen.verdict == Verdict::Fail)
-        ++fit.too_few, fit.unexplained = chapter_[i].check;
-      else if (predicted->finding.verdict != seen.verdict)
-        ++fit.too_many;
+      if (!predicted || predicted->finding.verdict != seen.verdict)
+        ++fit.verdicts;
       else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
         ++fit.readings;
       else if (seen.verdict == Verdict::Fail)
@@ -165,9 +132,6 @@ class Predictions {
     }
     fit.signs += sees_another(check, of(planted, check)->finding);
   }
-
-  // Returns the largest distance of two free flights that count as the same.
-  double rounding() const { return std::max(kRounding, 4 * lab_.rounding(1, 1)); }
 
   // Returns true if a check sees a mistake in the motion that was predicted, and not in the engine's.
   bool sees_another(std::size_t check, const Finding& predicted) const {
@@ -198,16 +162,12 @@ bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::s
 }
 
 // Returns true if the mistake of a name would fail a check.
-bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predictions, int chapter,
+bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predictions,
                    const std::string& name, std::size_t check) {
-  const std::vector<const char*> built = ways(chapter);
   return std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
-    return name == mistake.name && std::any_of(built.begin(), built.end(), [&](const char* way) {
-             const auto& right = predictions.of(way, check);
-             const auto& run = predictions.of(std::string(mistake.planted) + way, check);
-             return run && run->finding.verdict == Verdict::Fail &&
-                    (!right || right->finding.verdict != Verdict::Fail);
-           });
+    if (name != mistake.name) return false;
+    const auto& run = predictions.of(mistake.planted, check);
+    return run && run->finding.verdict == Verdict::Fail;
   });
 }
 
@@ -217,19 +177,7 @@ bool finite(const Finding& finding) {
 }
 
 bool better(const Fit& a, const Fit& b) {
-  return std::tie(a.too_few, a.readings, a.off) < std::tie(b.too_few, b.readings, b.off);
-}
-
-// Returns true if an engine that is built in this way, or answers contacts once a step, fails alike without
-// the mistake: it needs none to explain it.
-bool fails_without(const Predictable& mistake, const std::string& way, const Finding& wrong,
-                   Predictions& predictions, std::size_t check) {
-  if (std::string_view(mistake.planted) == "one_sweep") return false;
-  const auto alike = [&](const std::string& built) {
-    const auto& right = predictions.of(built, check);
-    return right && right->finding.verdict == Verdict::Fail && same_readings(wrong, right->finding);
-  };
-  return (!way.empty() && alike(way)) || alike(way + ", one sweep");
+  return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
 }
 
 // Returns the mistakes that fit, the best first, one for each name.
@@ -239,22 +187,19 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   const Outcome& outcome = chapter[check];
   if (!predictions.of("", check)) return out;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
-  const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), moves_exactly);
   for (const Predictable& mistake : mistakes) {
     const bool belongs = std::string_view(mistake.chapters).find(digit) != std::string_view::npos;
     if (!belongs && named != mistake.name) continue;
-    for (const char* way : ways(outcome.chapter->number)) {
-      const std::string planted = std::string(mistake.planted) + way;
+    for (const char* sweeps : {"", ", one sweep"}) {
+      const std::string planted = std::string(mistake.planted) + sweeps;
       const auto& wrong = predictions.of(planted, check);
       if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
-      if (fails_without(mistake, way, wrong->finding, predictions, check)) continue;
       if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
       const double share = predictions.off(check, wrong->runs);
-      if (!std::isfinite(share) || share > (exact ? predictions.rounding() : kSamePath)) continue;
-      Fit fit{&mistake, share};
-      predictions.refute(planted, check, fit);
-      if (fit.too_many == 0) out.push_back(fit);
+      if (!std::isfinite(share) || share > kSamePath) continue;
+      out.push_back({&mistake, share});
+      predictions.refute(planted, check, out.back());
     }
   }
   std::stable_sort(out.begin(), out.end(), better);
@@ -270,13 +215,13 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
 // Drops the mistakes that fit clearly worse than the best, here or in the other checks.
 void narrow(std::vector<Fit>& found, const Outcome& outcome) {
   if (!found.empty()) {
-    const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), moves_exactly);
+    const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
     const Fit best = found.front();
     const double most = kClearly * std::max(best.off, exact ? kRounding : kEqual);
     // The other checks refute a mistake unless its motion here fits clearly better than that of the best.
     const double least = best.off / kClearly;
     std::erase_if(found, [&](const Fit& fit) {
-      const bool worse = fit.too_few > best.too_few || fit.readings > best.readings;
+      const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
       return fit.off > most || (worse && (fit.off >= least || best.off <= (exact ? kRounding : kEqual)));
     });
     // So do their motions there, if none is refuted by figures.
@@ -302,7 +247,6 @@ void choose(std::vector<Fit>& found, const std::string& known, const std::set<st
   keep([&](const Fit& fit) { return alone.contains(fit.mistake->name); });
 }
 
-// Names the mistake that fits, describes several, or takes back a name whose motion is another.
 void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>& found, Finding& finding) {
   const auto computed = [&](const std::string& name) {
     return std::any_of(mistakes.begin(), mistakes.end(),
@@ -312,17 +256,9 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   // is better evidence.
   const bool among = std::any_of(found.begin(), found.end(),
                                  [&](const Fit& fit) { return finding.mistake == fit.mistake->name; });
-  const bool close = !found.empty() && std::all_of(found.begin(), found.end(),
-                                                   [](const Fit& fit) { return fit.off <= kEqual; });
-  const bool seen = finding.observed && !finding.fallback && !finding.mistake.empty();
-  if (seen && (among || (!computed(finding.mistake) && !close))) return;
-  if (found.size() == 1 && found.front().too_few > 0) {
-    const Fit& fit = found.front();
-    finding.mistake.clear();
-    finding.says = fmt::format("Here it moves as with {}, which does not explain {}: {}", fit.mistake->name,
-                               fit.unexplained->name, fit.mistake->says);
+  const bool close = found.size() == 1 && found.front().off <= kEqual;
+  if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
     return;
-  }
   if (found.size() == 1) {
     if (finding.mistake != found.front().mistake->name) finding.says = found.front().mistake->says;
     finding.mistake = found.front().mistake->name;
@@ -339,20 +275,15 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   finding.says = describe(finding.readings);
 }
 
-bool has_a_learners_engine(const Lab& lab) {
-  using reference::Scheme;
-  const Scheme scheme = lab.scheme();
-  return scheme == Scheme::SemiImplicitEuler || scheme == Scheme::ExplicitEuler ||
-         scheme == Scheme::VelocityVerlet;
-}
-
 }  // namespace
 
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named,
-                    const std::string& without) {
-  if (!has_a_learners_engine(lab)) return;
-  std::vector<Predictable> mistakes = predictable_mistakes();
-  std::erase_if(mistakes, [&](const Predictable& mistake) { return without == mistake.planted; });
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named) {
+  using reference::Scheme;
+  const Scheme scheme = lab.scheme();
+  if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
+      scheme != Scheme::VelocityVerlet)
+    return;
+  const std::vector<Predictable> mistakes = predictable_mistakes();
   Predictions predictions(lab, chapter);
   std::vector<std::vector<Fit>> found(chapter.size());
   std::set<std::string> alone;
@@ -374,9 +305,8 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     }
     // Blames no second mistake for what the first one does as well.
     if (found[i].empty() && !finding.mistake.empty() && finding.mistake != known &&
-        fails_as_well(mistakes, predictions, chapter[i].chapter->number, known, i)) {
+        fails_as_well(mistakes, predictions, known, i)) {
       finding.mistake.clear();
-      finding.explained = true;
       finding.says = fmt::format("{}, which is named above, spoils this as well.", known);
     }
     finding.computed = std::any_of(found[i].begin(), found[i].end(),
@@ -388,21 +318,12 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   for (std::size_t i = 0; i < chapter.size() && chapter[i].finding.mistake != known; ++i) {
     Finding& finding = chapter[i].finding;
     if (finding.verdict != Verdict::Fail || !finding.mistake.empty() || !found[i].empty()) continue;
-    if (!fails_as_well(mistakes, predictions, chapter[i].chapter->number, known, i)) continue;
+    if (!fails_as_well(mistakes, predictions, known, i)) continue;
     finding.mistake = known;
     finding.says = std::find_if(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
                      return known == mistake.name;
                    })->says;
   }
-}
-
-bool may_spoil(const Lab& lab, const Outcome& outcome, const std::string& name) {
-  std::vector<Predictable> mistakes = predictable_mistakes();
-  std::erase_if(mistakes, [&](const Predictable& mistake) { return name != mistake.name; });
-  if (mistakes.empty() || !has_a_learners_engine(lab)) return true;
-  const std::vector<Outcome> alone{outcome};
-  Predictions predictions(lab, alone);
-  return fails_as_well(mistakes, predictions, outcome.chapter->number, name, 0);
 }
 
 }  // namespace plumb::course

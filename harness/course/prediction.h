@@ -27,12 +27,6 @@ std::vector<Predictable> predictable_mistakes();
 /// another. A mistake that is named, by an earlier check or as `named` of an earlier chapter (or empty), is
 /// preferred wherever it fits, and another name is taken back where it would fail as well. Does nothing for
 /// methods that the learner's engine does not have.
-/// If `named` fails a check as well and nothing fits, the check gets no name of its own: `explained`.
-/// `without` is a planted mistake that is left out, to see how one is named that is not known.
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named = "",
-                    const std::string& without = "");
-
-/// Returns true if a mistake of this name could fail a check as well: its motion does, or cannot be computed.
-bool may_spoil(const Lab& lab, const Outcome& outcome, const std::string& name);
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named = "");
 
 }  // namespace plumb::course

@@ -122,7 +122,7 @@ Finding ragdoll_flies(const Lab& lab) {
       .read("drift of the centre of mass", "m", centre.x, 0, 0.01)
       .read("spin kept", "of all", l / l0, 1, lost)
       .read("widest gap in a joint", "m", gap, 0, 0.02 * lab.coarseness())
-      .mistake_if(gap > 0.5, "comes_apart", "The limbs fly off: hinges hold the two anchors together.")
+      .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
       .mistake_if(
           std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
           "The centre of mass does not fall as a single ball does. Chapter 1 checks the fall itself; if that "
@@ -133,9 +133,8 @@ Finding ragdoll_flies(const Lab& lab) {
                   "Joints change the angular momentum of the whole: an impulse at an anchor changes each "
                   "body's spin by "
                   "r x j/I, with r turned by the body's angle.")
-      .mistake_if(
-          gap > 0.02 * lab.coarseness(), "hinge_gapes",
-          "Joints gape: go over them several times a step, and correct positions by a share of the error.")
+      .mistake_if(gap > 0.02 * lab.coarseness(), "too_few_iterations",
+                  "Joints come apart: go over them several times a step.")
       .finding();
 }
 
@@ -171,16 +170,13 @@ Finding ragdoll_drops(const Lab& lab) {
           "bodies from colliding with each other, and with nothing else. Keep a list of pairs, not of "
           "bodies.")
       .mistake_if(in_ground > 0.5, "falls_through", "The ragdoll falls through the ground.")
-      .mistake_if(gap > 0.1 * lab.coarseness(), "comes_apart",
-                  "The ragdoll comes apart when it lands. Mostly joints and contacts are not solved "
-                  "together, several "
-                  "times a step; or a hinge holds along one axis at a time.")
-      .mistake_if(fastest > 1.5, "restless",
-                  "The ragdoll does not settle: restitution is 0 here, and something adds energy. Mostly "
-                  "positions are "
-                  "corrected by more than a share of 0.1 to 0.3 of the error a step, or overlaps after "
-                  "velocities are "
-                  "taken from positions.")
+      .mistake_if(
+          gap > 0.1 * lab.coarseness(), "comes_apart",
+          "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
+      .mistake_if(
+          fastest > 1.5, "restless",
+          "The ragdoll does not settle: restitution is 0 here, and corrections must not add energy. Correct "
+          "positions by a share of the error each step, 0.1 to 0.3.")
       .finding();
 }
 

@@ -87,13 +87,11 @@ std::string line(const Outcome& outcome, const Style& style) {
                        style);
     }
   }
-  const std::string says = (finding.mistake.empty() ? "" : finding.mistake + ": ") + finding.says;
-  if (!finding.follows.empty() && !finding.explained) {
-    const std::string cause = fmt::format("This may follow from {} above", finding.follows);
-    if (finding.mistake.empty()) return out + paragraph(cause + ": " + finding.says, style);
-    out += paragraph(cause + "; if it stays when that is corrected:", style);
-  }
-  return out + paragraph(says, style);
+  if (!finding.follows.empty())
+    out += paragraph(
+        fmt::format("This may follow from {} above; if it stays when that is corrected:", finding.follows),
+        style);
+  return out + paragraph((finding.mistake.empty() ? "" : finding.mistake + ": ") + finding.says, style);
 }
 
 std::string score(std::span<const Outcome> outcomes, const Style& style) {

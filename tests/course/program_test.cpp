@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "harness/course/course.h"
-#include "harness/course/report.h"
 #include "tests/app/program.h"
 
 namespace plumb::course {
@@ -167,30 +166,9 @@ TEST(Check, ReportsUseTheEnginesOwnName) {
   EXPECT_EQ(examined({"python3", "-B", PLUMB_STARTERS "/ball.py"}, {"--chapter", "1"})["engine"], "ball");
 }
 
-// The report's lines about a check that fails after another one has named a mistake.
-std::string line_after_gravity_twice(const std::string& mistake, const std::string& says, bool explained) {
-  const Chapter chapter = bouncing_ball();
-  Outcome outcome{.chapter = &chapter, .check = &chapter.checks.front(), .finding = {}};
-  outcome.finding.verdict = Verdict::Fail;
-  outcome.finding.mistake = mistake;
-  outcome.finding.says = says;
-  outcome.finding.follows = "gravity_twice";
-  outcome.finding.explained = explained;
-  return line(outcome, {});
-}
-
-TEST(Check, WhatMayFollowFromAMistakeSaysSo) {
-  EXPECT_THAT(line_after_gravity_twice("sinks", "It sinks.", false),
-              HasSubstr("This may follow from gravity_twice above; if it stays when that is corrected:"));
-  EXPECT_THAT(line_after_gravity_twice("", "vy should be 0.", false),
-              HasSubstr("This may follow from gravity_twice above: vy should be 0."));
-}
-
-TEST(Check, WhatAMistakeSpoilsAsWellIsNotSaidToStay) {
-  const std::string text =
-      line_after_gravity_twice("", "gravity_twice, which is named above, spoils this as well.", true);
-  EXPECT_THAT(text, HasSubstr("spoils this as well"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("may follow")));
+TEST(Check, WhatFollowsAMistakeSaysSo) {
+  const Ran ran = plumb({"check", "--chapter", "1", "--", PLUMB_STUDENT, "gravity_twice"});
+  EXPECT_THAT(ran.out, HasSubstr("This may follow from gravity_twice above"));
 }
 
 TEST(Run, TakesAnEngineOfOnesOwn) {

@@ -2,15 +2,11 @@
 plumb_add_tests(course process LINK plumb_catalogue nlohmann_json::nlohmann_json)
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/course/student)
 set(engine ${PROJECT_SOURCE_DIR}/harness/course/student)
-set(student ${engine}/student.cpp ${engine}/world.cpp ${engine}/touches.cpp ${engine}/joints.cpp)
+set(student ${engine}/student.cpp ${engine}/world.cpp ${engine}/touches.cpp)
 target_sources(test_course PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/app/program.cpp)
 
 add_executable(plumb_course_student ${folder}/main.cpp ${student})
 target_link_libraries(plumb_course_student PRIVATE plumb_reference_support plumb_options)
-
-# How each mistake of the learner's engine is named, by what is known of it and of the others.
-add_executable(plumb_course_confusion EXCLUDE_FROM_ALL ${folder}/confusion.cpp)
-target_link_libraries(plumb_course_confusion PRIVATE plumb_harness plumb_reference_support plumb_options)
 
 set(starters ${PROJECT_SOURCE_DIR}/docs/course/starters)
 add_executable(plumb_course_starter ${starters}/ball.cpp)

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "harness/course/student/world.h"
 
@@ -42,7 +41,6 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   }
   if (is("tangent")) n = {-n.y, n.x};
   if (is("y_of_normal_flipped")) n.y = -n.y;
-  if (is("normal_by_arctangent") && way.x < 0) n = -n;
   if (is("normal_flipped")) n = -n;
   out.push_back({a, b, bodies_[a].position + ra / d * rim, n, is("normal_flipped") ? 0 : ra + rb - d});
 }
@@ -52,9 +50,7 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const double r = radius(c);
   const Box size = this->box(b);
   const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
-  Vec2d local = q.inverse() * (c.position - b.position);
-  if (is("centre_turned_backwards")) local = q * (c.position - b.position);
-  if (is("centre_not_turned")) local = c.position - b.position;
+  const Vec2d local = q.inverse() * (c.position - b.position);
   const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
                       std::clamp(local.y, -size.height / 2, size.height / 2)};
   const Vec2d way = q * (nearest - local);
@@ -90,67 +86,9 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
     if (const Vec2d way = c.position - b.position; is("normal_between_centres"))
       normal = 1 / length(way) * way;
     if (is("box_normal_not_turned")) normal = n;
-    if (is("axis_not_turned")) normal = q * Vec2d{std::abs(n.x), std::abs(n.y)};
     out.push_back({box, corners, corner, normal, std::min(in_x, in_y)});
     if (is("one_corner")) return;
   }
-}
-
-// The axis of least overlap, and the side of the other box that faces it, clipped at the ends of the face.
-void StudentWorld::touch_clipped(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
-  const Vec2d way = bodies_[b].position - bodies_[a].position;
-  const auto extent = [this](std::size_t i, Vec2d n) {
-    const Box size = box(bodies_[i]);
-    const Rotation<double> q{std::cos(bodies_[i].angle), std::sin(bodies_[i].angle)};
-    return std::abs(dot(n, q * Vec2d{1, 0})) * size.width / 2 +
-           std::abs(dot(n, q * Vec2d{0, 1})) * size.height / 2;
-  };
-  double best = 0;
-  bool of_first = true, none = true;
-  Vec2d axis;
-  for (const std::size_t owner : {a, b}) {
-    if (owner == b && is("axes_of_the_first_only")) continue;
-    const Rotation<double> q{std::cos(bodies_[owner].angle), std::sin(bodies_[owner].angle)};
-    for (const Vec2d n : {q * Vec2d{1, 0}, q * Vec2d{0, 1}}) {
-      const double deep = extent(a, n) + extent(b, n) - std::abs(dot(way, n));
-      if (deep <= 0) return;
-      if (!none && (is("largest_overlap") ? deep <= best : deep >= best)) continue;
-      none = false, best = deep, axis = n, of_first = owner == a;
-    }
-  }
-  if (dot(axis, way) < 0 && !is("axis_not_turned")) axis = -axis;
-  Vec2d normal = axis;
-  if (is("normal_between_centres")) normal = 1 / length(way) * way;
-  const std::size_t owner = of_first ? a : b, facing = of_first ? b : a;
-  const Rigid &face = bodies_[owner], &other = bodies_[facing];
-  const Vec2d outwards = of_first ? axis : -axis, along{-outwards.y, outwards.x};
-  const Box size = box(other);
-  std::vector<Vec2d> side;
-  for (const Vec2d sign : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}})
-    side.push_back(other.position + other.to_world({sign.x * size.width / 2, sign.y * size.height / 2}));
-  std::stable_sort(side.begin(), side.end(),
-                   [&](Vec2d p, Vec2d q) { return dot(p, outwards) < dot(q, outwards); });
-  Vec2d p = side[0], q = side[1];
-  for (const Vec2d end : {along, -along}) {
-    if (is("not_clipped")) break;
-    const double most = dot(face.position, end) + extent(owner, end);
-    const double dp = dot(p, end) - most, dq = dot(q, end) - most;
-    if ((dp > 0) == (dq > 0)) continue;
-    (dp > 0 ? p : q) = p + dp / (dp - dq) * (q - p);
-  }
-  const double surface = dot(face.position, outwards) + extent(owner, outwards);
-  for (const Vec2d point : {p, q}) {
-    const double deep = surface - dot(point, outwards);
-    if (deep <= 0) continue;
-    out.push_back({a, b, point, normal, deep});
-    if (is("one_corner")) return;
-  }
-}
-
-void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
-  if (clipped_) return touch_clipped(a, b, out);
-  touch_corners(b, a, out);
-  touch_corners(a, b, out);
 }
 
 std::vector<Touch> StudentWorld::touches() const {
@@ -170,19 +108,10 @@ std::vector<Touch> StudentWorld::touches() const {
       const bool round_b = bodies_[b].body->shapes[0].geometry.index() == 0;
       if (round_a && round_b) touch_circles(a, b, out);
       if (round_a && !round_b && !is("falls_through")) touch_circle_box(a, b, out);
-      if (!round_a && round_b && !is("box_first_forgotten")) {
-        const std::size_t known = out.size();
-        touch_circle_box(b, a, out);
-        if (is("box_first_not_turned"))
-          for (std::size_t i = known; i < out.size(); ++i) out[i].normal = -out[i].normal;
-      }
-      if (!round_a && !round_b && !is("falls_through_boxes")) touch_boxes(a, b, out);
+      if (!round_a && round_b) touch_circle_box(b, a, out);
+      if (!round_a && !round_b && !is("falls_through_boxes"))
+        touch_corners(b, a, out), touch_corners(a, b, out);
     }
-  }
-  for (Touch& touch : out) {  // a is the one that comes first in the scene
-    if (touch.a < touch.b) continue;
-    std::swap(touch.a, touch.b);
-    touch.normal = -touch.normal;
   }
   return out;
 }

@@ -11,7 +11,6 @@ namespace plumb::course {
 
 struct Rigid {
   Vec2d position, velocity, force;
-  Vec2d pending{};          ///< force of the step before
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
@@ -31,12 +30,9 @@ struct Touch {
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
-  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5". After it may stand
-  /// how the engine is built: ", one sweep" answers contacts once a step; ", moves before" moves bodies
-  /// before it looks for contacts, answers those once and removes their whole overlap, as in chapter 1; ",
-  /// split" removes a share of the overlaps that a step begins with, by the same equations; ", clipped" clips
-  /// the sides of boxes; ", by positions" holds joints by positions. `scheme` is semi-implicit Euler,
-  /// explicit Euler or velocity Verlet.
+  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5"; ", one sweep"
+  /// after it answers contacts once a step. `scheme` is semi-implicit Euler, explicit Euler or velocity
+  /// Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler);
 
@@ -60,21 +56,16 @@ class StudentWorld {
   std::vector<Touch> touches() const;
   void touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
-  void touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
-  void touch_clipped(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   double restitution(const Touch& touch) const;
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
   void answer(Touch& touch);
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
-  void push_out(const std::vector<Touch>& found);
-  void solve_velocities(std::vector<Touch>& found);
-  void move_by_positions();
-  void solve(const Joint& joint, std::size_t index);
-  void correct(const Joint& joint, std::size_t index, double share);
-  bool removes_overlaps() const;
+  void push_out();
+  void solve(const Joint& joint);
+  void correct(const Joint& joint);
   void apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse);
 
   struct Ends {
@@ -90,9 +81,6 @@ class StudentWorld {
   reference::Scheme scheme_;
   bool touched_ = false;  ///< there was a contact
   bool once_ = false;     ///< contacts are answered once a step
-  bool moves_before_ = false, split_ = false, clipped_ = false, by_positions_ = false;
-  std::vector<double> first_lengths_;  ///< m, of the joints' gaps at the start
-  std::vector<Vec2d> joint_sums_;      ///< N s, of each joint's one or two rows in this step
   long steps_ = 0;
   std::vector<BodyState> before_step_;  ///< the states before the last step
   std::vector<Rigid> bodies_;           ///< the scene's, then the world
