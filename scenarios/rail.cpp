@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "scenarios/truth/parts.h"
 #include "scenarios/truth/set_up.h"
 

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "engine/math/arc_tangent.h"
 #include "scenarios/truth/parts.h"
 
