@@ -10,7 +10,7 @@ namespace plumb {
 /// Reasons why a state has no derivative by a parameter, from some time of the run on.
 enum class NoDerivative {
   Grazing,       ///< shapes met without approaching: a slight change decides whether they meet at all
-  Simultaneous,  ///< impacts at one instant that the parameter separates in time: their order decides
+  Simultaneous,  ///< events at one instant that the parameter separates in time: their order decides
   Zeno,          ///< bounces were brought to their limit, an infinite number at once
   Start,         ///< a contact of the start that the parameter opens or presses together
   Kink,          ///< an impact or a force law has a kink here: it sticks on one side and slips on the other

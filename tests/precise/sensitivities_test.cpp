@@ -279,6 +279,18 @@ TEST(Sensitivities, ClosedJointsOfAnyKindAreDifferencesOfRuns) {
       1.5);
 }
 
+// The rope's length is that of the start.
+TEST(Sensitivities, AStartFromWhichAJointTakesItsMeasureIsADifferenceOfRuns) {
+  Scene scene{.name = "rope"};
+  scene.bodies = {{.name = "light", .position = {-0.6, 2.5}, .mass = 1, .inertia = 0.1},
+                  {.name = "heavy", .position = {0.6, 2.2}, .mass = 2, .inertia = 0.1}};
+  scene.joints = {PulleyJoint{
+      .name = "rope", .body_a = "light", .body_b = "heavy", .ground_a = {-0.6, 4}, .ground_b = {0.6, 4}}};
+  expect_differences_of_runs(
+      scene, {"bodies.light.position.y", "bodies.heavy.position.x", "bodies.heavy.velocity.y", "gravity.y"},
+      0.3);
+}
+
 TEST(Sensitivities, ALimitOfAJointIsADifferenceOfRuns) {
   Scene scene = rods(1);
   std::get<RevoluteJoint>(scene.joints[0]).limits = Range{-1, 2};
@@ -442,6 +454,25 @@ TEST(Sensitivities, SimultaneousImpactsThatAParameterSeparatesAreAnError) {
   // The height moves both corners alike.
   expect_differences_of_runs(
       scene, {"bodies.block.position.y", "gravity.y", "bodies.block.shapes.restitution"}, 0.5);
+}
+
+// Of two wheels that reach their motors' speed at once the parameter makes one earlier.
+TEST(Sensitivities, MotorsThatReachTheirSpeedAtOnceAndAreSeparatedAreAnError) {
+  Scene scene{.name = "two wheels", .gravity = {0, 0}};
+  for (const char* name : {"left", "right"}) {
+    const double x = scene.bodies.empty() ? -1 : 1;
+    scene.bodies.push_back({.name = name, .position = {x, 0}, .mass = 1, .inertia = 0.2});
+  }
+  scene.bodies.push_back({.name = "frame", .position = {0, 0.5}, .mass = 1, .inertia = 0.5});
+  for (std::size_t i = 0; i < 2; ++i)
+    scene.joints.push_back(RevoluteJoint{.name = "pin" + std::to_string(i),
+                                         .body_a = "frame",
+                                         .body_b = scene.bodies[i].name,
+                                         .anchor_a = {scene.bodies[i].position.x, -0.5},
+                                         .motor = Motor{.speed = 8, .max_force = 16}});
+  EXPECT_EQ(reason_of(scene, "bodies.right.angular_velocity", 0.2), NoDerivative::Simultaneous);
+  // A heavier frame delays both alike.
+  expect_differences_of_runs(scene, {"bodies.frame.inertia"}, 0.2);
 }
 
 TEST(Sensitivities, TheLimitOfBouncesIsAnError) {

@@ -268,6 +268,27 @@ double Contacts::guard_value(const Guard& guard, double time, std::span<const do
                        placed);
 }
 
+std::vector<Contacts::Guard> Contacts::guards_of_modes() const {
+  std::vector<Guard> guards;
+  const auto add = [&](Quantity quantity, std::size_t stop, std::size_t patch, int point) {
+    guards.push_back({.kind = Guard::Kind::Quantity,
+                      .stop = stop,
+                      .patch = patch,
+                      .watched = static_cast<int>(quantity),
+                      .point = point});
+  };
+  for (std::size_t p = 0; p < equations_.held().size(); ++p) {
+    const ActiveContact& patch = equations_.held()[p];
+    for (int i = 0; i < patch.count; ++i) add(Quantity::Force, 0, p, i);
+    if (patch.sticks()) add(Quantity::Cone, 0, p, 0);
+    if (patch.friction > 0 && patch.mode != 0) add(Quantity::Slip, 0, p, 0);
+  }
+  for (std::size_t k = 0; k < stops_.count(); ++k) {
+    if (!stops_.is_free_limit(k)) add(Quantity::Stop, k, 0, 0);
+  }
+  return guards;
+}
+
 void Contacts::follow(const Contacts& other) {
   held_ = other.held_;
   std::vector<ActiveContact> patches(other.equations_.held().begin(), other.equations_.held().end());

@@ -63,6 +63,7 @@ class Contacts {
     std::uint64_t patch = 0;
     int watched = 0;  // `Quantity` of a contact
     int point = 0;
+    bool operator==(const Guard&) const = default;
   };
   /// Record of the last `stop` and `settle`, for those that follow the event with other states.
   struct Record {
@@ -83,6 +84,8 @@ class Contacts {
   void follow(const Contacts& other);
   /// Returns the value of a guard: m, m/s for a rate, or the unit of the monitored quantity.
   double guard_value(const Guard& guard, double time, std::span<const double> y);
+  /// Returns the guards of limits, forces and slips that are held, whose zeros end how they are held.
+  std::vector<Guard> guards_of_modes() const;
   /// Resolves the impacts of `touches` at another state y: the same features, by this scene's coefficients.
   void impacts_at(double time, std::vector<ContactCandidate> touches, Compensated& y);
 

@@ -21,6 +21,9 @@ constexpr std::int64_t kCascade = 100;
 /// Disagreement of event times of impacts at one instant, in units of the scene's own time over the
 /// parameter's scale, up to which the parameter moves them together.
 constexpr double kTogether = 1e-7;
+/// Distance of zeros of two guards in the scene's own time that counts as one instant: events are found to
+/// about 1e-12 of it.
+constexpr double kSameTime = 1e-9;
 constexpr int kMostSteps = 100000;
 
 Compensated as_state(std::span<const double> y) {
@@ -304,7 +307,8 @@ void Sensitivities::stop_slips(std::size_t j) {
 /// Takes one parameter's derivative through the event up to the impacts; returns the change of the event's
 /// time.
 double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::span<const double> before_rate,
-                           const std::optional<Contacts::Guard>& guard, double guard_rate) {
+                           const std::optional<Contacts::Guard>& guard, double guard_rate,
+                           std::span<const Zero> others) {
   const std::size_t n = scale_.size();
   const double unit = Variation::kStep / steps_[j];
   const double size_of_guard[1] = {std::abs(guard_rate) * own_time_};
@@ -329,6 +333,13 @@ double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::s
       if (std::abs(its - later) > kTogether * (own_time_ * unit + std::abs(later)))
         fail(j, NoDerivative::Simultaneous);
     }
+  }
+  for (const Zero& zero : others) {
+    double change[1] = {0};
+    const double size[1] = {std::abs(zero.rate) * own_time_};
+    if (!derive(j, value_of(zero.guard), {0, now_.by[j]}, size, change)) fail(j, NoDerivative::Kink);
+    if (std::abs(-change[0] / zero.rate - later) > kTogether * (own_time_ * unit + std::abs(later)))
+      fail(j, NoDerivative::Simultaneous);
   }
   if (!lives(j)) return 0;
   Values& by = now_.by[j];
@@ -366,6 +377,22 @@ bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guar
   return !(guard_rate < 0) || guard_rate * guard_rate <= 2 * bend * contacts.near();
 }
 
+/// Returns the other guards that fall through zero with the one of the event: what they guard changes at the
+/// same instant, and has no event of its own.
+std::vector<Sensitivities::Zero> Sensitivities::zeros_beside(const Contacts::Guard& guard,
+                                                             std::span<const double> rate) {
+  std::vector<Zero> zeros;
+  for (const Contacts::Guard& other : own_->contacts.guards_of_modes()) {
+    if (other == guard) continue;
+    double value[1], found[1];
+    value_of(other)(*own_, now_.time, now_.y, value);
+    derive_by_state(value_of(other), present(), {1, rate}, found);
+    if (found[0] < 0 && std::abs(value[0]) <= kSameTime * own_time_ * -found[0])
+      zeros.push_back({other, found[0]});
+  }
+  return zeros;
+}
+
 void Sensitivities::pass_event(const Compensated& before, const Compensated& after,
                                const Contacts& contacts) {
   const Contacts::Record& record = contacts.record();
@@ -379,9 +406,10 @@ void Sensitivities::pass_event(const Compensated& before, const Compensated& aft
   own_->equations.rate(now_.time, now_.y, rate);
   double guard_rate = 0;
   if (guard && grazes(contacts, *guard, rate, guard_rate)) fail_all(NoDerivative::Grazing, now_.time);
+  const std::vector<Zero> others = guard ? zeros_beside(*guard, rate) : std::vector<Zero>{};
   std::vector<double> later(size(), 0.0);
   for (std::size_t j = 0; j < size(); ++j) {
-    if (lives(j)) later[j] = pass(j, record, rate, guard, guard_rate);
+    if (lives(j)) later[j] = pass(j, record, rate, guard, guard_rate, others);
   }
   each_neighbour([&](Neighbour& any) { any.contacts.follow(contacts); });
   now_.y.assign(after.value().begin(), after.value().end());

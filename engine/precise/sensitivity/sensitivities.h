@@ -102,8 +102,14 @@ class Sensitivities {
   double norm(std::span<const double> direction) const;
   std::vector<std::size_t> integrate(Present& present, std::span<const std::size_t> parameters, double end);
   void set_windows(double time);
+  /// A guard that has a zero at the present state, and its rate along the motion.
+  struct Zero {
+    Contacts::Guard guard;
+    double rate = 0;
+  };
   double pass(std::size_t parameter, const Contacts::Record& record, std::span<const double> before_rate,
-              const std::optional<Contacts::Guard>& guard, double guard_rate);
+              const std::optional<Contacts::Guard>& guard, double guard_rate, std::span<const Zero> others);
+  std::vector<Zero> zeros_beside(const Contacts::Guard& guard, std::span<const double> rate);
   bool grazes(const Contacts& contacts, const Contacts::Guard& guard, std::span<const double> rate,
               double& guard_rate);
   std::optional<Contacts::Guard> guard_of(const Contacts::Record& record) const;

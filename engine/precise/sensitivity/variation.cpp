@@ -21,6 +21,14 @@ double scale_of(NumberKind kind, double value, double length) {
   return value != 0 ? std::abs(value) : 1;
 }
 
+// Joints take measures from where their bodies start: a rope's length, an angle at birth. These laws depend
+// on the start.
+bool is_joined(const Scene& scene, const std::string& body) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    return std::visit([&](const auto& j) { return j.body_a == body || j.body_b == body; }, joint);
+  });
+}
+
 }  // namespace
 
 std::vector<Variation> variations_of(const Scene& scene, const std::vector<std::string>& names,
@@ -36,7 +44,8 @@ std::vector<Variation> variations_of(const Scene& scene, const std::vector<std::
     Scene copy = scene;
     variation.step = Variation::kStep * scale_of(kind_of_number(name), *numbers_at(copy, name)[0], length);
     const auto body = body_of_start(scene, name);
-    variation.of_start = body && std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
+    variation.of_start = body && !is_joined(scene, scene.bodies[*body].name) &&
+                         std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
     for (std::size_t i = 0; i < Variation::kPlaces.size(); ++i) {
       Scene beside = scene;
       for (double* number : numbers_at(beside, name)) *number += Variation::kPlaces[i] * variation.step;
