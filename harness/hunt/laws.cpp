@@ -16,6 +16,8 @@ constexpr double kPreciseShare = 1e-5;
 // s, of processor time, that a body or joint may cost in a step: thirty times that of the costliest scenes
 // drawn, so that a slow machine is not taken for a search without end.
 constexpr double kCost = 1e-3;
+// 1/s: bodies up to this share of their extents a second fall asleep, by the world's definition.
+constexpr double kSleepShare = 0.05;
 
 /// Energies that bound a motion's energy.
 struct Budget {
@@ -206,6 +208,9 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     if (body.type == BodyType::Dynamic) weight += body.mass * body.gravity_scale * one.scene.gravity;
   const Sizes sizes = sizes_of(one.scene);
   const double duration = one.steps * one.dt;
+  const std::vector<double> reach = reaches(one.scene);
+  // kg m/s: what bodies had left where they fell asleep.
+  double slept = 0;
   // Rounding moves bodies even at rest: allow a displacement of their reach over the whole run.
   double most = std::max(first.sum_of_momenta, sizes.mass_times_reach / duration);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
@@ -214,6 +219,9 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     // By Cauchy-Schwarz sum |m v| <= sqrt(2 sum m sum m v^2 / 2), so the available energy limits it.
     const double allowed = std::sqrt(2 * sizes.mass * (first.kinetic + stored(one.scene, time)));
     most = std::max(most, std::min(now.sum_of_momenta, allowed + length(weight) * time));
+    for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
+      if (motion.samples[k].asleep[i] && !motion.samples[k - 1].asleep[i])
+        slept += kSleepShare * 2 * reach[i] * one.scene.bodies[i].mass;
     const double off = length(now.momentum - first.momentum - time * weight);
     const double roundings = 8.0 * static_cast<double>(k) * one.substeps + 100;
     const double tolerance = engine.kind == Engine::Kind::Precise ? 1e-6 : 0;
@@ -223,7 +231,7 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
                                 ? length(weight) * one.dt * static_cast<double>(std::min<std::size_t>(k, 8))
                                 : 0;
     const double bound =
-        (engine.epsilon() * roundings + tolerance) * (most + length(weight) * time) + unfallen;
+        (engine.epsilon() * roundings + tolerance) * (most + length(weight) * time) + unfallen + slept;
     if (off > bound && off > 0) {
       return Objection{.judge = "momentum",
                        .what = fmt::format("the sum of momenta is off by {:.3g} kg m/s", off),

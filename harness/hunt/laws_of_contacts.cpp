@@ -87,6 +87,12 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
   std::vector<bool> given(pairs.size(), false);  // penetrating from the start: joints may keep them so
+  // What joints connect with such a body is pulled along as it is pushed out.
+  const std::vector<std::size_t> group = joint_groups(one.scene);
+  std::set<std::pair<std::size_t, std::size_t>> given_groups;
+  const auto groups_of = [&](std::size_t n) {
+    return std::minmax(group[parts[pairs[n].first].body], group[parts[pairs[n].second].body]);
+  };
   const auto gives_way = [&](std::size_t body) {
     const Body& of = one.scene.bodies[body];
     return of.type == BodyType::Dynamic &&
@@ -126,12 +132,17 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
       if (sample.present[a.body] && sample.present[b.body] && boxes_meet(now[i], now[j], 0))
         depths[n] = -separation(now[i], now[j]);
       // For Precise no initial overlap is tolerated, because it must refuse such scenes.
-      if (k == 0 && depths[n] > bounds[n]) given[n] = engine.kind != Engine::Kind::Precise;
-      overlapped = overlapped || given[n];
+      if (k == 0 && depths[n] > bounds[n] && engine.kind != Engine::Kind::Precise)
+        given[n] = true, given_groups.insert(groups_of(n)), overlapped = true;
       if (depths[n] <= bounds[n] || engine.kind == Engine::Kind::Precise) continue;
       if (!gives_way(a.body)) pressed_by[b.body].insert(a.body);
       if (!gives_way(b.body)) pressed_by[a.body].insert(b.body);
     }
+    if (k == 0)
+      for (std::size_t n = 0; n < pairs.size(); ++n) {
+        const auto [one_group, other_group] = groups_of(n);
+        given[n] = given[n] || (one_group != other_group && given_groups.contains({one_group, other_group}));
+      }
     for (std::size_t n = 0; n < pairs.size(); ++n) {
       const Part &a = parts[pairs[n].first], &b = parts[pairs[n].second];
       const double depth = depths[n], bound = bounds[n];

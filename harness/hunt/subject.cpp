@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <string_view>
 
 #include "engine/math/trigonometry.h"
 #include "harness/hunt/outline.h"
@@ -189,6 +192,26 @@ bool joined(const Scene& scene, std::size_t a, std::size_t b) {
         },
         joint);
   });
+}
+
+std::vector<std::size_t> joint_groups(const Scene& scene) {
+  std::vector<std::size_t> first(scene.bodies.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  std::map<std::string_view, std::size_t> index;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) index[scene.bodies[i].name] = i;
+  for (const Joint& joint : scene.joints)
+    std::visit(
+        [&](const auto& j) {
+          const auto a = index.find(j.body_a), b = index.find(j.body_b);
+          if (a == index.end() || b == index.end() || scene.bodies[a->second].type != BodyType::Dynamic ||
+              scene.bodies[b->second].type != BodyType::Dynamic)
+            return;
+          const std::size_t keep = std::min(first[a->second], first[b->second]);
+          const std::size_t gone = std::max(first[a->second], first[b->second]);
+          std::replace(first.begin(), first.end(), gone, keep);
+        },
+        joint);
+  return first;
 }
 
 bool driven(const Case& one) {
