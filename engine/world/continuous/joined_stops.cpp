@@ -55,6 +55,21 @@ void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, doubl
   }
 }
 
+namespace {
+
+// How a joint ties the anchors of its bodies together.
+enum class Hold { No, Length, Place };
+
+// A rod keeps a length, whatever way its ends turn; other joints a place, or a line, in the frame of a.
+template <class Definition>
+constexpr Hold hold_of(const Definition&) {
+  if constexpr (std::is_same_v<Definition, DistanceDefinition>) return Hold::Length;
+  if constexpr (std::is_same_v<Definition, PulleyDefinition>) return Hold::No;
+  return requires(Definition d) { d.anchor_a; } ? Hold::Place : Hold::No;
+}
+
+}  // namespace
+
 template <class Real>
 void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double fraction) {
   std::vector<SweptBody>& flights = w.scratch.swept_bodies;
@@ -72,24 +87,33 @@ void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double frac
       const SweptBody& other = flights[other_place];
       Vec2d arm = w.bodies[flight.body].centre.template as<double>(),
             other_arm = w.bodies[other.body].centre.template as<double>();
-      const bool holds = std::visit(
+      const Hold hold = std::visit(
           [&](const auto& kind) {
             if constexpr (requires { kind.anchor_a; }) {
               arm = (is_a ? kind.anchor_a : kind.anchor_b) - arm;
               other_arm = (is_a ? kind.anchor_b : kind.anchor_a) - other_arm;
-              return true;
             }
-            return false;
+            return hold_of(kind);
           },
           w.joint_set.definition(joint.slot));
-      if (!holds) return;
-      // Between the anchors, in the other body's frame.
       const auto between = [&](double at) {
-        const Vec2d way = flight.start_at(at) + flight.rotation_at(at) * arm - other.start_at(at);
-        return other.rotation_at(at).inverse() * way - other_arm;
+        return flight.start_at(at) + flight.rotation_at(at) * arm - other.start_at(at) -
+               other.rotation_at(at) * other_arm;
       };
-      const Vec2d wanted = (1 - fraction) * between(0) + fraction * between(1);
-      flight.shift = other.shift + other.rotation_at(fraction) * (wanted - between(fraction));
+      const Vec2d found = between(fraction);
+      Vec2d wanted = found;
+      if (hold == Hold::Length) {
+        const double length_now = length(found);
+        const double kept = (1 - fraction) * length(between(0)) + fraction * length(between(1));
+        if (length_now > 0) wanted = (kept / length_now) * found;
+      } else if (hold == Hold::Place) {
+        const SweptBody& frame = is_a ? flight : other;
+        const auto seen_from_a = [&](double at) { return frame.rotation_at(at).inverse() * between(at); };
+        wanted = frame.rotation_at(fraction) * ((1 - fraction) * seen_from_a(0) + fraction * seen_from_a(1));
+      } else {
+        return;
+      }
+      flight.shift = other.shift + wanted - found;
       const BodyLocks locks = w.bodies[flight.body].locks();
       if (locks.x) flight.shift.x = 0;
       if (locks.y) flight.shift.y = 0;
