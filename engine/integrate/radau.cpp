@@ -25,7 +25,7 @@ void Radau::guess(double h, std::span<const double> first_rate) {
     for (int s = 0; s < kStages; ++s) std::copy(first_rate.begin(), first_rate.end(), &rates_[s * n_]);
     return;
   }
-  std::array<std::array<double, kStages>, kStages> weight;  // of an old stage in a new one
+  std::array<std::array<double, kStages>, kStages> weight;  // [new stage][old stage], of its rate
   for (int s = 0; s < kStages; ++s) {
     const double at = 1 + kC[s] * (h / last_h_);
     for (int j = 0; j < kStages; ++j) {

@@ -86,7 +86,7 @@ class Caller {
     return out > 0 ? out : 1;
   }
   bool dynamic() const { return world_.type(body_) == BodyType::Dynamic; }
-  // True of a body that calls can wake.
+  // Returns true for a body that calls can wake.
   bool simulated() const { return dynamic() && world_.enabled(body_); }
 
   std::string not_woken(const char* call) const {
@@ -147,8 +147,7 @@ class Caller {
     if (world_.data().unsettled.empty()) hash_awake_bodies(world_.data(), out);
     return out;
   }
-  /// Returns an objection unless the body's own hash is another, if it was awake, and the others' are the
-  /// same.
+  /// Returns an objection if the call left the hash of the (awake) body unchanged, or changed another's.
   std::string hash_is_wrong(const char* call, const std::vector<BodyHash>& before) const {
     for (const BodyHash& now : single_hashes())
       for (const BodyHash& then : before)
@@ -569,7 +568,7 @@ class Caller {
     if (std::string wrong = mass_by_shapes(); !wrong.empty()) return wrong;
     return sleepers_inside();
   }
-  // A body without shapes, and one with several, one of them far away.
+  // Creates a body without shapes, or one with several, one of them far away.
   std::string ghost() {
     BodyDefinition definition{.position = vector(5), .angle = number(3), .angular_velocity = number(4)};
     std::vector<ShapeDefinition> shapes;

@@ -280,8 +280,9 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
     others[0].discs()[i].at += Vec2d{sign * by, -by};
     others[1].discs()[i].at += Vec2d{by, sign * by};
   }
-  std::size_t since = 0, struck = 0;  // samples since the first and the last impact
-  int differs = 0;                    // samples on end in which the runs have had other impacts
+  std::size_t since = 0;   // samples since the first impact
+  std::size_t struck = 0;  // samples since the last impact
+  int differs = 0;         // consecutive samples at which the runs differ in their number of impacts
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const int step = static_cast<int>(k) - 1;
     const std::size_t before = discs->impacts();

@@ -108,7 +108,8 @@ std::string damaged_world(const Case& one, std::string& flags) {
   return {};
 }
 
-// Each block runs once, in the caller's floating-point environment, and what one throws comes back.
+// Checks that each block runs once, in the caller's floating-point environment, and that its exceptions are
+// passed on.
 std::string shared_loops(Random& random) {
   Crew crew;
   crew.set_threads(random.whole(2, 4)), crew.set_eager(true);
@@ -246,8 +247,8 @@ std::string watched(Random& random) {
   return {};
 }
 
-// Free fall by each method, which the textbook gives in closed form, and force laws, which substeps evaluate:
-// a step of n substeps is n steps of one.
+// Checks free fall by each method, for which textbooks have a closed form. With force laws, which are
+// evaluated in substeps, a step of n substeps must equal n steps of one.
 std::string integrated_by(Random& random, Precision precision) {
   const double dt = 1.0 / random.pick({30, 60, 120}), v = random.within(-5, 5), g = random.within(1, 20);
   const int substeps = random.whole(1, 8), steps = random.whole(2, 30);

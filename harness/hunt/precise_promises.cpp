@@ -69,7 +69,7 @@ double distance(const Scene& scene, const std::vector<double>& reach, const std:
   return most;
 }
 
-// The forces of joints and contacts are what bodies accelerate by, beside gravity and damping.
+// Checks that the forces of joints and contacts, with gravity and damping, explain the accelerations.
 std::string balanced(const Case& one) {
   const Scene& scene = one.scene;
   for (const Joint& joint : scene.joints)
@@ -151,7 +151,7 @@ std::string balanced(const Case& one) {
   return {};
 }
 
-/// A number of the scene by which its motion may be derived.
+/// Returns a number of the scene by which its motion may be differentiated.
 std::string some_parameter(const Scene& scene, Random& random) {
   std::vector<std::string> names{"gravity.y"};
   for (const Body& body : scene.bodies) {
@@ -233,7 +233,7 @@ std::string derived(const Case& one) {
   return wrong;
 }
 
-// An estimate of the error is of the error's size.
+// Checks that the estimate of the error is of the error's size.
 std::string estimated(const Case& one) {
   if (dynamic_bodies(one.scene) > kMostBodies) return {};
   const int steps = std::min(one.steps, 60);
@@ -258,7 +258,7 @@ std::string estimated(const Case& one) {
   return {};
 }
 
-// A scene that starts with shapes in each other, or with a joint open, is refused.
+// Checks that a scene which starts with overlapping shapes, or with an open joint, is refused.
 std::string refuses_start(const Case& one) {
   Random random(one.seed, one.index + 61);
   const double size = largest_size(one.scene);
@@ -295,7 +295,7 @@ std::string refuses_start(const Case& one) {
   return {};
 }
 
-// Two methods of integration have nothing in common but the equations.
+// Compares two methods of integration, which have nothing in common but the equations.
 std::string alike_by_methods(const Case& one, const Motion& motion, const Engine& engine) {
   if (dynamic_bodies(one.scene) > kMostBodies) return {};
   const int steps = std::min(one.steps, 90);
@@ -389,8 +389,8 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
   return at;
 }
 
-// A box strikes a floor with a corner, or flat: the velocities after it by the law of its scene. In a World
-// only with restitution: without, impacts are left to the step's solver.
+// Drops a box on a floor, on a corner or flat, and compares the velocities after the impact with the law of
+// its scene. In a World only with restitution: without, impacts are left to the step's solver.
 std::string blown(Random& random, const Accuracy& accuracy) {
   const bool precise = std::holds_alternative<Precise>(accuracy);
   const double s = random.ladder(0.2, 5), wide = s, high = s * random.within(0.2, 1),
@@ -496,7 +496,8 @@ std::string blown(Random& random, const Accuracy& accuracy) {
   return {};
 }
 
-// A block slides on a floor or a slope by its kinetic friction, and starts only beyond the static one.
+// Checks that a block on a floor or a slope slides by its kinetic friction, and starts only beyond the static
+// one.
 std::string slid(Random& random) {
   const double s = random.ladder(0.2, 5), mu = random.within(0.1, 0.8), share = random.within(0.3, 1),
                g = 9.81;
@@ -535,7 +536,8 @@ std::string slid(Random& random) {
   return {};
 }
 
-// A motor holds its speed against less than its torque either way, and a limit holds what strikes it.
+// Checks that a motor holds its speed against less than its torque in both directions, and that a limit stops
+// a hinge that reaches it.
 std::string driven_hinge(Random& random) {
   const double s = random.ladder(0.2, 5), most = random.ladder(1, 100), w = random.pick({0.0, 1.0, -2.0});
   const double load = most * random.pick({-1.5, -0.9, -0.3, 0.3, 0.9, 1.5});

@@ -10,17 +10,17 @@ namespace plumb::harness::hunt {
 /// Judged like relations.
 const std::vector<Relation>& promises();
 
-// Random calls between the steps of a world.
+// Judges random calls between the steps of a world.
 Verdict life(const Case& one, const Engine& engine, const Motion& motion);
 Verdict twins(const Case& one, const Engine& engine, const Motion& motion);
 
-// Wind on each shape, of a World.
+// Judges the wind on each shape of a World.
 Verdict wind(const Case& one, const Engine& engine, const Motion& motion);
 
 // Formulas, of any engine that has them.
 Verdict formulas(const Case& one, const Engine& engine, const Motion& motion);
 
-// Linear systems, of any engine that solves them.
+// Judges linear systems, for any engine that solves them.
 Verdict systems(const Case& one, const Engine& engine, const Motion& motion);
 
 // Parts of a World: tampered snapshots, shared loops, monitors, and methods of integration.

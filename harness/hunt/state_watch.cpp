@@ -192,9 +192,9 @@ std::string StateWatch<Real>::touches() {
   return {};
 }
 
-// Nothing changes the motion of a body without joints that touches nothing in a step but gravity and the
-// forces applied to it, and nothing at all that of a kinematic one: constant accelerations, which the world
-// integrates exactly. Where something did, a touch must have been told.
+// Checks the motion of bodies without joints and without a touch in the step. Only gravity and applied forces
+// may change it, with constant accelerations, which the world integrates exactly; nothing changes that of a
+// kinematic body. Another change requires a reported touch.
 template <class Real>
 std::string StateWatch<Real>::flights(double dt) const {
   const double rounding = kFlightRoundings * std::numeric_limits<Real>::epsilon() / 2;
@@ -264,7 +264,7 @@ std::string StateWatch<Real>::flights(double dt) const {
   return {};
 }
 
-// A locked coordinate stays, whatever calls have given it.
+// Checks that locked coordinates do not change, whatever velocities calls have set.
 template <class Real>
 std::string StateWatch<Real>::locks() const {
   for (const BodyId body : world_.bodies()) {
@@ -302,7 +302,8 @@ bool StateWatch<Real>::meets_something(BodyId body, double way) const {
   return false;
 }
 
-// A body that wakes in a step is reached by something that moved: over joints and touches of sleepers.
+// Checks that each body that woke in a step is connected to one that moved, over joints and contacts of
+// sleeping bodies.
 template <class Real>
 std::string StateWatch<Real>::wakings() const {
   std::map<Key, BodyId> woken;
@@ -565,8 +566,8 @@ std::string StateWatch<Real>::boxes() const {
   return {};
 }
 
-// A body that only rests on or strikes what does not move, without friction's help along the normal: its
-// momentum along the normal changes by its weight and the contact's impulse.
+// Checks bodies with one contact, with a body that does not move and whose friction has no part along the
+// normal: their momentum along the normal changes by their weight and the contact's impulse.
 template <class Real>
 std::string StateWatch<Real>::impulses(double dt) const {
   for (const BodyId body : world_.bodies()) {
@@ -577,8 +578,8 @@ std::string StateWatch<Real>::impulses(double dt) const {
     const std::vector<ContactReading> contacts = world_.contacts(body);
     if (contacts.size() != 1 || world_.linear_damping(body) != 0) continue;
     const ContactReading& contact = contacts.front();
-    // Others may have come and gone within the step; and a normal is that of the step's start, which turns
-    // where shapes lie deep in each other.
+    // Other contacts may have begun and ended within the step. The normal is that of the step's start; it
+    // turns during the step if shapes overlap deeply, so these are skipped.
     const double deepest = std::min(contact.separations[0], contact.separations[contact.count - 1]);
     const Aabb<double> box = world_.box(body);
     if (deepest < -0.05 * length(box.upper - box.lower)) continue;

@@ -28,7 +28,7 @@ constexpr std::size_t kLargestMotion = 40000;  // poses per scene: scenes of man
 // motions get.
 constexpr std::size_t kRoom = 18'000'000;    // bytes
 constexpr std::size_t kShown = 14'000;       // runs
-constexpr std::size_t kShownOfAnEngine = 4;  // at least, in a scene: the default, the best, two of a front
+constexpr std::size_t kShownOfAnEngine = 4;  // runs, minimum a scene: default, best, two of the front
 constexpr std::size_t kExceptions = 3000;    // points of rivals that plumb does not dominate
 constexpr std::size_t kFailureKinds = 50;    // of a scene
 

@@ -51,9 +51,9 @@ struct HullDistance {
   int iterations = 0;
 };
 
-/// Algorithm of Gilbert, Johnson and Keerthi (GJK, 1988) on the corners; on overlap the separating axis of
-/// least depth. Always terminates, with finite results for finite input. The error is a few roundings of a
-/// double, relative to the distance and the sizes. `cache` may be null.
+/// Computes the distance by the algorithm of Gilbert, Johnson and Keerthi (GJK, 1988) on the corners, and on
+/// overlap the separating axis of least depth. Always terminates, with finite results for finite input. The
+/// error is a few roundings of a double, relative to the distance and the sizes. `cache` may be null.
 template <class Real>
 HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
                            SimplexCache* cache);

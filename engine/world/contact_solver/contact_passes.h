@@ -71,7 +71,7 @@ template <class Number, class Pair, class Contact, class Real>
   return {gap * inverse_h, 1, 0, select(c.normal_impulse[i] > Number(0), Number(0), gap)};
 }
 
-/// Coulomb: |lambda_t| <= mu lambda_n.
+/// Solves friction within Coulomb's bound: |lambda_t| <= mu lambda_n.
 template <class Number, class Pair, class Contact>
 [[gnu::always_inline]] inline void rub_within_bound(Pair& pair, Contact& c, const Number& tangent_mass) {
   using std::max, std::min;

@@ -9,9 +9,10 @@
 namespace plumb {
 namespace {
 
-// Fewest joints in a block: fewer cost less one at a time.
+// Minimum number of joints in a block: fewer cost less when solved one at a time.
 constexpr int kLeastLanes = 3;
-// Kinds of joints of a colour that wait for a block at once; those of further ones stay alone.
+// Maximum number of kinds of joints of a colour for which blocks are filled side by side. Joints of further
+// kinds are solved one at a time.
 constexpr int kKinds = 8;
 
 // Calls a function that is inlined, compiled for registers of so many bytes.
