@@ -19,8 +19,8 @@ namespace {
 using Poses = std::vector<BodyState>;
 
 constexpr double kWide = 360, kHigh = 220, kMargin = 14;  // px
-constexpr int kMoments = 73;                              // of a path; a few for each turn of a fast one
-constexpr std::size_t kPaths = 8;  // of the bodies that go farthest: more would hide each other
+constexpr int kMoments = 73;       // points of a path: a few for each turn of a fast body
+constexpr std::size_t kPaths = 8;  // paths, of the bodies that go farthest: more would hide each other
 constexpr double kStill = 1e-6;    // fraction of the picture that counts as motion
 constexpr const char* kStyle = R"(
 .back{fill:#fff}.still{fill:#d9d9d4;stroke:#8a8a84}.start{fill:none;stroke:#a0a0a8;stroke-dasharray:3 2}

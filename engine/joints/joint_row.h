@@ -114,7 +114,8 @@ struct RowRule {
   double max_force = std::numeric_limits<double>::infinity();  ///< N or N m
 };
 
-/// Up to four rules on one coordinate, in solving order: the last one is met best.
+/// Up to four rules on one coordinate, in the order in which they are solved: the last one has the smallest
+/// error.
 struct RowRules {
   static constexpr int kMost = 4;
   std::array<RowRule, kMost> rule{};

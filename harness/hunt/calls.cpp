@@ -15,10 +15,10 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Relative rounding of what a world stores in floats, tenfold.
+// Relative tolerance of numbers that a world stores in floats: ten roundings.
 constexpr double kRounding = 2e-6;
-// Of a shape's size: overlap from which a shape that is put into a sleeper wakes it. Below it they may count
-// as touching, or not.
+// Overlap, as a fraction of a shape's size, from which a new shape must wake a sleeping body. Below it the
+// two may count as touching, or not.
 constexpr double kOverlap = 0.02;
 
 bool near(double a, double b, double scale = 0) {

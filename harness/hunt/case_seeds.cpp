@@ -20,9 +20,9 @@ namespace {
 
 constexpr double kStep = 1.0 / 60;  // s, of the file's own scene
 constexpr int kSubsteps = 4;
-constexpr std::string_view kPrefix = "expected ";  // of the checks of a file's expectations
+constexpr std::string_view kPrefix = "expected ";  // of the names of checks of a file's expectations
 constexpr double kLongest = 10;                    // s, of a variation
-constexpr rlim_t kSeconds = 10;                    // of processor time, of Precise
+constexpr rlim_t kSeconds = 10;                    // processor time limit of Precise
 
 // Draws steps no longer than the usual one, so that the file's expectations still apply.
 void draw_finer_steps(Draft& draft) {

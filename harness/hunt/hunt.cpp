@@ -24,10 +24,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSceneSeconds = 60;  // of processor time, as is kRunSeconds
+constexpr double kSceneSeconds = 60;  // processor time limit of a scene; kRunSeconds of a run
 constexpr rlim_t kRunSeconds = 10;
 constexpr double kMoreSeconds = 30;  // after the time limit, for shrinking findings
-// Replaces the law in a task whose scene's process died: each engine is then examined alone.
+// Stands for the law in a task whose scene's process died: each engine is then examined alone.
 constexpr std::uint64_t kCrashed = 0xFF;
 
 /// A task packed into a number: a scene, or one finding in it to be shrunk.

@@ -75,7 +75,7 @@ std::string damaged_world(const Case& one, std::string& flags) {
   std::vector<std::byte> bytes = sound;
   for (int i = 0; i < kDamages; ++i) {
     const auto at = kHeader + static_cast<std::size_t>(random.unit() * double(sound.size() - kHeader));
-    // Small numbers are indices, counts and kinds; others are any.
+    // Small bytes are mostly indices, counts and kinds, so replace them with small ones; others with any.
     const int old = static_cast<int>(sound[at]);
     bytes[at] =
         static_cast<std::byte>(old < 64 && random.chance(0.8) ? random.whole(0, 25) : random.whole(0, 255));

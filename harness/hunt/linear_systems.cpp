@@ -22,10 +22,12 @@ namespace {
 
 using Wide = long double;
 
-constexpr int kDraws = 12;  // of each kind and scene
-// Beside a threshold, as a fraction of it: what rounding of a matrix to double leaves of its pivots.
+constexpr int kDraws = 12;  // number of systems of each kind per scene
+// Distance of a pivot from a threshold, as a fraction of it, below which rounding the matrix to double may
+// move the pivot to the other side.
 constexpr double kBeside = 0.01;
-// Of the largest entry, or of the diagonal: pivots below it count as rounding in systems of doubles.
+// Pivot below which it counts as rounding in systems of doubles, as a fraction of the largest entry or of the
+// diagonal.
 constexpr double kNothing = 1e-12;
 
 /// Pivots of complete pivoting in long double, in their order, and whether two were so near each other that

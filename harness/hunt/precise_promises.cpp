@@ -21,7 +21,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-constexpr rlim_t kSeconds = 2;          // of processor time
+constexpr rlim_t kSeconds = 2;          // processor time limit
 constexpr std::size_t kMostBodies = 8;  // dynamic ones, of a scene that is run several times
 
 /// Runs a check in a process of its own, for as long as it may take, and objects with what it returns.
@@ -416,7 +416,7 @@ std::string blown(Random& random, const Accuracy& accuracy) {
                           .type = BodyType::Static,
                           .position = {0, -5 * s},
                           .shapes = {{.geometry = Box{40 * s, 10 * s}, .friction = mu, .restitution = e}}});
-  // Of the four corners the lowest; the arm to it from the centre.
+  // Arm from the centre to the lowest of the four corners.
   const Vec2d corner = flat ? Vec2d{random.pick({-0.5, 0.5}) * wide, -high / 2} : Vec2d{-wide / 2, -high / 2};
   const Vec2d arm = flat ? corner : Vec2d{c * corner.x - sn * corner.y, sn * corner.x + c * corner.y};
   Body box{.name = "box",

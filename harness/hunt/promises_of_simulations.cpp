@@ -15,7 +15,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr int kMostSteps = 150;
-constexpr rlim_t kSeconds = 2;  // of processor time, of Precise
+constexpr rlim_t kSeconds = 2;  // processor time limit of Precise
 
 Realtime realtime_of(const Case& one, const Engine& engine) {
   return {.dt = one.dt,
@@ -151,7 +151,7 @@ Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion&)
                   const std::string name = scene.bodies[*body].name;
                   const double dt = one.dt, mass = scene.bodies[*body].mass;
                   const int before = std::min(one.steps, 20);
-                  // Beyond the largest speed within the step, by a force that is itself in range.
+                  // Exceeds the largest speed within the step, by a force that is itself in range.
                   const double force = std::min(9e11, 4e7 * mass / dt);
                   scene.forces.push_back(PointForce{
                       .body = name, .force = {force, 0}, .start = (before - 0.5) * dt, .duration = 3 * dt});

@@ -18,18 +18,22 @@ std::pair<std::uint32_t, std::uint32_t> key_of(Handle<Tag> handle) {
   return {handle.index, handle.generation};
 }
 
-// Of the sizes of both: rounding of shapes and rotations to floats, a hundredfold.
+// Fraction of the sizes of both shapes: a hundred times the error of shapes and rotations that are rounded to
+// floats.
 constexpr double kRounding = 2e-5;
-// Of the smaller width: depth from which shapes must be in contact, and of the sizes: distance beyond which
-// they are in none. Contacts of a step are found before it moves its bodies, so the way of a step is added.
+// Depth from which shapes must be in contact, as a fraction of the smaller width, and distance beyond which
+// they must be in none, as a fraction of their sizes. Contacts of a step are found before its bodies move, so
+// the displacement of a step is added.
 constexpr double kDeep = 0.02, kApart = 0.02;
-// Of the impulse: what a change of momentum along a normal may be off it. Contacts turn with the bodies.
+// Largest difference of a change of momentum along a normal from the impulse, as a fraction of that: contacts
+// turn with the bodies.
 constexpr double kBalance = 0.05;
-// rad, in a step: beyond it an angle is rounded.
+// rad, largest rotation in a step of bodies that are checked: beyond it angles are rounded.
 constexpr double kWhirl = 3;
-// Roundings of a Real in a step of 16 substeps, of what a body in flight has of speed, or goes.
+// Tolerance of the speed and the displacement of a body in flight, in roundings of a Real, for a step of 16
+// substeps.
 constexpr double kFlightRoundings = 200;
-// m, m/s, rad/s: the world's limits.
+// Largest position, speed and angular speed of a world, m, m/s, rad/s.
 constexpr double kLargest = 1e12;
 
 double size_of(const Outline& outline) { return length(outline.high - outline.low); }

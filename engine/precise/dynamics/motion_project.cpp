@@ -66,7 +66,8 @@ bool EquationsOfMotion::held_works() const {
 }
 
 void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
-  constexpr double kRounding = 1e-12;  // of the fastest: below it, velocities already fit
+  // Fraction of the largest velocity below which an error counts as rounding: the velocities already fit.
+  constexpr double kRounding = 1e-12;
   if (!only_hinges() || !hinges_.rooted()) return;
   place(time, y.value());
   hinges_.place(poses_);

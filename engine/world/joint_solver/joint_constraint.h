@@ -21,7 +21,7 @@ namespace plumb {
 template <int>
 struct NoPart {};
 
-/// Of a block of joints side by side: their own angles at the start of the step, rad.
+/// The own angles of a block of joints in SIMD lanes, rad, at the start of the step.
 template <class Real>
 struct LaneAngles {
   Real start = 0;

@@ -263,8 +263,8 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         block.joint.share = 1;
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
-        // Twice if they are under-relaxed: their share follows from their rows, and their masses from it. A
-        // loop, so that it is compiled once.
+        // Evaluates twice if the joints are under-relaxed: the factor follows from their rows, and their
+        // effective masses from the factor. A loop, so that it is compiled once.
         for (bool has_share = false;; has_share = true) {
           block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
           if (has_share) return;

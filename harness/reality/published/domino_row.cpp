@@ -9,7 +9,7 @@ namespace {
 constexpr int kBlocks = 100;
 /// Share of a block's equation in the sum below which it and those behind it are left out.
 constexpr double kLeast = 1e-9;
-constexpr int kSteps = 50;  // of the first block's turn between two impacts, of fourth order
+constexpr int kSteps = 50;  // steps of fourth order for the first block's turn between two impacts
 /// Impacts that it takes at most until the speed is the same to `kSteady`. Each leaves a third to nine tenths
 /// of the difference.
 constexpr int kImpacts = 1000;
