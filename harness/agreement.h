@@ -65,14 +65,14 @@ enum class AgreementDetail {
 /// Formats them for people: cases with misses one by one, the others together, the reasons once each.
 std::string agreement_text(std::span<const Agreement> cases, AgreementDetail detail, const Style& style);
 
-/// A case a line. `agreement_from_json` reads one; it throws `Error` (Syntax).
+/// Formats a case as one line of JSON. `agreement_from_json` reads it back; it throws `Error` (Syntax).
 std::string agreement_json(const Agreement& one);
 Agreement agreement_from_json(std::string_view text);
 
 /// Reads a file of them. Throws `Error` (Io, Syntax).
 std::vector<Agreement> read_agreements(const std::string& path);
 
-/// A line per case, engine and missed check.
+/// Formats cases as CSV: a line per case, engine and missed check.
 std::string agreement_csv(std::span<const Agreement> cases);
 
 }  // namespace plumb::harness

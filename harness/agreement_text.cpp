@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Ink = Style::Ink;
 
-constexpr std::size_t kGroupsShown = 3;  // of a case, in text; JSON has all
+constexpr std::size_t kGroupsShown = 3;  // groups of a case that the text shows; JSON has all
 
 std::string joined(const std::vector<std::string>& names, std::string_view between = ", ") {
   std::string out;

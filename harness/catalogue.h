@@ -11,7 +11,7 @@
 
 namespace plumb::harness {
 
-/// "closed_form", "integrated" or "equilibrium".
+/// Returns "closed_form", "integrated" or "equilibrium".
 std::string_view name_of(scenarios::TruthKind kind);
 
 /// Topic of a case, from its scene: joints before contacts, contacts before forces.

@@ -19,8 +19,8 @@ namespace {
 using Poses = std::vector<BodyState>;
 
 constexpr double kWide = 360, kHigh = 220, kMargin = 14;  // px
-constexpr int kMoments = 73;                              // of a path; a few for each turn of a fast one
-constexpr std::size_t kPaths = 8;  // of the bodies that go farthest: more would hide each other
+constexpr int kMoments = 73;       // points of a path: a few for each turn of a fast body
+constexpr std::size_t kPaths = 8;  // paths, of the bodies that go farthest: more would hide each other
 constexpr double kStill = 1e-6;    // fraction of the picture that counts as motion
 constexpr const char* kStyle = R"(
 .back{fill:#fff}.still{fill:#d9d9d4;stroke:#8a8a84}.start{fill:none;stroke:#a0a0a8;stroke-dasharray:3 2}
@@ -87,7 +87,7 @@ struct View {
   Vec2d at(Vec2d p) const { return {x + scale * p.x, y - scale * p.y}; }
   std::string text(Vec2d p) const {
     const Vec2d q = at(p);
-    // Without a negative zero, and within what a browser draws.
+    // Rounds to a tenth, avoids "-0", and stays within the coordinates that browsers draw.
     const auto tidy = [](double v) { return std::clamp(std::round(v * 10) / 10, -1e4, 1e4) + 0.0; };
     return fmt::format("{:g} {:g}", tidy(q.x), tidy(q.y));
   }
@@ -137,7 +137,8 @@ std::vector<Poses> motion_of(const scenarios::Problem& problem) {
   return out;
 }
 
-// The frame: all places of what moves, with its shapes; of the rest only where nothing moves.
+// Returns the view that contains all positions of moving bodies, with their shapes. The others count only if
+// nothing moves.
 View view_of(const Scene& scene, const std::vector<Poses>& motion) {
   Bounds bounds;
   const auto add = [&](std::size_t body, const BodyState& pose) {
@@ -202,7 +203,7 @@ std::string links_svg(const Scene& scene, const Poses& poses, const View& view) 
   return out;
 }
 
-// The paths of the bodies that go farthest.
+// Draws the paths of the bodies that go farthest.
 std::string paths_svg(const Scene& scene, const std::vector<Poses>& motion, const View& view) {
   std::vector<std::pair<double, std::size_t>> lengths;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

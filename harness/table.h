@@ -16,7 +16,7 @@ std::string table(std::span<const Result> results, const Style& style);
 /// Returns `text` as a field of CSV: quoted if necessary, quotes doubled. Source: RFC 4180.
 std::string csv_field(std::string_view text);
 
-/// One line per result; the header names the columns.
+/// Formats results as CSV, one line each; the header names the columns.
 std::string csv_header();
 std::string csv_row(const Result& result);
 

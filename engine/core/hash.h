@@ -20,7 +20,7 @@ class Fnv1a {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-/// The finalizer of MurmurHash3 (Appleby): each bit of the word changes each bit of the result with a
+/// Applies the finalizer of MurmurHash3 (Appleby): each bit of the word changes each bit of the result with a
 /// probability near one half.
 inline std::uint64_t mixed_bits(std::uint64_t word) {
   word = (word ^ (word >> 33)) * 0xff51afd7ed558ccdu;

@@ -46,7 +46,7 @@ void wait_for_change(const std::atomic<int>& number, int old);
 /// A few threads that run the tasks of one loop at a time, and sleep when there is none.
 class ThreadPool {
  public:
-  /// Starts the threads. Throws std::system_error if there are no more.
+  /// Starts the threads. Throws std::system_error if the system has no more threads.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

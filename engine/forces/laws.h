@@ -38,8 +38,8 @@ class Forces {
   /// the laws.
   void add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
 
-  /// The same at the instant `time` inside [t0, t1]: laws that change smoothly with time are evaluated there.
-  /// Switched laws keep their fraction of [t0, t1], which the caller ends at the times of switching.
+  /// Does the same at the instant `time` inside [t0, t1]: laws that change smoothly with time are evaluated
+  /// there. Switched laws keep their fraction of [t0, t1], which the caller ends at the times of switching.
   void add_at(double time, double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
               Wrench<Real>* out) const;
 

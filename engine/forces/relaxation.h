@@ -25,9 +25,9 @@ inline double mean_of_decay(double x) {
   return (1 - decay) / x;
 }
 
-/// Mean over `dt` of the drag -c v in m v' = -c v + load, from the equation's solution. A constant force of
-/// this size leads to the exact velocity after `dt`, and never past the terminal velocity. `inverse_mass` in
-/// 1/kg, `coefficient` c in N s/m, >= 0.
+/// Returns the mean over `dt` of the drag -c v in m v' = -c v + load, from the equation's solution. A
+/// constant force of this size leads to the exact velocity after `dt`, and never past the terminal velocity.
+/// `inverse_mass` in 1/kg, `coefficient` c in N s/m, >= 0.
 inline double mean_linear_drag(double velocity, double coefficient, double inverse_mass, double load,
                                double dt) {
   const double share = mean_of_decay(coefficient * inverse_mass * dt);

@@ -17,8 +17,8 @@ struct SinusoidalForceLaw {
   double angular_frequency = 0;  ///< rad/s
   double phase = 0;              ///< rad
 
-  /// Mean of sin(w t + phase) over [t0, t1], sin(middle) sin(half) / half with the phase at the middle and
-  /// half its change: a step's impulse is exact. At an instant, t0 == t1, the sine itself.
+  /// Returns the mean of sin(w t + phase) over [t0, t1], sin(middle) sin(half) / half with the phase at the
+  /// middle and half its change: a step's impulse is exact. At an instant, t0 == t1, the sine itself.
   double mean_sine(double t0, double t1) const {
     const double half = 0.5 * angular_frequency * (t1 - t0);
     const double middle = rotation_of(0.5 * angular_frequency * (t0 + t1) + phase).s;

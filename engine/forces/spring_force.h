@@ -32,7 +32,7 @@ struct SpringForceLaw {
     return {{pull, cross(arm_a, pull)}, {-pull, -cross(arm_b, pull)}};
   }
 
-  /// Elastic energy k (l - l0)^2 / 2, J.
+  /// Returns the elastic energy k (l - l0)^2 / 2, J.
   Real energy(const Pose<Real>& pose_a, const Pose<Real>& pose_b) const {
     const Vec2<Real> way =
         (pose_b.position + pose_b.rotation * anchor_b) - (pose_a.position + pose_a.rotation * anchor_a);

@@ -28,7 +28,7 @@ void add_line(Moments& sum, Vec2d p, Vec2d q) {
   sum.y -= dx * (p.y * p.y + p.y * q.y + q.y * q.y) / 6;
 }
 
-// The same along an arc that is all below, angles from straight down: x = cx + r sin, y = cy - r cos.
+// Does the same along an arc that is all below, angles from straight down: x = cx + r sin, y = cy - r cos.
 void add_turn(Moments& sum, Vec2d centre, double r, double from, double to) {
   const Rotation<double> a = rotation_of(from), b = rotation_of(to);
   const double sine = b.s - a.s;                                          // of cos

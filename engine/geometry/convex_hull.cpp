@@ -32,7 +32,8 @@ constexpr double kLargestCoordinate = 1e100;
 
 double turn(Vec2d a, Vec2d b, Vec2d c) { return cross(b - a, c - b); }
 
-/// Andrew's monotone chain (1979) over points in lexicographic order; points on an edge are left out.
+/// Computes the hull by Andrew's monotone chain (1979) over points in lexicographic order; points on an edge
+/// are left out.
 std::vector<Vec2d> hull_of_sorted(const std::vector<Vec2d>& points) {
   std::vector<Vec2d> hull;
   const auto walk = [&hull](auto begin, auto end) {
@@ -70,7 +71,7 @@ void drop_details(std::vector<Vec2d>& hull, double size) {
   }
 }
 
-/// Unit normals of the edges, outward: to the right of a counter-clockwise outline.
+/// Sets the unit normals of the edges, outward: to the right of a counter-clockwise outline.
 void set_normals(Corners& corners) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2d edge = corners[(i + 1) % corners.size()].point - corners[i].point;

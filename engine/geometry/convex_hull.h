@@ -17,13 +17,15 @@ using Corners = std::vector<Corner<double>>;
 /// than kMaxCorners corners left.
 Corners convex_hull(std::span<const Vec2d> points);
 
-/// A box of half sizes > 0 about `center`, m. Its opposite normals are exact negatives of each other.
+/// Returns the corners of a box of half sizes > 0 about `center`, m. Its opposite normals are exact negatives
+/// of each other.
 Corners box_corners(double half_width, double half_height, Vec2d center = {}, Rotation<double> rotation = {});
 
-/// A capsule's two corners: the ends of its axis, m. One corner, a disc's, when both are the same point.
+/// Returns a capsule's two corners, the ends of its axis, m, or one corner, a disc's, if both are the same
+/// point.
 Corners capsule_corners(Vec2d first, Vec2d second);
 
-/// A disc's only corner.
+/// Returns a disc's only corner.
 Corners disc_corner(Vec2d center);
 
 /// Transforms the corners to a frame in which theirs lies at `pose`.

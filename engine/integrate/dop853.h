@@ -17,11 +17,11 @@ class Dop853 {
  public:
   explicit Dop853(std::size_t dimension);
 
-  /// dy/dt at the start of the step: must be set before `step`.
+  /// Returns dy/dt at the start of the step, to be set before `step`.
   std::span<double> first_rate() { return rates_.front(); }
   std::span<const double> first_rate() const { return rates_.front(); }
 
-  /// The flow's `power` at the start of the step; and at its end, together with `last_rate`.
+  /// Sets the flow's `power` at the start of the step; and at its end, together with `last_rate`.
   void set_first_power(double power) { powers_.front() = power; }
   void set_last_power(double power) { powers_[kLast] = power; }
   double last_power() const { return powers_[kLast]; }
@@ -46,7 +46,7 @@ class Dop853 {
   static double error(std::span<const double> scale, std::span<const double> fifth,
                       std::span<const double> third);
 
-  /// dy/dt at the end of the step: must be set before `polynomial`.
+  /// Returns dy/dt at the end of the step, to be set before `polynomial`.
   std::span<double> last_rate();
   std::span<const double> last_rate() const;
 

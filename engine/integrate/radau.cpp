@@ -25,7 +25,7 @@ void Radau::guess(double h, std::span<const double> first_rate) {
     for (int s = 0; s < kStages; ++s) std::copy(first_rate.begin(), first_rate.end(), &rates_[s * n_]);
     return;
   }
-  std::array<std::array<double, kStages>, kStages> weight;  // of an old stage in a new one
+  std::array<std::array<double, kStages>, kStages> weight;  // [new stage][old stage], of its rate
   for (int s = 0; s < kStages; ++s) {
     const double at = 1 + kC[s] * (h / last_h_);
     for (int j = 0; j < kStages; ++j) {
@@ -49,7 +49,9 @@ void Radau::guess(double h, std::span<const double> first_rate) {
 bool Radau::step(StiffFlow& flow, double time, double h, std::span<const double> y,
                  std::span<const double> first_rate, std::span<const double> scale) {
   constexpr int kMostIterations = 12;
-  constexpr double kSmall = 1e-2, kStagnant = 0.3;  // of the scale
+  // As fractions of the scale: error with which the iteration ends, and with which it may end if it
+  // stagnates.
+  constexpr double kSmall = 1e-2, kStagnant = 0.3;
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   guess(h, first_rate);
   last_h_ = 0;

@@ -7,7 +7,7 @@ namespace plumb {
 /// Throws Error (Value), which names the joint and the field, if no joint can be made from the definition.
 void validate(const JointKind& definition);
 
-/// "distance joint", "revolute joint", ...
+/// Returns "distance joint", "revolute joint", ...
 const char* name_of(const JointKind& definition);
 
 }  // namespace plumb

@@ -53,8 +53,8 @@ struct AnchorPoint {
   Vec2<Real> arm_a{}, arm_b{};  ///< m, from the centres of mass
   Vec2<Real> gap{};             ///< m, anchor b less anchor a
 
-  /// The row of C = n . gap, where n turns with a:
-  /// dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a + gap)).
+  /// Returns the row of C = n . gap, where n turns with a: dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a +
+  /// gap)).
   [[gnu::always_inline]] JointRow<Real> row(Vec2<Real> n, Real residual) const {
     return {-n, n, -cross(arm_a + gap, n), cross(arm_b, n), residual};
   }
@@ -114,7 +114,8 @@ struct RowRule {
   double max_force = std::numeric_limits<double>::infinity();  ///< N or N m
 };
 
-/// Up to four rules on one coordinate, in solving order: the last one is met best.
+/// Up to four rules on one coordinate, in the order in which they are solved: the last one has the smallest
+/// error.
 struct RowRules {
   static constexpr int kMost = 4;
   std::array<RowRule, kMost> rule{};

@@ -25,8 +25,8 @@ constexpr int kSmallRows = 16;
 // Least pivot, relative to its diagonal, of a system that needs no regularisation: with a thousandth of it
 // the refinements would leave 1e-9.
 constexpr double kWell = 1e-4;
-// Rounds of descent after that, the iterations in each, and the last iterations if the rounds do not
-// converge.
+// Rounds of descent if pivoting does not converge, iterations in each round, and the last iterations if the
+// rounds do not converge either.
 constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
 
 double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s, double angular_s) {

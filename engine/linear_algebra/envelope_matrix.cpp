@@ -46,7 +46,8 @@ void EnvelopeMatrix::shape(std::span<const int> first) {
 }
 
 void EnvelopeMatrix::factorise(int from) {
-  constexpr double kNothing = 1e-12;  // of the diagonal: below it a row is dependent up to rounding
+  // Fraction of the diagonal below which a row is dependent up to rounding.
+  constexpr double kNothing = 1e-12;
   for (int i = from; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
     const double diagonal = row[i];

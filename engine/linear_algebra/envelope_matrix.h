@@ -18,7 +18,7 @@ class EnvelopeMatrix {
   /// grows.
   void reset(std::span<const int> first);
 
-  /// The same, with entries that are not set: the caller sets all of them.
+  /// Does the same without setting entries: the caller sets all of them.
   void shape(std::span<const int> first);
 
   int size() const { return static_cast<int>(first_.size()); }

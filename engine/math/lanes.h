@@ -70,7 +70,7 @@ struct Lanes {
     for (int k = 0; k < kParts; ++k) part[k] = from.part[k];
     return *this;
   }
-  /// The same number in all lanes.
+  /// Puts the same number into all lanes.
   [[gnu::always_inline]] Lanes(Real value) {
     for (int k = 0; k < kParts; ++k) part[k] = value - Part{};
   }
@@ -136,7 +136,7 @@ struct Lanes {
     for (int k = 0; k < kParts; ++k) out.part[k] = mask.part[k] ? yes.part[k] : no.part[k];
     return out;
   }
-  /// As std::min and std::max: returns the first of equals, and the first if one is NaN.
+  /// Returns the first of equals, as std::min and std::max do, and the first if one is NaN.
   [[gnu::always_inline]] friend Lanes min(const Lanes& a, const Lanes& b) {
     Lanes out;
     for (int k = 0; k < kParts; ++k) out.part[k] = b.part[k] < a.part[k] ? b.part[k] : a.part[k];
@@ -210,7 +210,7 @@ template <class Real, int kCount, int kBytes>
 #endif
 }
 
-// The same for single numbers, so that one algorithm serves both.
+// Does the same for single numbers, so that one algorithm serves both.
 [[gnu::always_inline]] constexpr bool any(bool mask) { return mask; }
 [[gnu::always_inline]] constexpr bool all(bool mask) { return mask; }
 template <class Real>

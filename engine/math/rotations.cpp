@@ -39,8 +39,8 @@ constexpr double kCosine[] = {-1.0 / 1124000727777607680000.0,
 
 constexpr std::size_t kLanes = 4;
 
-/// Cosine and sine of angle = n pi + r, |r| <= pi/2, by Taylor's series; the first terms left out are below
-/// 1e-17.
+/// Computes cosine and sine of angle = n pi + r, |r| <= pi/2, by Taylor's series; the first terms left out
+/// are below 1e-17.
 void near_turn(const double* angle, double* cosine, double* sine) {
   using Four = Four<double>;
   const auto all = [](double x) { return Four(x); };

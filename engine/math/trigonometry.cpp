@@ -15,14 +15,14 @@ struct Reduced {
   unsigned quadrant = 0;
 };
 
-/// a + b without error (Knuth).
+/// Returns a + b without error (Knuth).
 TwoDoubles exact_sum(double a, double b) {
   const double sum = a + b;
   const double b_seen = sum - a;
   return {sum, (a - (sum - b_seen)) + (b - b_seen)};
 }
 
-/// a b without error, from halves of 26 bits (Veltkamp, Dekker).
+/// Returns a b without error, from halves of 26 bits (Veltkamp, Dekker).
 TwoDoubles exact_product(double a, double b) {
   constexpr double kSplit = 0x1p27 + 1;
   const double a_high = kSplit * a - (kSplit * a - a), a_low = a - a_high;
@@ -36,7 +36,7 @@ constexpr double kHalfPiParts[3] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a
 constexpr double kHalfPiRest = 0x1.b839a252049c1p-104;
 constexpr double kPartsLimit = 0x1p20;
 
-/// Cody and Waite's reduction, for |angle| <= kPartsLimit.
+/// Applies Cody and Waite's reduction, for |angle| <= kPartsLimit.
 Reduced reduce_by_parts(double angle) {
   constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
   constexpr double kToInteger = 0x1.8p52;  // adding it rounds to the nearest integer
@@ -64,8 +64,8 @@ std::uint32_t two_over_pi_bits(int start) {
   return static_cast<std::uint32_t>((word(first) << 32 | word(first + 1)) >> (32 - shift));
 }
 
-/// Payne and Hanek's reduction, for |angle| > kPartsLimit: multiplies by the bits of 2/pi that decide the
-/// quadrant and 190 bits below it; higher ones give whole turns.
+/// Applies Payne and Hanek's reduction, for |angle| > kPartsLimit: multiplies by the bits of 2/pi that decide
+/// the quadrant and 190 bits below it; higher ones give whole turns.
 Reduced reduce_by_bits(double angle) {
   constexpr int kLimbs = 6;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(angle);
@@ -114,7 +114,7 @@ Reduced reduce_by_bits(double angle) {
   return {{sign * rest.value, sign * rest.tail}, quadrant};
 }
 
-/// sin(x + tail) for |x| <= pi/4: Taylor's series; the first term left out is below 1e-19.
+/// Returns sin(x + tail) for |x| <= pi/4 by Taylor's series; the first term left out is below 1e-19.
 double sine_of_rest(double x, double tail) {
   const double z = x * x;
   constexpr double k3 = -1.0 / 6, k5 = 1.0 / 120, k7 = -1.0 / 5040, k9 = 1.0 / 362880, k11 = -1.0 / 39916800,
@@ -123,8 +123,8 @@ double sine_of_rest(double x, double tail) {
   return x + (x * z * series + tail * (1 - 0.5 * z));
 }
 
-/// cos(x + tail) for |x| <= pi/4: Taylor's series; the first term left out is below 3e-18. The rounding of
-/// 1 - x^2/2 is carried along.
+/// Returns cos(x + tail) for |x| <= pi/4 by Taylor's series; the first term left out is below 3e-18. The
+/// rounding of 1 - x^2/2 is carried along.
 double cosine_of_rest(double x, double tail) {
   const double z = x * x;
   constexpr double k4 = 1.0 / 24, k6 = -1.0 / 720, k8 = 1.0 / 40320, k10 = -1.0 / 3628800,

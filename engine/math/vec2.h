@@ -39,13 +39,13 @@ template <class Real>
   return a.x * b.x + a.y * b.y;
 }
 
-/// z component of a x b.
+/// Returns the z component of a x b.
 template <class Real>
 [[gnu::always_inline]] constexpr Real cross(Vec2<Real> a, Vec2<Real> b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// w z-hat x r: the velocity at r of a body with angular velocity w.
+/// Returns w z-hat x r: the velocity at r of a body with angular velocity w.
 template <class Real>
 [[gnu::always_inline]] constexpr Vec2<Real> cross(Real w, Vec2<Real> r) {
   return {-w * r.y, w * r.x};

@@ -24,7 +24,7 @@ class Invariants {
   /// Accounts for the last step of `motion`, before any jump at its end.
   void account(const EventFreeIntegrator& motion);
 
-  /// J: energy gained or lost without work; and the bound on it so far.
+  /// Returns the energy gained or lost without work, J, and the bound on it so far.
   double drift() const { return drift_; }
   double bound() const;
 

@@ -9,14 +9,13 @@
 
 namespace plumb {
 
-/// The driver of `Precise`, for a valid scene that it supports.
-/// Free flight under constant forces is a polynomial and is evaluated, not integrated: exact to rounding.
-/// All else is integrated with step-size control: explicitly (DOP853), implicitly while the motion is stiff
-/// (Radau IIA), or as `Precise::method` says. Joints are held by their accelerations and, after each step, by
-/// a projection of positions and velocities onto the constraints.
-/// Impacts are located in time and resolved there: Newton's restitution, Coulomb's friction. Steps end where
-/// forces are switched and at impacts, not on the grid of max_dt: states in between are read from the step's
-/// polynomial.
+/// Makes the driver of `Precise`, for a valid scene that it supports. Free flight under constant forces is a
+/// polynomial and is evaluated, not integrated: exact to rounding. All else is integrated with step-size
+/// control: explicitly (DOP853), implicitly while the motion is stiff (Radau IIA), or as `Precise::method`
+/// says. Joints are held by their accelerations and, after each step, by a projection of positions and
+/// velocities onto the constraints. Impacts are located in time and resolved there: Newton's restitution,
+/// Coulomb's friction. Steps end where forces are switched and at impacts, not on the grid of max_dt: states
+/// in between are read from the step's polynomial.
 ///
 /// `Precise::tolerance` bounds the error of each step: it is redone until its estimate is below a thousandth
 /// of the tolerance. Units are the scene's length (positions), its speed or the body's own if larger

@@ -9,16 +9,17 @@
 /// nothing.
 namespace plumb {
 
-/// A kind of shape or joint: "body 'lever' has a capsule", "joint 'door' is a prismatic joint".
+/// Returns a kind of shape or joint that few engines have: "body 'lever' has a capsule", "joint 'door' is a
+/// prismatic joint".
 std::string unusual_kind(const Scene& scene);
 
-/// A field that is not at its default: "body 'kite' has linear_damping", "joint 'hip' has limits".
+/// Returns a field that is not at its default: "body 'kite' has linear_damping", "joint 'hip' has limits".
 std::string unusual_field(const Scene& scene);
 
-/// A contact rule that Precise alone has: "contact_rules has impact 'stronge'".
+/// Returns a contact rule that Precise alone has: "contact_rules has impact 'stronge'".
 std::string unusual_rule(const Scene& scene);
 
-/// An unusual kind or an unusual field.
+/// Returns an unusual kind or an unusual field.
 std::string unusual_feature(const Scene& scene);
 
 }  // namespace plumb

@@ -31,8 +31,8 @@ Extent of_rectangle(Vec2d centre, double width, double height) {
   return {width * height, centre, (width * width + height * height) / 12};
 }
 
-/// A sector of angle 2 `half` about `tip`, opening along the unit vector `axis`: area r^2 half, centroid
-/// (2 r/3) sin(half)/half along the axis, r^2/2 about the tip.
+/// Computes a sector of angle 2 `half` about `tip`, opening along the unit vector `axis`: area r^2 half,
+/// centroid (2 r/3) sin(half)/half along the axis, r^2/2 about the tip.
 Extent of_sector(Vec2d tip, Vec2d axis, double half, double radius) {
   const double distance = 2 * radius / 3 * std::sin(half) / half;
   return {radius * radius * half, tip + distance * axis, radius * radius / 2 - distance * distance};
@@ -52,7 +52,8 @@ Extent extent(const Box& box) {
   return {box.width * box.height, {}, (box.width * box.width + box.height * box.height) / 12};
 }
 
-/// Extent of a rounded polygon: corners counter-clockwise, the first at the origin, of a size near 1.
+/// Returns the extent of a rounded polygon: corners counter-clockwise, the first at the origin, of a size
+/// near 1.
 Extent of_rounded(const std::vector<Vec2d>& corners, double radius) {
   Sum sum;
   const std::size_t n = corners.size();
@@ -116,7 +117,7 @@ double reach_of(const Geometry& geometry) {
   return std::visit([](const auto& g) { return reach(g); }, geometry);
 }
 
-// Andrew's monotone chain (1979).
+// Computes the hull by Andrew's monotone chain (1979).
 std::vector<Vec2d> convex_corners(std::vector<Vec2d> points) {
   std::sort(points.begin(), points.end(),
             [](Vec2d a, Vec2d b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });

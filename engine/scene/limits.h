@@ -7,7 +7,7 @@ namespace plumb {
 /// Allowed numbers of a field.
 enum class Limits { Any, NonNegative, Positive, ZeroToOne, NotZero };
 
-/// "must be a positive number of kg".
+/// Returns "must be a positive number of kg".
 std::string describe(Limits limits, const std::string& unit);
 
 bool within(Limits limits, double value);

@@ -7,19 +7,20 @@
 /// Names of a scene's objects in errors.
 namespace plumb {
 
-/// "scene 'tower'", or "scene" without a name.
+/// Returns "scene 'tower'", or "scene" without a name.
 std::string scene_subject(std::string_view name);
 
-/// "body 'ball'"; "body 3", counted from 0, without a name.
+/// Returns "body 'ball'"; "body 3", counted from 0, without a name.
 std::string body_subject(std::size_t index, std::string_view name);
 
-/// "joint 'hinge'"; "joint 3", counted from 0, without a name.
+/// Returns "joint 'hinge'"; "joint 3", counted from 0, without a name.
 std::string joint_subject(std::size_t index, std::string_view name);
 
-/// "force 2 (linear_drag on 'ball')", counted from 0; force laws have no names. Empty parts are left out.
+/// Returns "force 2 (linear_drag on 'ball')", counted from 0; force laws have no names. Empty parts are left
+/// out.
 std::string force_subject(std::size_t index, std::string_view law, std::string_view body);
 
-/// "drive 2", counted from 0; drives have no names.
+/// Returns "drive 2", counted from 0; drives have no names.
 std::string drive_subject(std::size_t index);
 
 }  // namespace plumb

@@ -34,7 +34,7 @@ struct MonitorBounds {
 template <class Real>
 class InvariantMonitor {
  public:
-  /// The world must outlive the monitor.
+  /// Monitors a world, which must outlive the monitor.
   explicit InvariantMonitor(const BasicWorld<Real>& world, const MonitorBounds& bounds = {});
 
   /// Records the state before a step: call it after the forces of the step were applied.

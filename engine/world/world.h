@@ -131,7 +131,7 @@ class BasicWorld {
   bool valid(BodyId body) const;
   std::vector<BodyId> bodies() const;  ///< all, by index
 
-  /// These fill `out`, as far as it goes, and return how many there are in all. Poses and states are in the
+  /// Each fills `out`, as far as it goes, and return how many there are in all. Poses and states are in the
   /// order of `bodies`, contacts (those with points) in that of their creation, each once.
   std::size_t bodies(std::span<BodyId> out) const;
   std::size_t poses(std::span<BodyPose> out) const;

@@ -420,7 +420,7 @@ struct WorldData {
   /// this step.
   std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
 
-  /// Asked about pairs of shapes that come near each other; false: no contact.
+  /// Called for pairs of shapes whose fat AABBs begin to overlap; false: no contact.
   std::function<bool(int shape_a, int shape_b)> filter;
 
   /// The user's own combine rules, instead of those of the settings.

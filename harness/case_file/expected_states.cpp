@@ -43,7 +43,7 @@ double parse(const std::string& text, const std::string& path, const std::string
   return value;
 }
 
-// Index of a column's component; -1 for t, -2 for body.
+// Returns the index of a column's component; -1 for t, -2 for body.
 int column_of(const std::string& name, const std::string& path) {
   if (name == "t") return -1;
   if (name == "body") return -2;

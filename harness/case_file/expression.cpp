@@ -90,7 +90,7 @@ Names::Names(const Scene& scene) {
       put(formula_name(rod->name) + ".length", {.value = rod->length});
 }
 
-// If two objects of the scene have one name in formulas, neither can be used.
+// Adds a name. If two objects of the scene have the same name in formulas, neither can be used.
 void Names::put(const std::string& name, const Symbol& symbol) {
   const auto [place, fresh] = symbols_.try_emplace(name, symbol);
   if (!fresh) place->second.kind = Kind::Shared;

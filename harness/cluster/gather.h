@@ -51,7 +51,7 @@ struct Gathered {
 /// last one's files remain. Throws `Error` (Io).
 Gathered gather(const std::string& folder, const Plan& plan, const std::string& out, double expiry);
 
-/// State as JSON: of `plumb status`, and gathered.json.
+/// Formats the state as JSON, for `plumb status` and gathered.json.
 std::string to_json(const Plan& plan, const Survey& survey);
 std::string to_json(const Plan& plan, const Gathered& gathered);
 

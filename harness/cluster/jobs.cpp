@@ -11,7 +11,7 @@ namespace {
 constexpr double kMargin = 3,
                  kExtra = 120;  // factor and s above an estimate, which is often another machine's
 
-// A day, an hour: the form D-HH:MM:SS.
+// Formats a time as D-HH:MM:SS, days and hours as schedulers want them.
 std::string clock_text(int seconds) {
   return fmt::format("{}-{:02}:{:02}:{:02}", seconds / 86400, seconds / 3600 % 24, seconds / 60 % 60,
                      seconds % 60);

@@ -26,7 +26,7 @@ struct JobOptions {
 /// Units per task of the array, one after the other, so that there are at most `kMostTasks` tasks.
 int units_a_task(std::size_t units);
 
-/// Time limit in s: three times the estimate of the longest task, and two minutes.
+/// Returns the time limit, s: three times the estimate of the longest task, plus two minutes.
 int time_limit(const Plan& plan, const std::vector<int>& units);
 
 /// Scripts for people to read, edit and run.

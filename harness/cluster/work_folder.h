@@ -101,7 +101,7 @@ std::string to_json(const Failure& failure);
 /// Writes numbers as ranges: "1-4,7", the form that sbatch and a shell's brace expansion are near to.
 std::string ranges(const std::vector<int>& numbers);
 
-/// The time, UTC, ISO 8601.
+/// Returns the present time, UTC, ISO 8601.
 std::string time_text();
 
 /// Attempts after which `next` leaves a unit alone.

@@ -13,8 +13,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Of the sizes of both shapes and the way of a cast: what the engine's rounding of shapes and rotations to
-// floats adds up to, a hundredfold.
+// Tolerance, as a fraction of the sizes of both shapes and the length of a cast: a hundred times the error of
+// shapes and rotations that are rounded to floats.
 constexpr double kRounding = 2e-5;
 constexpr int kQueries = 12, kPlaces = 8;
 

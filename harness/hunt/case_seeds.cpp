@@ -5,14 +5,13 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include "engine/scene/error.h"
 #include "harness/case_file/case_file.h"
 #include "harness/hunt/idiom.h"
+#include "harness/hunt/processor_time.h"
 #include "harness/hunt/subject.h"
 #include "harness/hunt/views.h"
-#include "harness/isolate.h"
 #include "harness/run.h"
 
 namespace plumb::harness::hunt {
@@ -20,9 +19,9 @@ namespace {
 
 constexpr double kStep = 1.0 / 60;  // s, of the file's own scene
 constexpr int kSubsteps = 4;
-constexpr std::string_view kPrefix = "expected ";  // of the checks of a file's expectations
+constexpr std::string_view kPrefix = "expected ";  // of the names of checks of a file's expectations
 constexpr double kLongest = 10;                    // s, of a variation
-constexpr rlim_t kSeconds = 10;                    // of processor time, of Precise
+constexpr double kSeconds = 10;                    // processor time limit of Precise
 
 // Draws steps no longer than the usual one, so that the file's expectations still apply.
 void draw_finer_steps(Draft& draft) {
@@ -156,13 +155,7 @@ Verdict case_file_verdict(const Case& one, const Engine& engine) {
   std::string what;
   const auto check = [&] { return missed(one, *engine.backend, instance); };
   if (engine.kind == Engine::Kind::Precise) {
-    const Outcome outcome = isolate(
-        [&] {
-          const rlimit limit{kSeconds, kSeconds + 1};
-          setrlimit(RLIMIT_CPU, &limit);
-          return check();
-        },
-        20.0 * kSeconds);
+    const Outcome outcome = isolate_within(kSeconds, check);
     if (outcome.kind == Outcome::Kind::Done) what = outcome.text;
   } else {
     what = check();

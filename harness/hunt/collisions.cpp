@@ -16,12 +16,14 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // Largest growth of a perturbation for which a step's errors stay below the bound.
 constexpr double kPerturbation = 1e-7, kGrown = 8;
-// Of a step: impacts of one body this close are one, of which mechanics does not say what follows.
+// Time between two impacts of one body, as a fraction of a step, up to which they count as simultaneous: for
+// these, mechanics determines no answer.
 constexpr double kAtOnce = 0.01;
-// Places may be off by this share of the largest disc, and the way of a step; and by what a share of the
-// largest speed adds up to since the first impact. Velocities may be off by another share.
+// Tolerance of positions: kShare of the largest disc, the displacement of a step, and the displacement at
+// kDrift of the largest speed since the first impact. Tolerance of velocities: kSpeed of the largest speed.
 constexpr double kShare = 0.05, kDrift = 0.01, kSpeed = 0.04;
-// Of a bound: largest change with half the step of what is known. With it a first-order error halves.
+// Largest change of a result when its step is halved, as a fraction of the bound. A first-order error is
+// halved with the step.
 constexpr double kSteady = 0.25;
 constexpr int kMostImpacts = 2000;
 
@@ -280,8 +282,9 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
     others[0].discs()[i].at += Vec2d{sign * by, -by};
     others[1].discs()[i].at += Vec2d{by, sign * by};
   }
-  std::size_t since = 0, struck = 0;  // samples since the first and the last impact
-  int differs = 0;                    // samples on end in which the runs have had other impacts
+  std::size_t since = 0;   // samples since the first impact
+  std::size_t struck = 0;  // samples since the last impact
+  int differs = 0;         // consecutive samples at which the runs differ in their number of impacts
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const int step = static_cast<int>(k) - 1;
     const std::size_t before = discs->impacts();
@@ -309,7 +312,8 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
       if (apart > off) off = apart, worst = disc.body;
       wrong = std::max(wrong, length(state.velocity - disc.velocity));
     }
-    // Leaves out slow discs, which fall asleep: by a twentieth of their size a second.
+    // Leaves out scenes with slow discs, which may fall asleep: bodies do at a twentieth of their size per
+    // second.
     for (const Disc& disc : discs->discs())
       if (one.sleeping && disc.velocity != Vec2d{} && length(disc.velocity) < 0.3 * disc.radius) return {};
     const bool precise = engine.kind == Engine::Kind::Precise;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
+#include "engine/scene/names.h"
 
 namespace plumb::harness::hunt {
 namespace {
@@ -14,9 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string kind_of(const Joint& joint) {
-  static constexpr const char* kNames[] = {"revolute", "distance", "prismatic", "weld",    "wheel",   "motor",
-                                           "mouse",    "gear",     "pulley",    "ratchet", "friction"};
-  std::string out = kNames[joint.index()];
+  std::string out(kJointNames[joint.index()]);
   std::visit(
       [&](const auto& j) {
         if constexpr (requires { j.limits; }) out += j.limits ? " limits" : "";

@@ -21,9 +21,9 @@ namespace {
 
 constexpr int kFormulas = 25;
 constexpr double kTolerance = 1e-9;
-// Bounds what a rounding at the end of a function's range, as of acos at 1, becomes: its root.
+// Error that a rounding causes at the end of a function's domain, as of acos at 1: the root of the rounding.
 constexpr double kRootOfRounding = 1e-7;
-// Of a slope by differences, where two widths agree to a tenth of that.
+// Relative error of a slope by differences, if two widths agree to a tenth of that.
 constexpr double kSlopeTolerance = 1e-5;
 
 using Number = long double;

@@ -6,16 +6,15 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
 #include "harness/hunt/examine.h"
 #include "harness/hunt/kinds.h"
+#include "harness/hunt/processor_time.h"
 #include "harness/hunt/shrink.h"
 #include "harness/hunt/workers.h"
 #include "harness/interrupt.h"
-#include "harness/isolate.h"
 #include "harness/sweep/journal.h"
 
 namespace plumb::harness::hunt {
@@ -24,10 +23,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSceneSeconds = 60;  // of processor time, as is kRunSeconds
-constexpr rlim_t kRunSeconds = 10;
+// Processor time limits of a scene, and of a run.
+constexpr double kSceneSeconds = 60, kRunSeconds = 10;
 constexpr double kMoreSeconds = 30;  // after the time limit, for shrinking findings
-// Replaces the law in a task whose scene's process died: each engine is then examined alone.
+// Stands for the law in a task whose scene's process died: each engine is then examined alone.
 constexpr std::uint64_t kCrashed = 0xFF;
 
 /// A task packed into a number: a scene, or one finding in it to be shrunk.
@@ -98,14 +97,10 @@ class Workshop {
     const Engine& engine = options_.engines[task.engine];
     std::string how;
     const auto fails = [&](const Case& candidate) {
-      const Outcome outcome = isolate(
-          [&] {
-            const rlimit limit{kRunSeconds, kRunSeconds + 1};
-            setrlimit(RLIMIT_CPU, &limit);
-            examine(engine, candidate);
-            return std::string();
-          },
-          20.0 * kRunSeconds);
+      const Outcome outcome = isolate_within(kRunSeconds, [&] {
+        examine(engine, candidate);
+        return std::string();
+      });
       if (outcome.kind != Outcome::Kind::Crashed && outcome.kind != Outcome::Kind::Timeout) return false;
       how = outcome.text;
       return true;

@@ -19,10 +19,11 @@ constexpr double kKnown = 0.1;
 // For Precise: the bound, as a fraction of the scene's size, and the largest growth of perturbations for
 // which errors of its tolerance stay below that.
 constexpr double kPreciseShare = 1e-6, kGrown = 1000;
-constexpr double kSteady = 0.25;  // of the bound, the most that a fixed step may change with half of it
-constexpr double kShare = 0.05;   // of the smallest body, of methods of first order
-// rad, turn within a step of a body that is pulled beside its centre, up to which such methods know where the
-// force points.
+// Largest change of a result when its step is halved, as a fraction of the bound.
+constexpr double kSteady = 0.25;
+constexpr double kShare = 0.05;  // tolerance of first-order methods, as a fraction of the smallest body
+// rad, largest rotation in a step of a body with a force beside its centre: beyond it, first-order methods
+// misjudge the force's direction.
 constexpr double kMostTurn = 0.5;
 
 double length(Vec2d v) { return std::hypot(v.x, v.y); }

@@ -75,7 +75,7 @@ std::string damaged_world(const Case& one, std::string& flags) {
   std::vector<std::byte> bytes = sound;
   for (int i = 0; i < kDamages; ++i) {
     const auto at = kHeader + static_cast<std::size_t>(random.unit() * double(sound.size() - kHeader));
-    // Small numbers are indices, counts and kinds; others are any.
+    // Small bytes are mostly indices, counts and kinds, so replace them with small ones; others with any.
     const int old = static_cast<int>(sound[at]);
     bytes[at] =
         static_cast<std::byte>(old < 64 && random.chance(0.8) ? random.whole(0, 25) : random.whole(0, 255));
@@ -108,7 +108,8 @@ std::string damaged_world(const Case& one, std::string& flags) {
   return {};
 }
 
-// Each block runs once, in the caller's floating-point environment, and what one throws comes back.
+// Checks that each block runs once, in the caller's floating-point environment, and that its exceptions are
+// passed on.
 std::string shared_loops(Random& random) {
   Crew crew;
   crew.set_threads(random.whole(2, 4)), crew.set_eager(true);
@@ -246,8 +247,8 @@ std::string watched(Random& random) {
   return {};
 }
 
-// Free fall by each method, which the textbook gives in closed form, and force laws, which substeps evaluate:
-// a step of n substeps is n steps of one.
+// Checks free fall by each method, for which textbooks have a closed form. With force laws, which are
+// evaluated in substeps, a step of n substeps must equal n steps of one.
 std::string integrated_by(Random& random, Precision precision) {
   const double dt = 1.0 / random.pick({30, 60, 120}), v = random.within(-5, 5), g = random.within(1, 20);
   const int substeps = random.whole(1, 8), steps = random.whole(2, 30);

@@ -14,7 +14,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr double kSeconds = 0.5;   // time limit of another engine
-constexpr double kShare = 0.2;     // of the largest body
+constexpr double kShare = 0.2;     // tolerance, as a fraction of the largest body's size
 constexpr std::size_t kMost = 12;  // largest number of dynamic bodies for Precise
 constexpr double kCalm = 0.02;
 // Largest change of a rival's motion when its step is halved, as a fraction of the bound. A first-order

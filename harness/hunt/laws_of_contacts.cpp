@@ -122,8 +122,8 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
     const Sample& sample = motion.samples[k];
     for (std::size_t i = 0; i < parts.size(); ++i)
       now[i] = placed(parts[i].outline, sample.states[parts[i].body]);
-    // For each body, the bodies that do not give way and that it overlaps: between two of these it has
-    // nowhere to go.
+    // For each body, the static and kinematic bodies that it overlaps: nothing can separate it from two of
+    // these.
     std::map<std::size_t, std::set<std::size_t>> pressed_by;
     for (std::size_t n = 0; n < pairs.size(); ++n) {
       const auto [i, j] = pairs[n];

@@ -13,8 +13,8 @@ namespace {
 
 // Samples after which an open joint is a violation: impacts open joints for a moment.
 constexpr int kLasting = 6;
-constexpr double kGapShare = 0.05;   // of the arms and reaches of the joint's bodies
-constexpr double kAngleBound = 0.2;  // rad
+constexpr double kGapShare = 0.05;   // largest gap, as a fraction of the bodies' arms and extents
+constexpr double kAngleBound = 0.2;  // rad, largest angular gap
 
 const std::string& name_of(const Joint& joint) {
   return std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);

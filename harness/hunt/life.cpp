@@ -223,16 +223,6 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
   return {};
 }
 
-/// Runs a check that returns an objection, or an empty text; for a scene that no world takes, or whose steps
-/// are refused by name, an empty one.
-std::string checked(const std::function<std::string()>& check) {
-  try {
-    return check();
-  } catch (const Error&) {
-    return {};
-  }
-}
-
 bool in_float(const Engine& engine) { return engine.kind == Engine::Kind::World; }
 
 }  // namespace

@@ -22,10 +22,12 @@ namespace {
 
 using Wide = long double;
 
-constexpr int kDraws = 12;  // of each kind and scene
-// Beside a threshold, as a fraction of it: what rounding of a matrix to double leaves of its pivots.
+constexpr int kDraws = 12;  // number of systems of each kind per scene
+// Distance of a pivot from a threshold, as a fraction of it, below which rounding the matrix to double may
+// move the pivot to the other side.
 constexpr double kBeside = 0.01;
-// Of the largest entry, or of the diagonal: pivots below it count as rounding in systems of doubles.
+// Pivot below which it counts as rounding in systems of doubles, as a fraction of the largest entry or of the
+// diagonal.
 constexpr double kNothing = 1e-12;
 
 /// Pivots of complete pivoting in long double, in their order, and whether two were so near each other that
@@ -49,7 +51,7 @@ std::vector<Wide> pivots_of(std::size_t n, const std::vector<double>& matrix) {
   return out;
 }
 
-/// A share near `threshold`, to either side, or one far above it.
+/// Returns a fraction near `threshold`, to either side, or one far above it.
 double some_share(Random& random, double threshold) {
   return random.chance(0.7) ? threshold * (0.8 + 0.4 * random.unit()) : 0.01 + 0.9 * random.unit();
 }
@@ -58,7 +60,8 @@ double some_number(Random& random) { return 2 * random.unit() - 1; }
 
 std::string residual_of(std::size_t n, const std::vector<double>& matrix, const std::vector<double>& x,
                         const std::vector<double>& right, double largest, double known, const char* what) {
-  Wide most = known;  // the largest unknown of a solution: a row that is left out is off by its share of that
+  // The largest unknown: a row that the solver treats as redundant has a residual in proportion to it.
+  Wide most = known;
   for (const double each : x) most = std::max<Wide>(most, std::fabs(each));
   for (std::size_t i = 0; i < n; ++i) {
     Wide sum = -right[i];
@@ -70,7 +73,7 @@ std::string residual_of(std::size_t n, const std::vector<double>& matrix, const 
   return {};
 }
 
-// A full matrix whose last row is the sum of others, or nearly; or a sparse one with much to fill in.
+// Solves a full matrix whose last row is (nearly) the sum of others, or a sparse one with much fill-in.
 std::string dense(Random& random) {
   const bool sparse = random.chance(0.4);
   const std::size_t n = static_cast<std::size_t>(sparse ? random.whole(10, 90) : random.whole(2, 8));
@@ -113,7 +116,7 @@ std::string dense(Random& random) {
   return residual_of(n, matrix, x, right, largest, 1, "a dense system");
 }
 
-// L D L^T of a random envelope, of which one row depends on others, or nearly.
+// Factorises a random envelope as L D L^T, in which one row depends (nearly) on others.
 std::string envelope(Random& random) {
   const int n = random.whole(2, 30), near = random.whole(1, n - 1);
   std::vector<int> first(static_cast<std::size_t>(n));
@@ -140,7 +143,7 @@ std::string envelope(Random& random) {
       for (int k = 0; k <= j; ++k) sum += lower[at(i, k)] * d[static_cast<std::size_t>(k)] * lower[at(j, k)];
       matrix.at(i, j) = full[at(i, j)] = full[at(j, i)] = static_cast<double>(sum);
     }
-  // The share that rounding to double leaves.
+  // The fraction that rounding to double leaves.
   std::vector<Wide> l(static_cast<std::size_t>(n * n), 0), pivots(static_cast<std::size_t>(n));
   for (int i = 0; i <= near; ++i) {
     for (int j = 0; j < i; ++j) {
@@ -204,7 +207,7 @@ std::string of_joints(Random& random) {
   return {};
 }
 
-// A random problem with a positive definite matrix, which has one solution.
+// Solves a random problem with a positive definite matrix, which has one solution.
 std::string complementary(Random& random) {
   const std::size_t n = static_cast<std::size_t>(random.whole(1, 9));
   std::vector<double> half(n * n), matrix(n * n, 0), q(n);
@@ -229,8 +232,8 @@ std::string complementary(Random& random) {
   return {};
 }
 
-// A net of bodies with rows between them, some bounded: conditions of the minimum, where it is found by
-// pivots, and no more energy than before in any case.
+// Solves a net of bodies with rows between them, some bounded. Checks the conditions of the minimum if it was
+// found by pivots, and in any case that no energy is gained.
 std::string bounded(Random& random) {
   BoundedRows system;
   const int bodies = random.whole(2, 14), joints = random.whole(1, 2 * bodies);

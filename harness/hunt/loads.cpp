@@ -14,11 +14,12 @@
 namespace plumb::harness::hunt {
 namespace {
 
-constexpr int kBodies = 3;    // of a scene
-constexpr int kPieces = 400;  // of an arc
-// Of the load: the wind turns with the body in a step, and what it does is limited.
+constexpr int kBodies = 3;    // number of bodies in a scene
+constexpr int kPieces = 400;  // number of straight pieces that approximate an arc
+// Tolerance, as a fraction of the load: the body turns in the wind during the step, and the engine limits the
+// load's effect.
 constexpr double kShare = 0.01;
-constexpr double kRounding = 2e-6;  // of the velocities of a World in float
+constexpr double kRounding = 2e-6;  // relative tolerance of the velocities of a World in float
 
 struct Load {
   Vec2d force{};

@@ -2,22 +2,16 @@
 
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <exception>
 #include <stdexcept>
-
-#include <sys/resource.h>
 
 #include "engine/scene/error.h"
 #include "harness/hunt/processor_time.h"
 #include "harness/hunt/world_run.h"
-#include "harness/isolate.h"
 #include "reference/process_backend.h"
 
 namespace plumb::harness::hunt {
 namespace {
-
-constexpr double kPatience = 20;  // wall time over processor time, on a shared machine
 
 bool finite(const BodyState& s) {
   return std::isfinite(s.position.x) && std::isfinite(s.position.y) && std::isfinite(s.angle) &&
@@ -88,14 +82,8 @@ Motion from_bytes(const std::string& bytes, const Case& one) {
 }
 
 Motion run_guarded(const Engine& engine, const Case& one, const RunOptions& options) {
-  const Outcome outcome = isolate(
-      [&] {
-        const auto seconds = static_cast<rlim_t>(options.seconds) + 1;
-        const rlimit limit{seconds, seconds + 1};
-        setrlimit(RLIMIT_CPU, &limit);
-        return as_bytes(run_backend(engine, one, options));
-      },
-      kPatience * (options.seconds + 1));
+  const Outcome outcome =
+      isolate_within(options.seconds + 1, [&] { return as_bytes(run_backend(engine, one, options)); });
   if (outcome.kind == Outcome::Kind::Done) return from_bytes(outcome.text, one);
   const bool slow = outcome.kind != Outcome::Kind::Crashed || outcome.text.find("XCPU") != std::string::npos;
   return {.dt = one.dt, .samples = {}, .failure = slow ? "" : outcome.text};
@@ -113,12 +101,6 @@ Engine::Kind kind_of(const std::string_view name) {
 Engine::Engine(const reference::Backend& of) : backend(&of), kind(kind_of(of.name())) {}
 
 double Engine::epsilon() const { return kind == Kind::DoubleWorld || kind == Kind::Precise ? 1.2e-16 : 6e-8; }
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::string unsupported(const Engine& engine, const Case& one) {
   if (engine.is_world()) return engine.backend->unsupported(one.scene, settings_of(one, engine));

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/error.h"
+#include "harness/hunt/processor_time.h"
+
 namespace plumb::harness::hunt {
 namespace {
 
@@ -88,6 +91,20 @@ bool simulates(const Case& one, const Engine& engine) {
 bool simulates_world(const Case& one, const Engine& engine) { return !one.world_only() && engine.is_world(); }
 
 }  // namespace
+
+std::string checked(const std::function<std::string()>& check) {
+  try {
+    return check();
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::string checked_apart(const std::function<std::string()>& check) {
+  constexpr double kSeconds = 2;
+  const Outcome outcome = isolate_within(kSeconds, [&] { return checked(check); });
+  return outcome.kind == Outcome::Kind::Done ? outcome.text : std::string();
+}
 
 const std::vector<Relation>& promises() {
   static const std::vector<Relation> all{{"restore", is_world, restored},

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "harness/hunt/relations.h"
@@ -10,24 +12,30 @@ namespace plumb::harness::hunt {
 /// Judged like relations.
 const std::vector<Relation>& promises();
 
-// Random calls between the steps of a world.
+/// Returns the text of `check`, or an empty one if it throws `Error`: a run that is refused is not judged.
+std::string checked(const std::function<std::string()>& check);
+
+/// Does the same in a process of its own, which Precise needs: it may take any time. Returns an empty text
+/// after 2 s of processor time.
+std::string checked_apart(const std::function<std::string()>& check);
+
+// Judges random calls between the steps of a world.
 Verdict life(const Case& one, const Engine& engine, const Motion& motion);
 Verdict twins(const Case& one, const Engine& engine, const Motion& motion);
 
-// Wind on each shape, of a World.
+// Judges the wind on each shape of a World.
 Verdict wind(const Case& one, const Engine& engine, const Motion& motion);
 
 // Formulas, of any engine that has them.
 Verdict formulas(const Case& one, const Engine& engine, const Motion& motion);
 
-// Linear systems, of any engine that solves them.
+// Judges linear systems, for any engine that solves them.
 Verdict systems(const Case& one, const Engine& engine, const Motion& motion);
 
 // Parts of a World: tampered snapshots, shared loops, monitors, and methods of integration.
 Verdict damaged(const Case& one, const Engine& engine, const Motion& motion);
 Verdict loops(const Case& one, const Engine& engine, const Motion& motion);
 Verdict monitors(const Case& one, const Engine& engine, const Motion& motion);
-Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 Verdict integrators(const Case& one, const Engine& engine, const Motion& motion);
 
 // Promises of Precise beyond its motion.
@@ -37,7 +45,10 @@ Verdict derivatives(const Case& one, const Engine& engine, const Motion& motion)
 Verdict estimates(const Case& one, const Engine& engine, const Motion& motion);
 Verdict starts(const Case& one, const Engine& engine, const Motion& motion);
 Verdict methods(const Case& one, const Engine& engine, const Motion& motion);
+
+// Judges small scenes of impacts, of Precise (also of friction, motors and limits) and of a World.
 Verdict blows(const Case& one, const Engine& engine, const Motion& motion);
+Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 
 // The promises of Simulations; those of Worlds are guises.
 Verdict simulation_restored(const Case& one, const Engine& engine, const Motion& motion);

@@ -4,18 +4,15 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include "engine/scene/error.h"
 #include "engine/simulation/simulation.h"
 #include "harness/hunt/promises.h"
-#include "harness/isolate.h"
 
 namespace plumb::harness::hunt {
 namespace {
 
 constexpr int kMostSteps = 150;
-constexpr rlim_t kSeconds = 2;  // of processor time, of Precise
 
 Realtime realtime_of(const Case& one, const Engine& engine) {
   return {.dt = one.dt,
@@ -34,26 +31,7 @@ int steps_of(const Case& one) { return std::min(one.steps, kMostSteps); }
 /// Runs a check that returns an objection, or an empty text. Errors of the run itself are not judged here.
 Verdict judged(const Case& one, const Engine& engine, const char* name, const char* right,
                const std::function<std::string()>& check) {
-  const auto checked = [&]() -> std::string {
-    try {
-      return check();
-    } catch (const Error&) {
-      return {};
-    }
-  };
-  std::string what;
-  if (engine.kind == Engine::Kind::Precise) {
-    const Outcome outcome = isolate(
-        [&] {
-          const rlimit limit{kSeconds, kSeconds + 1};
-          setrlimit(RLIMIT_CPU, &limit);
-          return checked();
-        },
-        20.0 * kSeconds);
-    if (outcome.kind == Outcome::Kind::Done) what = outcome.text;
-  } else {
-    what = checked();
-  }
+  const std::string what = engine.kind == Engine::Kind::Precise ? checked_apart(check) : checked(check);
   if (what.empty()) return {};
   return Objection{.law = name, .judge = name, .what = what, .right = right, .time = one.steps * one.dt};
 }
@@ -151,7 +129,7 @@ Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion&)
                   const std::string name = scene.bodies[*body].name;
                   const double dt = one.dt, mass = scene.bodies[*body].mass;
                   const int before = std::min(one.steps, 20);
-                  // Beyond the largest speed within the step, by a force that is itself in range.
+                  // Exceeds the largest speed within the step, by a force that is itself in range.
                   const double force = std::min(9e11, 4e7 * mass / dt);
                   scene.forces.push_back(PointForce{
                       .body = name, .force = {force, 0}, .start = (before - 0.5) * dt, .duration = 3 * dt});

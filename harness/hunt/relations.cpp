@@ -18,7 +18,7 @@ constexpr double kShare = 0.1, kCalm = 0.01;
 // kSampled: the same distance for an engine with a tolerance of 1e-9. kGrown: largest growth of
 // perturbations, so that errors of the tolerance stay below a hundredth of kSampled.
 constexpr double kSampled = 1e-4, kGrown = 1000;
-constexpr double kTighter = 1e-11;  // for Precise, whose usual one is 1e-9
+constexpr double kTighter = 1e-11;  // tolerance for Precise, which usually has 1e-9
 constexpr double kShift = 64;       // m, a power of two
 
 // Formulas are in the scene's own coordinates: a shifted or mirrored scene would need others.

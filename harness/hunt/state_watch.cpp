@@ -3,36 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "engine/world/world_data.h"
 #include "harness/hunt/shapes_of_world.h"
 
+// Checks the lists, events and readings of a world; state_watch_motion.cpp checks how its bodies moved.
 namespace plumb::harness::hunt {
 namespace {
 
-template <class Tag>
-std::pair<std::uint32_t, std::uint32_t> key_of(Handle<Tag> handle) {
-  return {handle.index, handle.generation};
-}
-
-// Of the sizes of both: rounding of shapes and rotations to floats, a hundredfold.
+// Fraction of the sizes of both shapes: a hundred times the error of shapes and rotations that are rounded to
+// floats.
 constexpr double kRounding = 2e-5;
-// Of the smaller width: depth from which shapes must be in contact, and of the sizes: distance beyond which
-// they are in none. Contacts of a step are found before it moves its bodies, so the way of a step is added.
-constexpr double kDeep = 0.02, kApart = 0.02;
-// Of the impulse: what a change of momentum along a normal may be off it. Contacts turn with the bodies.
-constexpr double kBalance = 0.05;
-// rad, in a step: beyond it an angle is rounded.
+// Depth from which shapes must be in contact, as a fraction of the smaller width. Contacts of a step are
+// found before its bodies move, so the displacement of a step is added.
+constexpr double kDeep = 0.02;
+// rad, largest rotation in a step of bodies that are checked: beyond it angles are rounded.
 constexpr double kWhirl = 3;
-// Roundings of a Real in a step of 16 substeps, of what a body in flight has of speed, or goes.
-constexpr double kFlightRoundings = 200;
-// m, m/s, rad/s: the world's limits.
-constexpr double kLargest = 1e12;
-
-double size_of(const Outline& outline) { return length(outline.high - outline.low); }
 
 }  // namespace
 
@@ -134,37 +122,6 @@ std::string StateWatch<Real>::counts() const {
 }
 
 template <class Real>
-std::string StateWatch<Real>::moved() const {
-  std::vector<BodyId> list(world_.bodies().size());
-  list.resize(std::min(list.size(), world_.moved(list)));
-  std::set<Key> told;
-  for (const BodyId body : list) told.insert(key_of(body));
-  for (const BodyId body : world_.bodies()) {
-    const auto before = before_.find(key_of(body));
-    if (before == before_.end() || told.contains(key_of(body))) continue;
-    if (world_.centre(body) != before->second.position || world_.angle(body) != before->second.angle)
-      return fmt::format("'{}' moved, and is not told to have", world_.name(body));
-  }
-  return {};
-}
-
-template <class Real>
-std::string StateWatch<Real>::sleep_events() const {
-  std::set<Key> fell;
-  for (const BodyId body : world_.events().fell_asleep) fell.insert(key_of(body));
-  for (const BodyId body : world_.bodies()) {
-    const auto before = before_.find(key_of(body));
-    if (before == before_.end() || world_.type(body) != BodyType::Dynamic || !world_.enabled(body)) continue;
-    if (before->second.awake && !world_.awake(body) && !fell.contains(key_of(body)))
-      return fmt::format("'{}' fell asleep, and is not told to have", world_.name(body));
-    if (!world_.awake(body) && world_.velocity(body) != Vec2d{} &&
-        length(world_.centre(body) - before->second.position) > 0 && !before->second.awake)
-      return fmt::format("'{}' moves asleep", world_.name(body));
-  }
-  return {};
-}
-
-template <class Real>
 std::string StateWatch<Real>::touches() {
   const Events& events = world_.events();
   std::map<Pair, int> change;
@@ -190,166 +147,6 @@ std::string StateWatch<Real>::touches() {
     if (open == 0) open_.erase(pair);
   }
   return {};
-}
-
-// Nothing changes the motion of a body without joints that touches nothing in a step but gravity and the
-// forces applied to it, and nothing at all that of a kinematic one: constant accelerations, which the world
-// integrates exactly. Where something did, a touch must have been told.
-template <class Real>
-std::string StateWatch<Real>::flights(double dt) const {
-  const double rounding = kFlightRoundings * std::numeric_limits<Real>::epsilon() / 2;
-  for (const BodyId body : world_.bodies()) {
-    const auto known = before_.find(key_of(body));
-    if (known == before_.end() || !world_.enabled(body) || !known->second.awake || !world_.awake(body))
-      continue;
-    const Before& before = known->second;
-    const BodyType type = world_.type(body);
-    const bool dynamic = type == BodyType::Dynamic;
-    if (type == BodyType::Static || dynamic != before.dynamic) continue;
-    const BodyLocks locks = world_.locks(body);
-    Vec2d gain{};
-    double turn = 0;
-    if (dynamic) {
-      if (before.touched || before.held || met_.contains(key_of(body)) || !world_.joints(body).empty() ||
-          !world_.contacts(body).empty() || world_.linear_damping(body) != 0 ||
-          world_.angular_damping(body) != 0 || !(before.mass > 0) || world_.mass(body) != before.mass)
-        continue;
-      gain = dt * (world_.gravity_scale(body) * world_.gravity() + (1 / before.mass) * before.force);
-      if (before.inertia > 0) turn = dt * before.torque / before.inertia;
-      // Locks end a velocity in the next step.
-      if (locks.x) gain.x = -before.velocity.x;
-      if (locks.y) gain.y = -before.velocity.y;
-    }
-    Vec2d way = dt * (before.velocity + 0.5 * gain);
-    if (dynamic && locks.x) way.x = 0;
-    if (dynamic && locks.y) way.y = 0;
-    const Vec2d gone = world_.centre(body) - before.position;
-    const double speed = length(before.velocity) + length(gain);
-    const Aabb<double> box = world_.box(body);
-    // Includes the way to the centre, whose place is computed from the origin.
-    const double size = length(box.upper - box.lower) + length(world_.centre(body) - world_.position(body));
-    const double off = length(world_.velocity(body) - before.velocity - gain), strayed = length(gone - way);
-    const double spun = std::abs(world_.angular_velocity(body) - before.spin - turn);
-    bool stopped = false;
-    const bool flies =
-        off <= rounding * speed + 1e-30 &&
-        strayed <= rounding * (dt * speed + 1e-2 * size) + 1e-12 * length(before.position) + 1e-30;
-    if (!flies) {
-      // Continuous collision may stop it within the step, in front of what it meets in the next one: a part
-      // of its way, and of what it would have gained.
-      const double whole = length(way), part = whole > 0 ? dot(gone, way) / (whole * whole) : 1;
-      // Slower by no more than what the forces would have done on the rest of its way.
-      const Vec2d now = world_.velocity(body), lost = before.velocity + gain - now;
-      const double most = dt > 0 ? 2 * length(gain) / dt * length(way - gone) : 0;
-      const bool is_stopped = dynamic && part < 1 &&
-                              length(gone - part * way) <= 0.05 * whole + 1e-3 * size &&
-                              (length(lost) <= length(gain) * (1 + 1e-3) + 1e-3 * speed ||
-                               std::abs(dot(before.velocity, before.velocity) - dot(now, now)) <=
-                                   2 * most + 10 * rounding * speed * speed);
-      stopped = is_stopped && meets_something(body, length(way));
-      if (!stopped)
-        return fmt::format(
-            "'{}' touches nothing and flies on at {:.6g}, {:.6g} m/s, not {:.6g}, {:.6g}, by {:.6g}, {:.6g} "
-            "m, not "
-            "{:.6g}, {:.6g}",
-            world_.name(body), world_.velocity(body).x, world_.velocity(body).y, before.velocity.x + gain.x,
-            before.velocity.y + gain.y, gone.x, gone.y, way.x, way.y);
-    }
-    // A lock keeps moments from turning a body; a spin that calls give it is the next check's.
-    if (!locks.rotation && !stopped && spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
-      return fmt::format("'{}' touches nothing, and its spin is {:.3g} rad/s off that of its flight",
-                         world_.name(body), spun);
-    }
-  }
-  return {};
-}
-
-// A locked coordinate stays, whatever calls have given it.
-template <class Real>
-std::string StateWatch<Real>::locks() const {
-  for (const BodyId body : world_.bodies()) {
-    const auto known = before_.find(key_of(body));
-    if (known == before_.end() || world_.type(body) != BodyType::Dynamic || !world_.enabled(body)) continue;
-    const BodyLocks locks = world_.locks(body);
-    const Vec2d gone = world_.centre(body) - known->second.position;
-    if ((locks.x && gone.x != 0) || (locks.y && gone.y != 0))
-      return fmt::format("'{}' moves by {:.3g}, {:.3g} m along an axis that is locked", world_.name(body),
-                         gone.x, gone.y);
-    if (locks.rotation && world_.angle(body) != known->second.angle)
-      return fmt::format("'{}' turns by {:.3g} rad, and its rotation is locked", world_.name(body),
-                         world_.angle(body) - known->second.angle);
-  }
-  return {};
-}
-
-// Returns true if a shape of another body is within `way` m of one of the body's, or moved off it in the
-// step.
-template <class Real>
-bool StateWatch<Real>::meets_something(BodyId body, double way) const {
-  for (const ShapeId own : world_.shapes(body)) {
-    const Outline outline = outline_in_world(world_, own);
-    for (const BodyId other : world_.bodies()) {
-      if (other == body || !world_.enabled(other)) continue;
-      for (const ShapeId shape : world_.shapes(other)) {
-        const Outline of = outline_in_world(world_, shape);
-        const auto before = before_.find(key_of(other));
-        const double off =
-            before != before_.end() ? length(world_.centre(other) - before->second.position) : 0;
-        if (separation(outline, of) < kApart * (size_of(outline) + size_of(of)) + way + off) return true;
-      }
-    }
-  }
-  return false;
-}
-
-// A body that wakes in a step is reached by something that moved: over joints and touches of sleepers.
-template <class Real>
-std::string StateWatch<Real>::wakings() const {
-  std::map<Key, BodyId> woken;
-  for (const BodyId body : world_.bodies()) {
-    const auto known = before_.find(key_of(body));
-    if (known != before_.end() && !known->second.awake && known->second.dynamic && world_.awake(body) &&
-        world_.type(body) == BodyType::Dynamic && world_.enabled(body))
-      woken[key_of(body)] = body;
-  }
-  // Spreads from what was awake.
-  const std::vector<BodyId> bodies = world_.bodies();
-  bool spreads = true;
-  while (!woken.empty() && spreads) {
-    spreads = false;
-    for (auto at = woken.begin(); at != woken.end();) {
-      const auto moved = [&](Key other) {
-        const auto known = before_.find(other);
-        if (known == before_.end()) return true;
-        const Before& before = known->second;
-        // A kinematic body that was moved by calls is awake.
-        if (!before.dynamic) return before.awake;
-        const auto it =
-            std::find_if(bodies.begin(), bodies.end(), [&](BodyId b) { return key_of(b) == other; });
-        return before.awake || (!woken.contains(other) && it != bodies.end() && world_.awake(*it));
-      };
-      bool reached = false;
-      for (const JointId joint : world_.joints(at->second)) {
-        const auto [a, b] = world_.bodies(joint);
-        reached = reached || moved(a == at->second ? key_of(b) : key_of(a));
-      }
-      for (auto link = links_.lower_bound({at->first, Key{}});
-           link != links_.end() && link->first == at->first; ++link)
-        reached = reached || moved(link->second);
-      for (const ContactReading& contact : world_.contacts(at->second)) {
-        const BodyId a = world_.body(contact.shape_a), b = world_.body(contact.shape_b);
-        reached = reached || moved(a == at->second ? key_of(b) : key_of(a));
-      }
-      // A joint that broke has gone.
-      reached = reached || !world_.events().broken.empty();
-      if (reached)
-        at = woken.erase(at), spreads = true;
-      else
-        ++at;
-    }
-  }
-  if (woken.empty()) return {};
-  return fmt::format("'{}' wakes, and nothing that moved has reached it", world_.name(woken.begin()->second));
 }
 
 // Checks that touching pairs have begun to touch, and that pairs far apart have ended. Contacts are found
@@ -561,75 +358,6 @@ std::string StateWatch<Real>::boxes() const {
               world_.name(body), box.lower.x, box.lower.y, box.upper.x, box.upper.y, outline.low.x,
               outline.low.y, outline.high.x, outline.high.y);
     }
-  }
-  return {};
-}
-
-// A body that only rests on or strikes what does not move, without friction's help along the normal: its
-// momentum along the normal changes by its weight and the contact's impulse.
-template <class Real>
-std::string StateWatch<Real>::impulses(double dt) const {
-  for (const BodyId body : world_.bodies()) {
-    const auto before = before_.find(key_of(body));
-    if (before == before_.end() || !before->second.dynamic || world_.type(body) != BodyType::Dynamic ||
-        !world_.awake(body) || !before->second.awake || !world_.joints(body).empty() || !world_.enabled(body))
-      continue;
-    const std::vector<ContactReading> contacts = world_.contacts(body);
-    if (contacts.size() != 1 || world_.linear_damping(body) != 0) continue;
-    const ContactReading& contact = contacts.front();
-    // Others may have come and gone within the step; and a normal is that of the step's start, which turns
-    // where shapes lie deep in each other.
-    const double deepest = std::min(contact.separations[0], contact.separations[contact.count - 1]);
-    const Aabb<double> box = world_.box(body);
-    if (deepest < -0.05 * length(box.upper - box.lower)) continue;
-    if (const auto told =
-            [&](const auto& list) {
-              return std::any_of(list.begin(), list.end(), [&](const TouchEvent& event) {
-                for (const ShapeId shape : {event.shape_a, event.shape_b})
-                  if (const auto owner = owners_.find(key_of(shape));
-                      owner != owners_.end() && owner->second == body)
-                    return true;
-                return false;
-              });
-            };
-        told(world_.events().begin) || told(world_.events().end))
-      continue;
-    if (before->second.only != Pair{key_of(contact.shape_a), key_of(contact.shape_b)}) continue;
-    const bool is_a = world_.body(contact.shape_a) == body;
-    const BodyId other = world_.body(is_a ? contact.shape_b : contact.shape_a);
-    const bool counted = world_.hit_events(contact.shape_a) || world_.hit_events(contact.shape_b) ||
-                         world_.pre_solve(contact.shape_a) || world_.pre_solve(contact.shape_b);
-    const BodyLocks locks = world_.locks(body);
-    if (!counted || world_.type(other) != BodyType::Static || locks.x || locks.y) continue;
-    const double mass = world_.mass(body);
-    if (mass != before->second.mass) continue;
-    // Skips what continuous collision stops: it does not feel its weight on the rest of its way.
-    const double speed = std::min(length(world_.velocity(body)), length(before->second.velocity));
-    if (length(world_.centre(body) - before->second.position) < 0.9 * dt * speed) continue;
-    const Vec2d n = is_a ? -1.0 * contact.normal : contact.normal;
-    const Vec2d gain = world_.velocity(body) - before->second.velocity -
-                       dt * world_.gravity_scale(body) * world_.gravity() -
-                       (dt / mass) * before->second.force;
-    const double off = mass * dot(gain, n) - contact.step_impulse;
-    const double bound = kBalance * contact.step_impulse +
-                         mass * (0.1 * length(gain) + 0.05 * dt * length(world_.gravity()) +
-                                 0.02 * (length(world_.velocity(body)) + length(before->second.velocity)));
-    if (contact.step_impulse > 0 && std::abs(off) > bound && std::abs(off) > 1e-6 * mass)
-      return fmt::format("'{}' is pushed by {:.4g} N s, and its contact says {:.4g}", world_.name(body),
-                         mass * dot(gain, n), contact.step_impulse);
-  }
-  return {};
-}
-
-template <class Real>
-std::string StateWatch<Real>::limits() const {
-  for (const BodyId body : world_.bodies()) {
-    if (world_.quarantined(body)) continue;
-    const BodyState s = world_.state(body);
-    for (const double value :
-         {s.position.x, s.position.y, s.angle, s.velocity.x, s.velocity.y, s.angular_velocity})
-      if (!(std::abs(value) <= kLargest))
-        return fmt::format("'{}' goes on with {:.6g}", world_.name(body), value);
   }
   return {};
 }

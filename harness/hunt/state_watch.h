@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/world/world.h"
+#include "harness/hunt/outline.h"
 
 namespace plumb::harness::hunt {
 
@@ -42,22 +43,35 @@ class StateWatch {
     Pair only{};           // of its contact, where it has a single one
   };
 
+  /// Distance beyond which shapes must be in no contact, as a fraction of their sizes. Contacts of a step are
+  /// found before its bodies move, so the displacement of a step is added.
+  static constexpr double kApart = 0.02;
+
+  template <class Tag>
+  static Key key_of(Handle<Tag> handle) {
+    return {handle.index, handle.generation};
+  }
+  static double size_of(const Outline& outline) { return length(outline.high - outline.low); }
+
+  // Each returns an objection, or an empty text.
   std::string counts() const;
-  std::string moved() const;
-  std::string sleep_events() const;
   std::string touches();
-  std::string flights(double dt) const;
-  std::string locks() const;
-  bool meets_something(BodyId body, double way) const;
-  std::string wakings() const;
   std::string distances(double dt);
   bool is_held(BodyId one, BodyId other) const;
   std::string islands() const;
   std::string sensors() const;
   std::string joints() const;
   std::string boxes() const;
+
+  // In state_watch_motion.cpp.
+  std::string flights(double dt) const;
+  bool meets_something(BodyId body, double way) const;
+  std::string locks() const;
+  std::string wakings() const;
   std::string impulses(double dt) const;
   std::string limits() const;
+  std::string moved() const;
+  std::string sleep_events() const;
 
   const BasicWorld<Real>& world_;
   std::map<Key, Before> before_;

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "engine/scene/error.h"
+#include "harness/hunt/processor_time.h"
 #include "harness/interrupt.h"
 #include "reference/killed.h"
 
@@ -22,8 +23,6 @@ namespace plumb::harness::hunt {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kPatience = 20;  // wall time over processor time, on a shared machine
 
 bool write_all(int file, const char* data, std::size_t size) {
   while (size > 0) {

@@ -95,7 +95,7 @@ class EventBook {
   static std::pair<Key, Key> pair(const TouchEvent& event) {
     return std::minmax(key_of(event.shape_a), key_of(event.shape_b));
   }
-  // A begin and an end in one step cancel.
+  // Applies events to the set of pairs: a begin and an end in one step cancel.
   static void apply(const char* what, const Changes& changes, Pairs& pairs, double time,
                     std::vector<Motion::EventFault>& faults) {
     for (const auto& [pair, change] : changes) {

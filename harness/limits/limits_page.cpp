@@ -150,7 +150,7 @@ std::string found_cell(const Finding& finding) {
   return text;
 }
 
-// One row per threshold, one column per engine.
+// Formats a table with one row per threshold and one column per engine.
 std::string thresholds_table(const std::vector<Finding>& findings) {
   std::vector<std::string> names, engines;
   for (const Finding& finding : findings) {

@@ -17,7 +17,7 @@ constexpr double kDifference = 1e-5;
 using precise::ContactImpulse;
 using precise::ImpactPoint;
 
-/// The contact point per unit of mass.
+/// Returns the contact point, per unit of mass.
 ImpactPoint point_of(const MeasuredImpact& impact, double inertia) {
   const double n = impact.lever_normal, t = impact.lever_tangent;
   return {impact.velocity.y + n * impact.angular_velocity, impact.velocity.x + t * impact.angular_velocity,

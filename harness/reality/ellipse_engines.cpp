@@ -19,14 +19,15 @@ constexpr int kFrames = 4;
 /// Tolerance of the exact impacts.
 constexpr double kExact = 1e-9;
 
-/// Base-2 radical inverse: spreads times of impact evenly over a step, whatever the number of impacts.
+/// Returns the base-2 radical inverse, which spreads times of impact evenly over a step for any number of
+/// impacts.
 double radical_inverse(std::size_t index) {
   double out = 0;
   for (double place = 0.5; index > 0; index /= 2, place /= 2) out += place * static_cast<double>(index % 2);
   return out;
 }
 
-/// Free motion, without gravity, up to an impact in the second frame.
+/// Builds a scene of free motion, without gravity, up to an impact in the second frame.
 Scene scene_of(const MeasuredImpact& impact, std::span<const double> values, std::size_t index) {
   const double before = (1 + radical_inverse(index)) / kFramesPerSecond;
   Scene scene{.name = "impact"};

@@ -23,8 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSamples = 240;          // of a replay
-constexpr std::size_t kPoses = 10000;  // of a replay: a hundred bodies are shown at a hundred times
+constexpr int kSamples = 240;          // samples of a replay
+constexpr std::size_t kPoses = 10000;  // poses of a replay: a hundred bodies are shown at a hundred times
 
 // Formats a number for drawing: six digits; null if non-finite.
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null"; }

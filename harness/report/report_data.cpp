@@ -21,16 +21,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFrames = 241;                   // of the truth's motion
+constexpr int kFrames = 241;                   // frames of the truth's motion
 constexpr std::size_t kLargestMotion = 40000;  // poses per scene: scenes of many bodies have fewer frames
 // Room of a page, which browsers should open within three seconds and mail should carry: 20 MB with the
 // charts' library. A run takes about 450 bytes; all kinds of settings are there once. What the runs leave,
 // motions get.
 constexpr std::size_t kRoom = 18'000'000;    // bytes
 constexpr std::size_t kShown = 14'000;       // runs
-constexpr std::size_t kShownOfAnEngine = 4;  // at least, in a scene: the default, the best, two of a front
+constexpr std::size_t kShownOfAnEngine = 4;  // runs, minimum a scene: default, best, two of the front
 constexpr std::size_t kExceptions = 3000;    // points of rivals that plumb does not dominate
-constexpr std::size_t kFailureKinds = 50;    // of a scene
+constexpr std::size_t kFailureKinds = 50;    // kinds of failures of a scene
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 

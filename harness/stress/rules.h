@@ -32,28 +32,29 @@ std::unique_ptr<Judge> judge_by(std::vector<Rule> rules);
 
 // In the following, `scene` must outlive the rule.
 
-/// Deepest penetration of two shapes (circles and boxes): up to `bound`, m.
+/// Limits the deepest penetration of two shapes (circles and boxes) to `bound`, m.
 Rule deepest_overlap(const Scene& scene, double bound);
 
-/// Largest distance of a body's centre from its start: up to `bound`, m; an explosion from `explodes`, m.
+/// Limits the distance of a body's centre from its start to `bound`, m; from `explodes`, m, it is an
+/// explosion.
 Rule farthest_from_start(const Scene& scene, double bound, double explodes);
 
-/// Sum of all joints' gaps: up to `bound`, m; an explosion from `explodes`, m.
+/// Limits the sum of all joints' gaps to `bound`, m; from `explodes`, m, it is an explosion.
 Rule sum_of_gaps(const Scene& scene, double bound, double explodes);
 
-/// Energy gained and lost since the start, as fractions of `scale`, J. A gain of ten times the scale is an
-/// explosion.
+/// Limits the energy gained and lost since the start, as fractions of `scale`, J. A gain of ten times the
+/// scale is an explosion.
 Rule energy_gained(const Scene& scene, double scale, double bound);
 Rule energy_lost(const Scene& scene, double scale, double bound);
 
-/// Largest distance of a body's centre from the exact one, m.
+/// Limits the distance of a body's centre from the exact one, m.
 Rule off_the_path(const Scene& scene, const Motion& exact, double bound, double explodes);
 
-/// Fraction of the first body's path length that is missing, once its exact path is `least` long, m; up to
-/// one half.
+/// Limits to one half the fraction of the first body's path length that is missing, once its exact path is
+/// `least` long, m.
 Rule way_not_made(const Scene& scene, const Motion& exact, double least);
 
-/// Relative error of body `body`'s angular velocity against `rate`, rad/s.
+/// Limits the relative error of body `body`'s angular velocity against `rate`, rad/s.
 Rule turns_otherwise(std::size_t body, double rate, double bound);
 
 }  // namespace plumb::harness::stress

@@ -33,8 +33,8 @@ struct SweepOptions {
 };
 
 struct SweepEvents {
-  /// Called with an instance's rows when it is complete, once for each instance, also for those that were
-  /// complete before.
+  /// Called once per instance with its rows, when they are complete; also for instances that were complete
+  /// before.
   std::function<void(std::span<const Result>)> finished{};
   /// `done` and `total` are thousandths of the budget.
   std::function<void(const Progress&)> progress{};

@@ -9,7 +9,7 @@ namespace plumb::harness::thresholds {
 struct SearchRange {
   double low = 0, high = 1;
   bool logarithmic = false;  ///< halves ratios instead of differences; then low > 0
-  bool holds_below = true;   ///< which side of the critical value holds
+  bool holds_below = true;   ///< true if the scene holds below the critical value
   double resolution = 1e-3;  ///< width of the last bracket relative to its middle
 };
 

@@ -43,7 +43,7 @@ std::string_view name_of(Finding::Outcome outcome);  ///< "found", "always", ...
 std::string to_json(const Finding& finding);
 Finding finding_from_json(std::string_view text);
 
-/// One line per finding; the header names the columns.
+/// Formats findings as CSV, one line each; the header names the columns.
 std::string finding_csv_header();
 std::string to_csv(const Finding& finding);
 

@@ -18,7 +18,7 @@ constexpr double kDuration = 10;  // s
 // engines keep around shapes.
 constexpr double kMoved = 0.05;
 constexpr int kLinks = 10;
-constexpr double kStretch = 0.01;  // of the chain's length
+constexpr double kStretch = 0.01;  // largest stretch, as a fraction of the chain's length
 
 Trial stack(double ratio, double) {
   Trial trial{.scene = {.name = "heavy_on_light", .gravity = {0, -kGravity}}, .duration = kDuration};

@@ -34,8 +34,8 @@ class Slope {
   Vec2d uphill_, normal_;
 };
 
-/// Returns the time, s, after which a body that slips from rest with `acceleration`, m/s^2, is 2 `way` (m)
-/// beyond its position at `kSettled`.
+/// Returns the time, s, at which a body that slips from rest with `acceleration`, m/s^2, has moved by 2 `way`
+/// (m) since `kSettled`.
 double time_to_slip(double way, double acceleration);
 
 inline constexpr double kSettled = 1;  ///< s, for an engine's contacts to settle

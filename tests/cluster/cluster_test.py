@@ -1,105 +1,24 @@
 #!/usr/bin/env python3
-"""Plans, does and gathers units with the program itself, and does to them what happens on clusters.
+"""Plans, does and gathers units with the program itself, here and by schedulers.
 
     cluster_test.py PROGRAM CHECKOUT TEST    one test, see those below; exit 77 where what it needs is not installed
 """
 
-import ctypes
 import json
 import os
 import pathlib
-import random
 import re
-import resource
 import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
-PROGRAM, CHECKOUT = sys.argv[1], pathlib.Path(sys.argv[2])
-QUICK = ["--calibration", "0.01"]
-SKIPPED = 77
-# Small scenes without costs: their results are the same bits wherever they run.
-SMALL = ["compare", "free_fall", "elastic_collision", "--engine", "plumb,plumb-float", "--no-cost"]
+sys.dont_write_bytecode = True
 
-
-def plumb(*words, code=0, cwd=None, limit=None, program=PROGRAM):
-    """Runs plumb, which has to end with `code` (None: any). `limit`: bytes of the largest file it may write."""
-    def before():
-        if limit is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-    run = subprocess.run([program, *map(str, words)], capture_output=True, text=True, cwd=cwd, preexec_fn=before)
-    if code is not None:
-        assert run.returncode == code, f"{words}: exit code {run.returncode}\n{run.stdout}\n{run.stderr}"
-    return run
-
-
-def start(*words):
-    return subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def rows_of(folder, file="results.jsonl"):
-    """Results without what differs from run to run: the time of day, and how long it took."""
-    rows = []
-    for line in (pathlib.Path(folder) / file).read_text().splitlines():
-        row = json.loads(line)
-        for name in ("environment", "cost", "seconds", "engine_seconds", "memory"):
-            row.pop(name, None)
-        if row.get("kind") != "environment":
-            rows.append(json.dumps(row))
-    return rows
-
-
-def local(folder, *words):
-    """What the command itself gives, on this machine, in one go."""
-    plumb(*words, "--no-report", "--out", folder)
-    return rows_of(folder)
-
-
-def unpacked(path):
-    """Text of a unit's file, which zstd may have compressed."""
-    path = pathlib.Path(path)
-    if path.exists():
-        return path.read_text()
-    packed = path.with_name(path.name + ".zst").read_bytes()
-    zstd = ctypes.CDLL("libzstd.so.1")
-    zstd.ZSTD_decompress.restype = zstd.ZSTD_getFrameContentSize.restype = ctypes.c_ulonglong
-    size = zstd.ZSTD_getFrameContentSize(packed, ctypes.c_size_t(len(packed)))
-    out = ctypes.create_string_buffer(size)
-    assert zstd.ZSTD_decompress(out, ctypes.c_size_t(size), packed, ctypes.c_size_t(len(packed))) == size
-    return out.raw[:size].decode()
-
-
-def make_plain(work, number):
-    """Replaces a unit's compressed results by plain ones, as a plumb without zstd leaves them."""
-    unit = pathlib.Path(work) / "done" / f"{number:05}"
-    text = unpacked(unit / "results.jsonl")
-    (unit / "results.jsonl.zst").unlink(missing_ok=True)
-    (unit / "results.jsonl").write_text(text)
-    facts = json.loads((unit / "unit.json").read_text())
-    facts["bytes"].pop("results.jsonl.zst", None)
-    facts["bytes"]["results.jsonl"] = (unit / "results.jsonl").stat().st_size
-    (unit / "unit.json").write_text(json.dumps(facts))
-    return unit / "results.jsonl"
-
-
-def entries(folder):
-    return sorted(path.name for path in pathlib.Path(folder).iterdir())
-
-
-def units_of(work):
-    return [json.loads(line) for line in (pathlib.Path(work) / "units.jsonl").read_text().splitlines()]
-
-
-def rows_of_nothing(work):
-    """Files of results that units have left."""
-    return [path for path in (pathlib.Path(work) / "done").rglob("results.jsonl*")]
-
-
-def state(work):
-    return json.loads(plumb("status", work, "--format", "json").stdout)
+from commands import (  # noqa: E402
+    CHECKOUT, PROGRAM, QUICK, SKIPPED, SMALL, entries, local, plumb, rows_of, rows_of_nothing, run_test, start,
+    state, units_of, unpacked)
 
 
 def units_give_what_the_command_gives(tmp):
@@ -295,165 +214,6 @@ def what_cannot_be_planned_is_refused(tmp):
     plumb("work", tmp / "work", "--unit", 99, code=2)
 
 
-def killed_at_any_instant_nothing_is_lost(tmp, kills=25):
-    work = tmp / "work"
-    plumb("plan", work, "--unit-seconds", "0", *SMALL)
-    random.seed(39)
-    how = ["--all", *QUICK, "--attempts", "1000"]
-    for _ in range(kills):
-        workers = [start("work", work, *how) for _ in range(2)]
-        time.sleep(random.uniform(0, 0.8))
-        for worker in workers:
-            worker.kill()
-            worker.wait()
-        for number in entries(work / "done"):
-            unit = json.loads((work / "done" / number / "unit.json").read_text())
-            for name, size in unit["bytes"].items():
-                assert (work / "done" / number / name).stat().st_size == size, (number, name)
-    plumb("work", work, *how)
-    gathered = json.loads(plumb("gather", work, "--out", tmp / "out", "--no-report", "--format", "json").stdout)
-    assert gathered["cut_short"] == gathered["twice"] == 0 and not gathered["damaged"], gathered
-    assert rows_of(tmp / "out") == local(tmp / "local", *SMALL)
-    assert entries(work / "doing") == entries(work / "claims") == [], (entries(work / "doing"), entries(work / "claims"))
-
-
-def a_gathering_that_is_killed_leaves_whole_results(tmp, kills=15):
-    work = tmp / "work"
-    plumb("plan", work, *SMALL)
-    plumb("work", work, "--all", *QUICK)
-    plumb("gather", work, "--out", tmp / "out", "--no-report")
-    rows = rows_of(tmp / "out")
-    for _ in range(kills):
-        gathering = start("gather", work, "--out", tmp / "out")
-        time.sleep(random.uniform(0, 0.3))
-        gathering.kill()
-        gathering.wait()
-        assert rows_of(tmp / "out") == rows
-
-
-def a_full_disk_is_said_and_loses_nothing(tmp):
-    work = tmp / "work"
-    plumb("plan", work, "--unit-seconds", "0", *SMALL)
-    run = plumb("work", work, "--unit", 1, *QUICK, limit=1500, code=1)
-    assert "disk full" in run.stderr, run.stderr
-    assert entries(work / "done") == [] and state(work)["failed"] == {"disk full": [1]}
-    assert "failed, disk full: 1 (" in plumb("status", work).stdout
-    plumb("work", work, "--all", *QUICK)
-    assert state(work)["failed"] == {}, "a unit that is done has not failed"
-    plumb("gather", work, "--out", tmp / "out")
-    before = rows_of(tmp / "out")
-    run = plumb("gather", work, "--out", tmp / "out", limit=1500, code=2)
-    assert "File too large" in run.stderr, run.stderr
-    assert rows_of(tmp / "out") == before, "what was there stays"
-    assert not [name for name in entries(tmp / "out") if name.endswith(".new")]
-
-
-def a_disk_without_room_for_anything_ends_the_worker(tmp):
-    small = tmp / "small"
-    small.mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48k", "tmpfs", small], capture_output=True).returncode != 0:
-        sys.exit(SKIPPED)  # only root may
-    try:
-        work = small / "work"
-        plumb("plan", work, "--unit-seconds", "0", *SMALL)
-        run = plumb("work", work, "--all", *QUICK, code=2)
-        assert "No space left on device" in run.stderr, run.stderr
-        assert 0 < state(work)["done"] < state(work)["units"]
-        subprocess.run(["mount", "-o", "remount,size=8m", small], check=True)
-        plumb("work", work, "--all", *QUICK, "--attempts", "99")
-        plumb("gather", work, "--out", tmp / "out", "--no-report")
-    finally:
-        subprocess.run(["umount", small], check=True)
-    assert rows_of(tmp / "out") == local(tmp / "local", *SMALL)
-
-
-def gatherings_at_once_give_whole_results(tmp):
-    work = tmp / "work"
-    plumb("plan", work, "--unit-seconds", "0", *SMALL)
-    worker = start("work", work, "--all", *QUICK)
-    seen = []
-    while worker.poll() is None:
-        gatherings = [start("gather", work, "--out", tmp / "out", "--no-report") for _ in range(3)]
-        for gathering in gatherings:
-            assert gathering.wait() in (0, 1)
-        if (tmp / "out/results.jsonl").exists():
-            seen.append(len(rows_of(tmp / "out")))
-    assert seen == sorted(seen), "later results have what earlier ones had"
-    plumb("gather", work, "--out", tmp / "out", "--no-report")
-    assert rows_of(tmp / "out") == local(tmp / "local", *SMALL)
-
-
-def what_is_done_twice_counts_once(tmp):
-    work = tmp / "work"
-    plumb("plan", work, "--unit-seconds", "0", "compare", "free_fall", *SMALL[3:])
-    both = [start("work", work, "--unit", 1, *QUICK) for _ in range(4)]
-    assert [one.wait() for one in both] == [0, 0, 0, 0]
-    assert entries(work / "done") == ["00001"] and entries(work / "doing") == []
-    # The same runs in another unit.
-    plumb("plan", work, "compare", "free_fall", *SMALL[3:])
-    plumb("work", work, "--all", *QUICK)
-    text = plumb("gather", work, "--out", tmp / "out", "--no-report").stdout
-    count = len(rows_of(tmp / "out"))
-    assert f"{count} runs done twice, counted once" in text and "differ" not in text, text
-    # A machine that computes something else is told.
-    path = make_plain(work, 1)
-    path.write_text(re.sub(r'("position_error":)[-0-9.e]+', r"\1 0.5", path.read_text(), count=1))
-    text = plumb("gather", work, "--out", tmp / "out", "--no-report", code=1).stdout
-    assert "1 differ" in text, text
-
-
-def claims_of_the_dead_expire_whatever_the_clocks_say(tmp):
-    work = tmp / "work"
-    plumb("plan", work, "--unit-seconds", "1e9", *SMALL)
-    claim = work / "claims/00001"
-    foreign = json.dumps({"nonce": "1", "host": "elsewhere", "boot": "another", "names": "", "process": 1, "began": "1"})
-    how = ["--next", *QUICK, "--expiry", "3"]
-
-    def claimed(age):
-        claim.write_text(foreign + "\n")
-        os.utime(claim, (time.time() - age, time.time() - age))
-
-    claimed(0)
-    plumb("work", work, *how, code=3)
-    assert state(work)["running"] == [1]
-    claimed(-86400)  # its clock is a day fast
-    plumb("work", work, *how, code=3)
-    time.sleep(3.5)
-    plumb("work", work, *how)
-    shutil.rmtree(work / "done/00001")
-    claimed(100)
-    plumb("work", work, *how)
-    assert entries(work / "claims") == []
-    # A worker renews its claim: it outlives its expiry.
-    plumb("plan", tmp / "long", "hunt", "star", "--minutes", "0.12")
-    worker = start("work", tmp / "long", "--unit", 1, *QUICK, "--expiry", "2")
-    for _ in range(200):
-        if (tmp / "long/claims/00001").exists():
-            break
-        time.sleep(0.05)
-    time.sleep(4)
-    assert 1 in json.loads(plumb("status", tmp / "long", "--expiry", "2", "--format", "json").stdout)["running"]
-    worker.send_signal(signal.SIGTERM)
-    assert worker.wait() == 130
-    assert state(tmp / "long")["free"][0] == 1, "an interrupted unit is free again"
-
-
-def another_program_is_refused(tmp):
-    work = tmp / "work"
-    plumb("plan", work, *SMALL)
-    # With the programs of engines beside it, so that the program's own file is all that differs.
-    other = tmp / "bin" / pathlib.Path(PROGRAM).name
-    other.parent.mkdir()
-    for path in pathlib.Path(PROGRAM).parent.glob("plumb*"):
-        shutil.copy(path, other.parent)
-    with other.open("ab") as file:
-        file.write(b"\0")
-    for words in (["work", work, "--next"], ["submit", work, "--on", "local"], ["plan", work, *SMALL]):
-        run = plumb(*words, code=2, program=str(other))
-        assert "hash is" in run.stderr and "another program" in run.stderr and PROGRAM in run.stderr, run.stderr
-    assert entries(work / "done") == []
-
-
 def costs_of_different_machines_do_not_meet(tmp):
     work = tmp / "work"
     plumb("plan", work, "--by-engine", "compare", "free_fall/vacuum", "--engine", "plumb,plumb-float,box2d")
@@ -477,21 +237,6 @@ def costs_of_different_machines_do_not_meet(tmp):
     (tmp / "later/results.jsonl").write_text(path.read_text().replace('"machine":"old"', '"machine":"newest"'))
     text = plumb("compare", tmp / "out", tmp / "later").stdout
     assert "3 left out: measured on different kinds of machine" in text, text
-
-
-def damaged_units_are_said_and_done_again(tmp):
-    work = tmp / "work"
-    plumb("plan", work, "--unit-seconds", "0", *SMALL)
-    plumb("work", work, "--all", *QUICK)
-    path = make_plain(work, 1)
-    whole = path.read_bytes()
-    path.write_bytes(whole[:-40])
-    run = plumb("gather", work, "--out", tmp / "out", "--no-report", code=1)
-    assert "1 last line cut short, left out" in run.stdout and "damaged: 1 (" in run.stdout, run.stdout
-    assert len(rows_of(tmp / "out")) == len(local(tmp / "local", *SMALL)) - 1
-    plumb("work", work, "--unit", 1, "--again", *QUICK)
-    plumb("gather", work, "--out", tmp / "out", "--no-report")
-    assert rows_of(tmp / "out") == rows_of(tmp / "local")
 
 
 def local_submission_does_all_and_gathers(tmp):
@@ -567,11 +312,5 @@ def the_walk_through_runs(tmp):
     assert (tmp / "results/report.html").exists()
 
 
-def main():
-    test = globals()[sys.argv[3]]
-    with tempfile.TemporaryDirectory(prefix="plumb-cluster-") as name:
-        test(pathlib.Path(name))
-
-
 if __name__ == "__main__":
-    main()
+    run_test(globals())

@@ -50,12 +50,11 @@ class DynamicTree {
   int user(int proxy) const { return node(slots_[proxy]).tag; }
   std::uint32_t category(int proxy) const { return node(slots_[proxy]).category; }
 
-  /// To be called after the enlarging of each step. Rebuilds the marked part of the tree from the root down
-  /// to unmarked leaves and subtrees, split at the middle of the centres; its boxes are exact again. Waits
-  /// until as many boxes were enlarged as nodes are marked: the tree is then at most a few per cent worse,
-  /// and several steps share the cost. If most of the tree is marked, first refits the boxes in place. That
-  /// suffices if they are hardly larger than after the last build, as when all bodies move together. Returns
-  /// how many leaves and subtrees were arranged.
+  /// Rebuilds the marked part of the tree from the root down to unmarked leaves and subtrees, split at the
+  /// middle of the centres; its boxes are exact again. Waits until as many boxes were enlarged as nodes are
+  /// marked: the tree is then at most a few per cent worse, and several steps share the cost. If most of the
+  /// tree is marked, first refits the boxes in place. That suffices if they are hardly larger than after the
+  /// last build, as when all bodies move together. Returns how many leaves and subtrees were arranged.
   int rebuild();
   /// Rebuilds the whole tree at once and lays the nodes out in the order of a query. For use after loading
   /// many boxes.
@@ -66,9 +65,9 @@ class DynamicTree {
   template <class Visit>
   void query(const Aabb<Real>& box, std::uint32_t mask, Visit&& visit) const;
 
-  /// Self-overlap pass: sets meets[proxy] to 1 for each leaf whose box overlaps another leaf's, and to 0 for
-  /// the others. With few overlaps this costs a fraction of a query per leaf. Returns false, with marks
-  /// missing, when it takes more than `most` comparisons of boxes.
+  /// Makes a self-overlap pass: sets meets[proxy] to 1 for each leaf whose box overlaps another leaf's, and
+  /// to 0 for the others. With few overlaps this costs a fraction of a query per leaf. Returns false, with
+  /// marks missing, when it takes more than `most` comparisons of boxes.
   bool mark_self_overlaps(std::vector<char>& meets, int most) const;
 
   /// Sweeps a box of `half_extent` (zero for a ray) from `origin` by `translation`, m. Calls visit(int user,
@@ -86,13 +85,14 @@ class DynamicTree {
 
   /// Leaves in the tree.
   int size() const { return size_; }
-  /// Upper bound of all proxies, exclusive.
+  /// Returns an upper bound of all proxies, exclusive.
   int proxies() const { return static_cast<int>(slots_.size()); }
   /// Returns the longest path from the root to a leaf, in nodes; visits every node.
   int height() const;
-  /// Bounding box of all leaves; {0, 0} to {0, 0} when there are none.
+  /// Returns the bounding box of all leaves; {0, 0} to {0, 0} if there are none.
   Aabb<Real> bounds() const { return size_ > 0 ? node(kRoot).box : Aabb<Real>{}; }
-  /// Half perimeters of all inner boxes over the root's: how many inner nodes a small query visits.
+  /// Returns the sum of the half perimeters of all inner boxes over the root's: the mean number of inner
+  /// nodes that a small query visits.
   double cost() const;
   /// Returns true if every link, box, category and mark is consistent; visits every node.
   bool valid() const;
@@ -152,7 +152,8 @@ class DynamicTree {
   // Returns false when leaf(node) stopped it.
   template <class Enter, class Leaf>
   bool walk(int pair, const Enter& enter, const Leaf& leaf) const;
-  // Branch and bound: visits the node with the smaller bound(node) first, while reaches(bound) holds.
+  // Traverses by branch and bound: visits the node with the smaller bound(node) first, while reaches(bound)
+  // holds.
   template <class Bound, class Reaches, class Leaf>
   void descend(const Bound& bound, const Reaches& reaches, const Leaf& leaf) const;
 

@@ -43,7 +43,7 @@ class OverlapTest {
  public:
   OverlapTest(const Aabb<Real>& box, std::uint32_t mask) : box_(box), mask_(mask) {}
 
-  // Free of branches between the comparisons: their results can hardly be predicted.
+  // Compares without branches: the results can hardly be predicted.
   bool operator()(const TreeNode<Real>& node) const {
     const Aabb<Real>& other = node.box;
     return static_cast<int>(other.lower.x <= box_.upper.x) & static_cast<int>(other.lower.y <= box_.upper.y) &
@@ -144,8 +144,8 @@ class DistanceTest {
         Vec2<Real>{std::max({lower.x, upper.x, Real{0}}), std::max({lower.y, upper.y, Real{0}})});
   }
 
-  /// Upper bound of the squares computed for nodes within `distance`: the sum of two rounded squares of
-  /// rounded differences is off by less than 5u of itself, or by underflow.
+  /// Returns an upper bound of the squares computed for nodes within `distance`: the sum of two rounded
+  /// squares of rounded differences is off by less than 5u of itself, or by underflow.
   static Real limit(Real distance) {
     return distance * distance * (1 + 4 * std::numeric_limits<Real>::epsilon()) +
            std::numeric_limits<Real>::min();

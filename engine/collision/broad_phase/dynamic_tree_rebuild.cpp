@@ -14,8 +14,8 @@ constexpr std::size_t kCachedPairs = 1 << 14;
 /// Prefetch distance, in nodes: nodes are scattered in memory.
 constexpr int kAhead = 16;
 
-/// Half the centre: it does not overflow, and neither do differences of two. 0 where it is NaN (between
-/// infinite sides), so that all items can be sorted.
+/// Returns half the centre, which does not overflow, and neither do differences of two. Returns 0 where it is
+/// NaN (between infinite sides), so that all items can be sorted.
 template <class Real>
 Vec2<Real> half_center(const Aabb<Real>& box) {
   const auto half_middle = [](Real lower, Real upper) {

@@ -46,14 +46,14 @@ class PairSet {
   static constexpr Key kEmpty = 0;
   static constexpr std::size_t kSmallest = 16;
 
-  // The larger number in the upper half, plus one so that no pair is kEmpty.
+  // Returns the pair as one number: the larger index in the upper half, plus one so that no pair is kEmpty.
   static Key key(int a, int b) {
     const auto low = static_cast<std::uint32_t>(a < b ? a : b);
     const auto high = static_cast<std::uint32_t>(a < b ? b : a);
     return (Key{high} + 1) << 32 | low;
   }
 
-  // Mixed, so that neighbouring indices do not probe each other's slots.
+  // Mixes the key's bits, so that neighbouring indices do not probe each other's slots.
   static std::size_t hash(Key key) { return static_cast<std::size_t>(mixed_bits(key)); }
 
   // Returns the slot that holds `key`, or the empty one for it.

@@ -24,7 +24,7 @@ class PrefetchedEnlarging {
     waiting_[given_ % kWait] = {proxy, box};
     ++given_;
   }
-  /// To be called after the last box.
+  /// Enlarges the boxes that still wait. Call it after the last box.
   void finish() {
     for (unsigned i = given_ < kWait ? 0 : given_ - kWait; i < given_; ++i) take(i);
     given_ = 0;

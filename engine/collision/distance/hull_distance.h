@@ -12,7 +12,8 @@ namespace plumb {
 /// The nearest corners of two shapes, from which the next search starts when the shapes have moved little.
 /// Empty (count 0) at first. Belongs to one pair of shapes in one order.
 struct SimplexCache {
-  std::uint8_t count = 0;  ///< 0, 1: corner against corner, 2: at least one edge takes part
+  /// 0: empty; 1: a corner of each; 2: two corners of at least one shape, an edge.
+  std::uint8_t count = 0;
   std::uint8_t corner_a[2] = {0, 0};
   std::uint8_t corner_b[2] = {0, 0};
 
@@ -51,9 +52,9 @@ struct HullDistance {
   int iterations = 0;
 };
 
-/// Algorithm of Gilbert, Johnson and Keerthi (GJK, 1988) on the corners; on overlap the separating axis of
-/// least depth. Always terminates, with finite results for finite input. The error is a few roundings of a
-/// double, relative to the distance and the sizes. `cache` may be null.
+/// Computes the distance by the algorithm of Gilbert, Johnson and Keerthi (GJK, 1988) on the corners, and on
+/// overlap the separating axis of least depth. Always terminates, with finite results for finite input. The
+/// error is a few roundings of a double, relative to the distance and the sizes. `cache` may be null.
 template <class Real>
 HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const Pose<double>& b_in_a,
                            SimplexCache* cache);

@@ -28,7 +28,7 @@ struct Nearest {
   double distance = kInfinity;  ///< from the hull, negative inside
 };
 
-/// Distance of the hull from outside: the nearest of all edges.
+/// Returns the distance of the hull from a point outside it: that of the nearest edge.
 template <class Real>
 Nearest nearest_from_outside(const Convex<Real>& shape, Vec2d x) {
   Nearest best;
@@ -75,7 +75,7 @@ struct Entry {
   Vec2d normal;
 };
 
-/// Entry of the ray into the disc of `radius` around `center`, when it starts outside.
+/// Returns where the ray enters the disc of `radius` around `center`, if it starts outside.
 Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d way) {
   const Vec2d from = origin - center;
   const double size = length_squared(way), along = -dot(from, way), across = cross(way, from);
@@ -87,7 +87,7 @@ Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d way) {
   return {fraction, radius > 0 ? direction_of(from + fraction * way) : direction_of(-way)};
 }
 
-/// Inward crossing of the edge p .. p + e moved out by `radius`.
+/// Returns where the ray enters through the edge p .. p + e, moved out by `radius`.
 Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d way) {
   const double length = std::sqrt(length_squared(e));
   if (!(length > 0)) return {};
@@ -122,8 +122,8 @@ Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   return enter;
 }
 
-/// A rounded hull is the union of discs at its corners and its edges moved out (and the area within): the
-/// first hit is the first of theirs.
+/// Returns where the ray enters a rounded hull: the first entry into the discs at its corners and its edges
+/// moved out by the radius, of which (with the area within) it is the union.
 template <class Real>
 Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   const double radius = static_cast<double>(shape.radius);

@@ -27,8 +27,8 @@ struct SurfacePoint {
 template <class Real>
 RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation);
 
-/// The same for a chain segment, which is hit only from its front: the right side of the direction from its
-/// first corner to its second.
+/// Does the same for a chain segment, which is hit only from its front: the right side of the direction from
+/// its first corner to its second.
 template <class Real>
 RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation);
 

@@ -149,10 +149,10 @@ bool Approach<Real>::window(double separation, double& first, double& last) cons
   return first <= last;
 }
 
-/// Lower bound of normal . corner over all corners: the least at `t`. The normal rotates too; `rate` is the
-/// body's angular speed relative to it. normal . r = |r| cos(angle + rate t), whose second derivative is
-/// never less than -rate^2 |r|. To first order it is r . (normal + t normal'), so the lowest corner is a
-/// support point in that direction.
+/// Returns a lower bound of normal . corner over all corners: the least at `t`. The normal rotates too;
+/// `rate` is the body's angular speed relative to it. normal . r = |r| cos(angle + rate t), whose second
+/// derivative is never less than -rate^2 |r|. To first order it is r . (normal + t normal'), so the lowest
+/// corner is a support point in that direction.
 template <class Real>
 Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
                              double t) const {

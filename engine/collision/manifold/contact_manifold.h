@@ -32,8 +32,8 @@ template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                      Real reach, Vec2<Real> pivot);
 
-/// The same for one chain segment, which has a front only: the right side of the direction from its first
-/// corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame.
+/// Does the same for one chain segment, which has a front only: the right side of the direction from its
+/// first corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame.
 /// Sliding along the chain has no internal edges: normals that belong to a neighbour are left to it.
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,

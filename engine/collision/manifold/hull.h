@@ -128,8 +128,8 @@ struct FacingEdges {
   Real slack_before = 0, slack_after = 0;  // m, by which the reference edge is extended beyond its ends
 };
 
-/// Manifold of one point, halfway from corner `on_a` (or a point of an edge) along `normal` to the other
-/// shape, `distance` away, radii not counted.
+/// Returns a manifold of one point, halfway from corner `on_a` (or a point of an edge) along `normal` to the
+/// other shape, `distance` away, radii not counted.
 template <class Real>
 ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real distance, Real radius_a,
                                    Real radius_b, Real reach, std::uint16_t feature) {
@@ -215,12 +215,12 @@ ContactManifold<Real> swapped(const ContactManifold<Real>& found, const Pose<Rea
   return out;
 }
 
-/// Two discs: along the line of centres. Coinciding centres give no direction: use a's y axis.
+/// Collides two discs along the line of centres. Coinciding centres give no direction: it uses a's y axis.
 template <class Real>
 ContactManifold<Real> collide_discs(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                     Real reach);
 
-/// A hull of two corners or more against a disc.
+/// Collides a hull of two corners or more with a disc.
 template <class Real>
 ContactManifold<Real> collide_hull_disc(const Convex<Real>& a, const Convex<Real>& b,
                                         const Pose<Real>& b_in_a, Real reach);
@@ -229,7 +229,7 @@ template <class Real>
 ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                        Real reach);
 
-/// Any two hulls of which one has three corners or more.
+/// Collides any two hulls of which one has three corners or more.
 template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                        Real reach, Vec2<Real> pivot);

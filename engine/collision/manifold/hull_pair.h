@@ -214,8 +214,8 @@ struct Faces {
   Vec2<Real> pivot{};
 };
 
-/// Manifold of two hulls that touch at the deepest corner of one alone, because their edges miss each other
-/// by a rounding or by the preference.
+/// Returns the manifold of two hulls that touch at the deepest corner of one alone, because their edges miss
+/// each other by a rounding or by the preference.
 template <class Real>
 ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
                                    const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
@@ -244,7 +244,7 @@ inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real
   return out;
 }
 
-/// Manifold of two hulls that touch at a face of one.
+/// Returns the manifold of two hulls that touch at a face of one.
 template <class Real, class Admit>
 inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
                                         FacingEdges<Real>& edges, Real reach, Vec2<Real> origin,
@@ -258,9 +258,9 @@ inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b
   return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
 }
 
-/// Manifold of separated hulls whose nearest features are not two faces. The separation along a normal is the
-/// distance times the cosine of the angle to the nearest direction, while the same corners stay in support.
-/// So the face of greatest separation ends at, or is, the nearest feature of its hull.
+/// Returns the manifold of separated hulls whose nearest features are not two faces. The separation along a
+/// normal is the distance times the cosine of the angle to the nearest direction, while the same corners stay
+/// in support. So the face of greatest separation ends at, or is, the nearest feature of its hull.
 template <class Real, class Admit>
 ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
                                   bool prefer_b, Real size, Real reach, Vec2<Real> origin,

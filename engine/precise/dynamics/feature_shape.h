@@ -24,7 +24,7 @@ struct FeatureShape {
   struct Link {
     bool front_only = false;
     bool goes_on[2] = {};  ///< by corner: the chain continues
-    Vec2d next_normal{};   ///< of the next segment if the chain bends to the back there; otherwise zero
+    Vec2d next_normal{};   ///< of the next segment if the chain turns away from its front there, else 0
   };
   Link link{};
 

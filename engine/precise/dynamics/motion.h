@@ -48,7 +48,7 @@ class EquationsOfMotion final : public Flow {
   void rate(double time, std::span<const double> y, std::span<double> out) override;
   /// Returns the power of the forces of the last evaluation, without gravity and persistent contacts.
   double power() const override { return power_; }
-  /// The same, after which `rows` and `multipliers` are those of this state.
+  /// Does the same, after which `rows` and `multipliers` are those of this state.
   void rate_with_rows(double time, std::span<const double> y, std::span<double> out);
   std::int64_t evaluations() const { return evaluations_; }
   void count_evaluation() { ++evaluations_; }
@@ -68,16 +68,17 @@ class EquationsOfMotion final : public Flow {
   void accelerate_freely(double time, std::span<const double> y, std::span<Twist<double>> out);
   /// Computes the joints' Jacobian J and factorises A = J M^-1 J^T at this state.
   void hold(double time, std::span<const double> y);
-  /// -M^-1 J^T A^-1 C(y), with J and A of `hold`; returns the largest gap, m.
+  /// Computes -M^-1 J^T A^-1 C(y), with J and A of `hold`; returns the largest gap, m.
   double gap_response(double time, std::span<const double> y, std::span<Twist<double>> out);
-  /// -M^-1 J^T A^-1 J v with the velocities in y, at the place of `hold`.
+  /// Computes -M^-1 J^T A^-1 J v with the velocities in y, at the place of `hold`.
   void speed_response(std::span<const double> y, std::span<Twist<double>> out);
   double length() const { return length_; }  ///< m, the scene's
   /// Returns the least possible gap, m: the rounding of differences of the positions of the last evaluation.
   double rounding_of_gaps() const;
   std::size_t body_count() const { return poses_.size(); }
 
-  /// The least `JointSystem::weakest`, and the most dependent rows, of evaluations since `forget_rank`.
+  /// Returns the least `JointSystem::weakest`, and the most dependent rows, of evaluations since
+  /// `forget_rank`.
   double weakest() const { return weakest_; }
   int dependent_rows() const { return dependent_rows_; }
   void forget_rank() { weakest_ = 1, dependent_rows_ = 0; }
@@ -120,7 +121,7 @@ class EquationsOfMotion final : public Flow {
   std::span<const StopMode> stop_modes() const { return stop_modes_; }
   bool has_forces() const { return has_forces_; }
   bool holds_anything() const { return !patches_.empty() || held_stops_ > 0; }
-  /// Return the stops' rows at the bodies' last poses, and at a state.
+  /// Returns the stops' rows at the bodies' last poses, and at a state.
   std::span<const Row<double>> stop_rows();
   std::span<const Row<double>> stop_rows(double time, std::span<const double> y);
 
@@ -207,7 +208,7 @@ class EquationsOfMotion final : public Flow {
   void pull(std::span<Twist<double>> motion) const;
   double row_speed(const Row<double>& row, std::span<const Twist<double>> motion) const;
 
-  // Persistent contacts (precise_contact_motion.cpp).
+  // Persistent contacts (contact_motion.cpp).
   void find_response(std::vector<Row<double>> rows, ContactResponse& out);
   double gain(const Row<double>& row, const ContactResponse& response, std::size_t k) const;
   void find_gains(std::span<const Row<double>> rows, const ContactResponse& response,

@@ -66,7 +66,8 @@ bool EquationsOfMotion::held_works() const {
 }
 
 void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
-  constexpr double kRounding = 1e-12;  // of the fastest: below it, velocities already fit
+  // Fraction of the largest velocity below which an error counts as rounding: the velocities already fit.
+  constexpr double kRounding = 1e-12;
   if (!only_hinges() || !hinges_.rooted()) return;
   place(time, y.value());
   hinges_.place(poses_);
@@ -99,8 +100,9 @@ void EquationsOfMotion::hang(double time, Compensated& y) {
 /// Closes the gaps by Newton's method, q += M^-1 J^T lambda with A lambda = -C, to rounding.
 void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   constexpr int kMost = 20;
-  constexpr double kOpen = 1e-9;      // of the scene's length: more cannot be rounding
-  constexpr double kRoundings = 100;  // of a gap: allowed at the end of Newton's method
+  constexpr double kOpen = 1e-9;  // fraction of the scene's length: a larger gap is not due to rounding
+  // Newton's method may end with gaps of so many rounding errors.
+  constexpr double kRoundings = 100;
   std::vector<Twist<double>>& shift = accelerations_;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {

@@ -25,8 +25,8 @@ CornerMotion corner_motion(const FeatureShape& o, int corner, const StepMotionBo
   return {at.pose.position + arm, at.twist.velocity + cross(at.twist.angular_velocity, arm)};
 }
 
-/// Time for which no corner falls to an edge of `e`, whose normal turns with it: f = n . (c - p). With the
-/// corner's motion relative to the edge's body, r from its centre,
+/// Returns the time for which no corner falls to an edge of `e`, whose normal turns with it: f = n . (c - p).
+/// With the corner's motion relative to the edge's body, r from its centre,
 ///   f'' = n . r'' + 2 w t . r' + (dw/dt) t . r - w^2 n . r.
 double edge_lasts(const View& v, const StepMotionBounds& paths, bool of_a, int edge, double left) {
   const FeatureShape &e = of_a ? v.a : v.b, &c = of_a ? v.b : v.a;
@@ -53,7 +53,7 @@ double edge_lasts(const View& v, const StepMotionBounds& paths, bool of_a, int e
   return shortest_time;
 }
 
-/// The same along a fixed direction, for every corner of b over every corner of a.
+/// Does the same along a fixed direction, for every corner of b over every corner of a.
 double direction_lasts(const View& v, const StepMotionBounds& paths, Vec2d n) {
   const auto swing = [&](const FeatureShape& o) {
     const StepMotionBounds::Turning turn = paths.turning(o.body);

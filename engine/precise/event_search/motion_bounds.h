@@ -43,7 +43,7 @@ class StepMotionBounds {
   };
   Relative relative(std::size_t a, std::size_t b) const;
 
-  /// The same for a body that may be `kFixedFrame`.
+  /// Does the same for a body that may be `kFixedFrame`.
   Placed placed(int body, double time) const {
     return body == kFixedFrame ? Placed{} : at(static_cast<std::size_t>(body), time);
   }

@@ -44,8 +44,8 @@ class Stops {
   void take(const Brake& brake, int mode);
   void act(double force);
 
-  /// The monitored values: gaps of free limits, force margins of held stops, the speed that motors lack.
-  /// Negative, beyond the tolerance, is an event.
+  /// Returns the monitored values: gaps of free limits, force margins of held stops, the speed that motors
+  /// lack. Negative, beyond the tolerance, is an event.
   double tolerance(std::size_t stop) const;
   void evaluate(double time, std::span<const double> y, std::span<double> values);
   std::size_t count() const { return modes_.size(); }

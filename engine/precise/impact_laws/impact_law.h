@@ -25,18 +25,18 @@ struct ContactImpulse {
   double tangential = 0;  ///< N s
 };
 
-/// Newton's law: the gap opens at `restitution` times the rate at which it closed; friction obeys Coulomb's
-/// law for the impulses and the slip that is left. With friction it may gain energy, because the opening rate
-/// is prescribed whatever friction does (Kane and Levinson 1985). `later_friction` is not used.
+/// Applies Newton's law: the gap opens at `restitution` times the rate at which it closed; friction obeys
+/// Coulomb's law for the impulses and the slip that is left. With friction it may gain energy, because the
+/// opening rate is prescribed whatever friction does (Kane and Levinson 1985). `later_friction` is not used.
 ContactImpulse newton_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
 
-/// Poisson's law by Routh's method: the slip is followed along the growing normal impulse, with Coulomb's
-/// friction at each instant; the impulse of restitution is `restitution` times that of compression. Source:
-/// Routh, Dynamics of a System of Rigid Bodies (1860); Wang and Mason, J. Appl. Mech. 59 (1992) 635.
+/// Applies Poisson's law by Routh's method: the slip is followed along the growing normal impulse, with
+/// Coulomb's friction at each instant; the impulse of restitution is `restitution` times that of compression.
+/// Source: Routh, Dynamics of a System of Rigid Bodies (1860); Wang and Mason, J. Appl. Mech. 59 (1992) 635.
 ContactImpulse poisson_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
 
-/// Stronge's law: along the same path, the normal impulse does in restitution `restitution`^2 times the work
-/// that it took in compression. Never gains energy. Source: Stronge, Proc. R. Soc. A 431 (1990) 169.
+/// Applies Stronge's law: along the same path, the normal impulse does in restitution `restitution`^2 times
+/// the work that it took in compression. Never gains energy. Source: Stronge, Proc. R. Soc. A 431 (1990) 169.
 ContactImpulse stronge_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
 
 /// Returns the coefficient of restitution at an impact of `speed`: `restitution` up to `yield_speed`, beyond

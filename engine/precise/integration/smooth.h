@@ -112,7 +112,7 @@ class EventFreeIntegrator {
 
   void begin();
   void fly(double end);
-  // Near kinematic singularities of closed linkages (precise_smooth_passage.cpp).
+  // Near kinematic singularities of closed linkages (smooth_passage.cpp).
   bool is_near_crossing();
   void expect_passage();
   void look_at_rows();

@@ -46,7 +46,7 @@ bool EventFreeIntegrator::is_near_crossing() {
   return now * h < std::abs(now - before) * kNear * std::max(proposed_step_, h);
 }
 
-/// Before a step: sets the expected motion from the motion so far.
+/// Sets, before a step, the expected motion from the motion so far.
 void EventFreeIntegrator::expect_passage() {
   const bool near = is_near_crossing();
   if (near && !near_) {
@@ -61,7 +61,7 @@ void EventFreeIntegrator::expect_passage() {
   passage_.expect(path, start_, time_, y0_.value());
 }
 
-/// Without a last step, decides by the rows themselves.
+/// Decides by the rows themselves if there was no last step.
 void EventFreeIntegrator::look_at_rows() {
   constexpr double kWeak = 0.01;
   if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||

@@ -125,7 +125,7 @@ class Sensitivities {
   std::unique_ptr<Neighbour> own_;  // of the scene itself
   std::vector<std::array<std::unique_ptr<Neighbour>, Variation::kPlaces.size()>> beside_;  // by parameter
   Values scale_;         // by component of y: m, rad, m/s, rad/s
-  double own_time_ = 1;  // s, in which the scene's accelerations cross its length
+  double own_time_ = 1;  // s, the scene's length over its speed
   Present now_;
   bool started_ = false;  // `start` was called since the last event
   std::vector<std::optional<Failure>> failures_;

@@ -11,7 +11,7 @@
 namespace plumb::json {
 namespace {
 
-/// "'circle' or 'box'".
+/// Returns "'circle' or 'box'".
 std::string alternatives(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -21,7 +21,7 @@ struct ContactBlock {
   using Constraint = ContactConstraint<Real>;
   static constexpr int kLanes = Number::kLanes;
 
-  /// Of the bodies: see kPlaceUnits.
+  /// Places of the bodies, in kPlaceUnits.
   std::uint32_t place_a[kLanes], place_b[kLanes];
   Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
 

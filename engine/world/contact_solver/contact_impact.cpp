@@ -41,7 +41,8 @@ ImpactRows rows_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const C
   return rows;
 }
 
-// The conditions of an impact, and one way to meet them at a time.
+// Solves the complementarity problem of an impact by trying its cases: the points that push, and sticking or
+// slipping in either direction. Keeps the case that violates the conditions least.
 class Impact {
  public:
   Impact(const ImpactRows& rows, const bool (&strikes)[2], const double (&wanted)[2], double friction)

@@ -5,7 +5,8 @@
 #include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/contact_solver/contact_step.h"
 
-/// The three passes over a contact, or over several side by side (ContactBlock).
+/// The laws of a contact in soft steps (normals, friction, rolling resistance), as three passes: warm_start,
+/// solve, relax. Each is for one contact, or for several in SIMD lanes (ContactBlock).
 namespace plumb {
 
 // s: gap up to which a contact counts as closed, as a time at the depenetration speed. Gaps closed to 0 are 0
@@ -70,7 +71,7 @@ template <class Number, class Pair, class Contact, class Real>
   return {gap * inverse_h, 1, 0, select(c.normal_impulse[i] > Number(0), Number(0), gap)};
 }
 
-/// Coulomb: |lambda_t| <= mu lambda_n.
+/// Solves friction within Coulomb's bound: |lambda_t| <= mu lambda_n.
 template <class Number, class Pair, class Contact>
 [[gnu::always_inline]] inline void rub_within_bound(Pair& pair, Contact& c, const Number& tangent_mass) {
   using std::max, std::min;

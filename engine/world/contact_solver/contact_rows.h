@@ -7,7 +7,9 @@
 
 namespace plumb {
 
-/// A contact and its two bodies, for solving one row at a time.
+/// A contact and its two bodies, for solving one row at a time: for sequential impulses, position-based
+/// solvers and impacts in flight. The soft steps have their own passes, for SIMD lanes too (contact_passes.h
+/// and contact_pair.h).
 template <class Real>
 struct ContactPair {
   ContactPair(BodyMotion<Real>* motion, ContactConstraint<Real>& contact)

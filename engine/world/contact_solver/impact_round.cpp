@@ -337,7 +337,7 @@ class JointedRound {
 
   // Solves normals without friction first, and then with the bounds of friction that follow from them.
   void exchange() {
-    constexpr int kRenewals = 1;  // of the bounds; each costs a solution
+    constexpr int kRenewals = 1;  // updates of the bounds on friction; each costs a solution
     const bool rubs = std::any_of(struck_.begin(), struck_.end(), [](const StruckPoint<Real>& at) {
       return at.bounce->contact->friction > 0;
     });

@@ -51,7 +51,7 @@ struct ImpactScratch {
   std::vector<int> first_joint;  ///< by group, in `joints`
   std::vector<BoundedRow> rows;  ///< between bodies of the world: equalities, or an impulse of at least 0
 
-  // By group; valid for those of the present crowd.
+  // By group; valid for the groups of the present impacts.
   std::vector<char> reached;       ///< impacts may propagate to it
   std::vector<char> struck_now;    ///< it has an impact in this round
   std::vector<char> marked;        ///< it is in `groups`

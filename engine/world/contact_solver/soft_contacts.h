@@ -22,7 +22,7 @@ class SoftContacts {
   void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart,
              Crew& crew);
 
-  /// Warm starts: applies the impulses of the last substep, which are nearly those needed now.
+  /// Applies the impulses of the last substep, which are nearly those needed now.
   void warm_start(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 
   /// Solves normal impulses with a bias that removes overlaps softly and lets gaps close: corrects positions.

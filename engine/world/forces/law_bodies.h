@@ -57,7 +57,7 @@ void require_finite_wrench(const WorldData<Real>& w, int body, const Wrench<doub
   if (!is_sound(wrench)) report_not_finite(w.extras_of(body).name, body, field);
 }
 
-/// Quarantines a body because of a wrench that is not sound.
+/// Quarantines a body whose wrench has a component that is not finite or beyond 1e12.
 template <class Real>
 void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrench) {
   const auto fits = [](double x) { return std::abs(x) <= kLargestNumber; };

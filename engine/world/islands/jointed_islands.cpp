@@ -50,7 +50,7 @@ class RowMaker {
            row.angular_b * b.spin_before;
   }
 
-  // Rate of a row's coordinate after the first solve.
+  // Returns the rate of a row's coordinate after the first solve.
   double held_along(const BoundedRow& row) const {
     const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
     return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
@@ -133,7 +133,7 @@ class RowMaker {
     }
   }
 
-  // Rate at which a row's coordinate has changed in the substep, m/s.
+  // Returns the rate at which a row's coordinate has changed in the substep, m/s.
   double moved_along(const BoundedRow& row) const {
     const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
     return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +

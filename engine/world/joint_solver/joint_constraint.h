@@ -21,7 +21,7 @@ namespace plumb {
 template <int>
 struct NoPart {};
 
-/// Of a block of joints side by side: their own angles at the start of the step, rad.
+/// The own angles of a block of joints in SIMD lanes, rad, at the start of the step.
 template <class Real>
 struct LaneAngles {
   Real start = 0;
@@ -399,7 +399,8 @@ struct JointConstraint {
       if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
   }
 
-  /// Visits the numbers that are read after a step, of this joint (or block of joints) and of another.
+  /// Calls visit(x, y) for each number that is read after a step: x of this joint (or block of joints), y of
+  /// `one`.
   template <class One, class Visit>
   [[gnu::always_inline]] void results(One& one, const Visit& visit) {
     const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {

@@ -42,7 +42,7 @@ struct JointCoordinate {
     for (auto& each : rule) each.impulse = each.drift = 0;
   }
 
-  /// Record the coordinate at the start of a step, and at the end of each substep.
+  /// Records the coordinate at the start of a step, and at the end of each substep.
   [[gnu::always_inline]] void start_at(Real q) {
     for (int i = 0; i < count; ++i) rule[i].last = q;
   }

@@ -9,9 +9,10 @@
 namespace plumb {
 namespace {
 
-// Fewest joints in a block: fewer cost less one at a time.
+// Minimum number of joints in a block: fewer cost less when solved one at a time.
 constexpr int kLeastLanes = 3;
-// Kinds of joints of a colour that wait for a block at once; those of further ones stay alone.
+// Maximum number of kinds of joints of a colour for which blocks are filled side by side. Joints of further
+// kinds are solved one at a time.
 constexpr int kKinds = 8;
 
 // Calls a function that is inlined, compiled for registers of so many bytes.
@@ -262,8 +263,8 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         block.joint.share = 1;
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
-        // Twice if they are under-relaxed: their share follows from their rows, and their masses from it. A
-        // loop, so that it is compiled once.
+        // Evaluates twice if the joints are under-relaxed: the factor follows from their rows, and their
+        // effective masses from the factor. A loop, so that it is compiled once.
         for (bool has_share = false;; has_share = true) {
           block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
           if (has_share) return;

@@ -104,7 +104,7 @@ class JointBlocks {
   using ShareOf = Real (*)(const void*, const Joint&);
   using Visit = void (*)(const void*, Joint&);
 
-  /// Sorts into blocks of `kBytes`, what remains of a kind into narrow ones if they suffice.
+  /// Sorts joints into blocks of `kBytes`; the rest of a kind into narrow blocks if it fits into one.
   template <int kBytes>
   void sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
   template <int kBytes>

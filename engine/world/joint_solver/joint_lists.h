@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <iterator>
 #include <tuple>
 #include <variant>
 #include <vector>
@@ -43,6 +44,7 @@ enum JointForm : int {
 inline JointForm form_of(const JointKind& definition) {
   static constexpr JointForm kByKind[] = {kDistance, kRevolute, kPrismatic, kWeld,    kWheel,   kMotor,
                                           kMouse,    kGear,     kPulley,    kRatchet, kFriction};
+  static_assert(std::size(kByKind) == std::variant_size_v<JointKind>);
   if (const auto* revolute = std::get_if<RevoluteDefinition>(&definition))
     return revolute->limits || revolute->motor || revolute->spring ? kRevolute : kHinge;
   if (const auto* weld = std::get_if<WeldDefinition>(&definition))

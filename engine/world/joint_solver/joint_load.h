@@ -57,7 +57,8 @@ JointLoad<Real> joint_load(const JointRow<Real> (&rows)[N], const JointVelocitie
   for (int i = 0; i < N; ++i) diagonal[i] = k[i][i];
   int rank = 0;
   for (int i = 0; i < N; ++i) {
-    constexpr double kNothing = 1e-6;  // of the diagonal, which has single precision
+    // Fraction of the diagonal up to which a pivot is rounding: the diagonal has single precision.
+    constexpr double kNothing = 1e-6;
     const bool counts = k[i][i] > kNothing * diagonal[i];
     const double inverse = counts ? 1 / k[i][i] : 0;
     rank += counts ? 1 : 0;

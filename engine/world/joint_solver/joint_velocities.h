@@ -25,7 +25,8 @@ struct JointVelocities {
 
   /// Writes the velocities back, except to static and kinematic bodies, which joints of one colour may share.
   void store(BodyMotion<Real>& a, BodyMotion<Real>& b) const {
-    // By component, as computed: a pair stored by halves and loaded as one stalls.
+    // Copy by component. Copied as a pair, the two halves would be stored apart and loaded as one, which
+    // stalls.
     if (m_a + i_a > 0) a.velocity.x = v_a.x, a.velocity.y = v_a.y, a.angular_velocity = w_a;
     if (m_b + i_b > 0) b.velocity.x = v_b.x, b.velocity.y = v_b.y, b.angular_velocity = w_b;
   }

@@ -67,7 +67,8 @@ struct QueryFilter {
   std::uint64_t mask = ~std::uint64_t{0};      ///< categories that it looks for
   bool sensors = false;                        ///< true: includes sensors
   BodyId ignore{};                             ///< a body to skip
-  ShapeCondition condition{};  ///< tested last; must not change the world, whose calls then throw
+  /// Tested last. It must not change the world: calls that change it throw meanwhile.
+  ShapeCondition condition{};
 };
 
 }  // namespace plumb

@@ -45,8 +45,8 @@ void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
       [&](const PositionStep<Real>& contacts) { restore_bounces(w.motion.data(), w.graph, contacts); });
 }
 
-// One projection per substep, with compliance of soft constraints; more substeps replace iterations. Then
-// velocities: restitution and dynamic friction.
+// Makes one projection per substep, with compliance of soft constraints; more substeps replace iterations.
+// Then velocities: restitution and dynamic friction.
 template <class Real>
 void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
   project_positions(w, h, substeps, 1, PositionFriction::Static, [&](const PositionStep<Real>& contacts) {

@@ -24,7 +24,8 @@ bool is_centred_disc(const WorldData<Real>& w, int shape) {
   return std::max(std::abs(centre.x), std::abs(centre.y)) <= Real(kCentred) * form.radius;
 }
 
-// Prepares two separated circles: they will touch on the line between their centres at that time.
+// Prepares the contact of two separated circles for the time at which they touch: its normal is then the line
+// between their centres.
 template <class Real>
 void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, RestitutionContact<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;

@@ -4,8 +4,9 @@
 
 namespace plumb {
 
-/// Collects the restitution contacts of a step, and circles that approach each other fast, whose normal is
-/// predicted for the time of contact.
+/// Collects the restitution contacts of soft steps, and circles that approach each other fast, whose normal
+/// is predicted for the time of contact. The other solvers apply restitution in sequential_contacts.cpp and
+/// position_contacts.cpp; free bodies bounce in continuous/rebound.cpp.
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w);
 

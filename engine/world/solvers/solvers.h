@@ -15,19 +15,19 @@ void add_step_impulses(WorldData<Real>& w) {
   });
 }
 
-/// Soft constraints (Catto, 2024); with Solver::Direct, a direct solve of articulated islands.
+/// Solves by soft constraints (Catto, 2024); with Solver::Direct, a direct solve of articulated islands.
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps);
 
-/// Sequential impulses (Catto, 2005).
+/// Solves by sequential impulses (Catto, 2005).
 template <class Real>
 void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps);
 
-/// Projection of positions (Jakobsen, 2001).
+/// Solves by projection of positions (Jakobsen, 2001).
 template <class Real>
 void solve_jakobsen(WorldData<Real>& w, double h, int substeps);
 
-/// Extended position-based dynamics (Macklin, Mueller and Chentanez, 2016; Mueller et al., 2020).
+/// Solves by extended position-based dynamics (Macklin, Mueller and Chentanez, 2016; Mueller et al., 2020).
 template <class Real>
 void solve_xpbd(WorldData<Real>& w, double h, int substeps);
 

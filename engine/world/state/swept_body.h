@@ -109,7 +109,7 @@ struct SweptBody {
   }
 
  private:
-  // Position of a flight without an arm.
+  // Returns the position of a flight without an arm, m.
   Vec2d centre_at(double fraction) const {
     const double s = share(fraction);
     return start + s * (way + s * curve);

@@ -60,7 +60,7 @@ template <class Real>
 struct TakenAtOnce {
   WorldData<Real>& w;
   PrefetchedEnlarging<Real>& tree;
-  // A shape has left its fat AABB; the next one is `box`.
+  // Stores the next fat AABB, `box`, of a shape that has left its last one.
   void leave(int shape, const Aabb<Real>& box) const { store_fat_aabb(w, shape, box, tree); }
   void find_fast(const FastBody& fast) const { append(w.scratch.fast_bodies, fast); }
   void find_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }

@@ -338,7 +338,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   });
 }
 
-// After an exception: makes the next step recompute the points of the contacts.
+// Makes, after an exception, the next step recompute the points of the contacts.
 template <class Real>
 void invalidate_all(WorldData<Real>& w) {
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {

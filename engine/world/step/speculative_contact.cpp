@@ -138,7 +138,8 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
-  // Bodies of a pile push each other off their current trajectories, so a plane between two of them stays.
+  // Keep the manifold of two bodies of a pile: they push each other off the trajectories that a search for
+  // the time of impact would follow.
   if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
   const double time = static_cast<double>(dt);
   const Sweep<double> way_a = sweep_of(w, a, w.position[a], time),

@@ -9,7 +9,7 @@ namespace {
 constexpr int kBlocks = 100;
 /// Share of a block's equation in the sum below which it and those behind it are left out.
 constexpr double kLeast = 1e-9;
-constexpr int kSteps = 50;  // of the first block's turn between two impacts, of fourth order
+constexpr int kSteps = 50;  // steps of fourth order for the first block's turn between two impacts
 /// Impacts that it takes at most until the speed is the same to `kSteady`. Each leaves a third to nine tenths
 /// of the difference.
 constexpr int kImpacts = 1000;
@@ -58,7 +58,8 @@ class Row {
     return out;
   }
 
-  /// Square of the rate at the next impact, from that after the last; `time` becomes that between them.
+  /// Returns the square of the rate at the next impact, from that after the last; sets `time` to the time
+  /// between them.
   double turn(double square, double& time) const {
     const double step = first_angle_at_impact() / kSteps;
     const auto slope = [&](double angle, double w2) {
@@ -82,8 +83,8 @@ class Row {
     return square;
   }
 
-  /// Share of the first block's rate that the next one has after it was struck: the impulses obey the same
-  /// sums, and all blocks but the new one move before.
+  /// Returns the fraction of the first block's rate that the next one has after it was struck. The impulses
+  /// obey the same sums, and all blocks but the new one move before.
   double kept() const {
     const double all = motion(0).inertia, own = (1 + thick_ * thick_) / 3;
     return (all - own) / all;

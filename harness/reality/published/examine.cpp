@@ -16,7 +16,7 @@ namespace {
 /// minutes where dozens of bodies touch, since each evaluation involves all contacts at once.
 constexpr double kLongest = 10;
 
-constexpr unsigned kSeed = 1;  // of the starts, and of bootstrap samples of their results
+constexpr unsigned kSeed = 1;  // for the starts, and for bootstrap samples of their results
 constexpr int kJobs = 2;       // processes at a time
 
 double measure(const reference::Backend& engine, const PublishedLaw& law, const Scene& scene) {

@@ -36,7 +36,7 @@ inline constexpr std::size_t kStarts = 20;
 /// random number between -1 and 1 at each call.
 std::vector<Scene> starts_of(const std::function<Scene(const std::function<double()>& shift)>& scene_with);
 
-// A file each.
+// The published laws, one file each.
 std::vector<PublishedLaw> bouncing_ball();
 std::vector<PublishedLaw> column_collapse();
 std::vector<PublishedLaw> dominoes();

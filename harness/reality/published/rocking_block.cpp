@@ -9,7 +9,7 @@
 namespace plumb::harness::reality {
 namespace {
 constexpr double kWidth = 0.2, kHeight = 0.8, kFriction = 0.8;  // m
-constexpr double kShare = 0.6;                                  // of the tilt at which it topples
+constexpr double kShare = 0.6;  // initial tilt, as a fraction of that at which it topples
 
 double first_turn(std::span<const Sample> samples) {
   double most = 0;  // the tilt at which it turns back on the other side
