@@ -106,6 +106,11 @@ export PATH="$fake:$PATH"
 run help "$tree/plumb" --help
 check "help before a build succeeds" same "$status" 0
 check "help before a build names the tests' command" has "$work/help.out" "./plumb test"
+for subcommand in test web bench field demo view compare thresholds scene; do
+  run help "$tree/plumb" "$subcommand" --help
+  check "help on $subcommand before a build says what it does" same "$status $(grep -c "$subcommand" "$work/help.out")" \
+    "0 $(grep -cE "^  \./plumb (.*\| )?$subcommand( |$)" "$tree/plumb")"
+done
 run version "$tree/plumb" --version
 check "version before a build" same "$(<"$work/version.out")" "plumb 0.1.0"
 run bare "$tree/plumb"
@@ -149,6 +154,15 @@ check "the program's status is handed on" same "$status" 7
 check "the second call sets nothing up" empty "$work/second.err"
 check "the second call does not install" [ ! -e "$fake/calls" ]
 check "the second call takes under a second: $(((end - begin) / 1000)) ms" [ $((end - begin)) -lt 1000000 ]
+
+# Help is the program's own where it has it, of a part that is not built the script's; neither builds.
+run own "$tree/plumb" compare --help
+check "help on a subcommand once built" same "$(<"$work/own.out")" "[compare][--help] one"
+run own "$tree/plumb" demo --help
+check "help on a part that is not built" has "$work/own.out" "in a window"
+run own "$tree/plumb" check -- mine --help
+check "another program's --help is handed on" same "$(<"$work/own.out")" "[check][--][mine][--help] one"
+check "help installs nothing" [ ! -e "$fake/calls" ]
 
 # Edits are seen; errors are shown.
 program two
