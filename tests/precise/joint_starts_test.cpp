@@ -88,6 +88,29 @@ TEST(JointStarts, AngularFitsAndSpeedsAreNamedInTheirUnits) {
   EXPECT_TRUE(joint_complaints(rods(5), 1e-12, 1e-12).empty());
 }
 
+// An impulse of both hinges acts on a bar that spins beside a hinge at rest and carries a weight. By least
+// constraint w' = I w / (I + m r^2 + (2 r)^2 M J / (J + M s^2)).
+TEST(JointStarts, HingesThatMoveApartAreStruckWhateverTheyCarry) {
+  const double r = 3, inertia = 4, spin = -6, s = 5;
+  for (const double weight : {2.0, 200.0, 4000.0, 1e6}) {
+    const double turned = 20 * weight;
+    Scene scene{.name = "struck", .gravity = {}};
+    scene.bodies = {{.name = "bar", .position = {0, -r}, .angular_velocity = spin, .inertia = inertia},
+                    {.name = "weight", .position = {0, -2 * r - s}, .mass = weight, .inertia = turned}};
+    scene.joints = {
+        RevoluteJoint{.name = "top", .body_a = std::string(kWorld), .body_b = "bar", .anchor_b = {0, r}},
+        RevoluteJoint{
+            .name = "tip", .body_a = "bar", .body_b = "weight", .anchor_a = {0, -r}, .anchor_b = {0, s}}};
+    Simulation simulation = compile(scene, Precise{.max_dt = 1e-6});
+    simulation.step();
+    const double carried = 4 * r * r * weight * turned / (turned + weight * s * s);
+    const double right = inertia * spin / (inertia + r * r + carried);
+    // The bar's lever turns by less than w dt in the step.
+    EXPECT_NEAR(simulation.state(0).angular_velocity, right, 1e-9 * std::abs(right));
+    EXPECT_NEAR(simulation.state(0).velocity.x, right * r, 1e-9 * std::abs(right * r));
+  }
+}
+
 TEST(JointStarts, BodiesThatArePutElsewhereAreClosedAtOnce) {
   Simulation simulation = compile(rods(2), Precise{});
   BodyState tip = simulation.state(1);

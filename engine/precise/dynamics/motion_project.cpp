@@ -68,12 +68,20 @@ bool EquationsOfMotion::held_works() const {
 void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
   // Fraction of the largest velocity below which an error counts as rounding: the velocities already fit.
   constexpr double kRounding = 1e-12;
-  if (!only_hinges() || !hinges_.rooted()) return;
+  if (only_hinges() ? !hinges_.rooted() : holds_anything() || !has_hinges_alone()) return;
   place(time, y.value());
-  hinges_.place(poses_);
   std::vector<Twist<double>>& shift = accelerations_;
   std::fill(shift.begin(), shift.end(), Twist<double>{});
-  hinges_.stop(twists_, shift);
+  if (only_hinges()) {
+    hinges_.place(poses_);
+    hinges_.stop(twists_, shift);
+  } else {
+    find_rows(rows_);
+    system_.factor(rows_);
+    for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
+    solve_joints();
+    pull(shift);
+  }
   const auto fastest = [&](const std::vector<Twist<double>>& twists) {
     double most = 0;
     for (const Twist<double>& twist : twists)
