@@ -87,7 +87,7 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
   std::vector<bool> given(pairs.size(), false);  // penetrating from the start: joints may keep them so
-  // What joints connect with such a body is pulled along as it is pushed out.
+  // Bodies that joints connect with such a one are pulled along as it is pushed out.
   const std::vector<std::size_t> group = joint_groups(one.scene);
   std::set<std::pair<std::size_t, std::size_t>> given_groups;
   const auto groups_of = [&](std::size_t n) {

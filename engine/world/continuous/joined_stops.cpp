@@ -65,7 +65,8 @@ template <class Definition>
 constexpr Hold hold_of(const Definition&) {
   if constexpr (std::is_same_v<Definition, DistanceDefinition>) return Hold::Length;
   if constexpr (std::is_same_v<Definition, PulleyDefinition>) return Hold::No;
-  return requires(Definition d) { d.anchor_a; } ? Hold::Place : Hold::No;
+  return requires(Definition d) { d.anchor_a; }
+  ? Hold::Place : Hold::No;
 }
 
 }  // namespace
