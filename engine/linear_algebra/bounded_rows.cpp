@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/linear_algebra/row_coupling.h"
+
 namespace plumb {
 namespace {
 
@@ -17,31 +19,9 @@ constexpr int kRefinements = 2;
 // Tolerated residual of a row, and tolerated violation of its inequality, relative to the row with the
 // largest energy v^2 / mobility: speeds of linear and of angular rows have different units.
 constexpr double kExact = 1e-11, kSlack = 1e-9;
-// Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
-constexpr int kPivots = 4;
-// Largest number of rows of a small system, which is factorised as the rows come, on the stack: at most 700
-// multiplications, about what finding an order of elimination costs.
-constexpr int kSmallRows = 16;
-// Least pivot, relative to its diagonal, of a system that needs no regularisation: with a thousandth of it
-// the refinements would leave 1e-9.
-constexpr double kWell = 1e-4;
 // Rounds of descent if pivoting does not converge, iterations in each round, and the last iterations if the
 // rounds do not converge either.
 constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
-
-double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s, double angular_s) {
-  return body.inverse_mass.x * linear_r.x * linear_s.x + body.inverse_mass.y * linear_r.y * linear_s.y +
-         body.inverse_inertia * angular_r * angular_s;
-}
-
-double coupling(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow& s) {
-  double sum = 0;
-  if (r.a == s.a) sum += coupling(bodies[r.a], r.linear_a, r.angular_a, s.linear_a, s.angular_a);
-  if (r.a == s.b) sum += coupling(bodies[r.a], r.linear_a, r.angular_a, s.linear_b, s.angular_b);
-  if (r.b == s.a) sum += coupling(bodies[r.b], r.linear_b, r.angular_b, s.linear_a, s.angular_a);
-  if (r.b == s.b) sum += coupling(bodies[r.b], r.linear_b, r.angular_b, s.linear_b, s.angular_b);
-  return sum;
-}
 
 // Returns the mobility of a row, J M^-1 J^T: 0 where axes are locked along it but for the rounding of its
 // direction, whose square may be as small as numbers get.
@@ -56,78 +36,6 @@ double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {
   if (a.inverse_mass.x == a.inverse_mass.y && b.inverse_mass.x == b.inverse_mass.y) return along;
   const double bound = most(a, row.linear_a, row.angular_a) + most(b, row.linear_b, row.angular_b);
   return along > kRounding * bound ? along : 0;
-}
-
-// Couples a row with `count` rows of another block, all of which have the same bodies.
-void couple(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow* s, int count,
-            double* out) {
-  if (count <= 0) return;
-  const bool from_a = r.a == s->a || r.a == s->b, from_b = r.b == s->a || r.b == s->b;
-  if (from_a == from_b) {
-    for (int k = 0; k < count; ++k) out[k] = coupling(bodies, r, s[k]);
-    return;
-  }
-  // One body in common: the row's response of that body, seen from each of the others.
-  const BoundedBody& body = bodies[from_a ? r.a : r.b];
-  const Vec2d linear = from_a ? r.linear_a : r.linear_b;
-  const double angular = from_a ? r.angular_a : r.angular_b;
-  const double x = body.inverse_mass.x * linear.x, y = body.inverse_mass.y * linear.y,
-               turn = body.inverse_inertia * angular;
-  const bool at_a = s->a == (from_a ? r.a : r.b);
-  for (int k = 0; k < count; ++k)
-    out[k] = at_a ? x * s[k].linear_a.x + y * s[k].linear_a.y + turn * s[k].angular_a
-                  : x * s[k].linear_b.x + y * s[k].linear_b.y + turn * s[k].angular_b;
-}
-
-// A symmetric matrix of few rows, each stored from its first entry to the diagonal, all of the same width.
-struct SmallMatrix {
-  double value[kSmallRows][kSmallRows];  // not initialised
-  double inverse_pivot[kSmallRows];
-  int first[kSmallRows];
-
-  // Factorises the first `count` rows, L D L^T, in place. Returns false if a pivot is small.
-  bool factorise(int count) {
-    for (int i = 0; i < count; ++i) {
-      double* const row = value[i];
-      const double diagonal = row[i];
-      for (int j = first[i] + 1; j < i; ++j)
-        for (int k = std::max(first[i], first[j]); k < j; ++k) row[j] -= row[k] * value[j][k];
-      double pivot = diagonal;
-      for (int j = first[i]; j < i; ++j) {
-        const double l = row[j] * inverse_pivot[j];
-        pivot -= l * row[j];
-        row[j] = l;
-      }
-      if (!(pivot > kWell * diagonal)) return false;
-      inverse_pivot[i] = 1 / pivot;
-    }
-    return true;
-  }
-
-  void solve(int count, double* x) const {
-    for (int i = 0; i < count; ++i)
-      for (int j = first[i]; j < i; ++j) x[i] -= value[i][j] * x[j];
-    for (int i = 0; i < count; ++i) x[i] *= inverse_pivot[i];
-    for (int i = count - 1; i >= 0; --i)
-      for (int j = first[i]; j < i; ++j) x[j] -= value[i][j] * x[i];
-  }
-};
-
-// Copies the rows and columns `which`, in ascending order.
-void gather(const SmallMatrix& from, const int* which, int size, SmallMatrix& to) {
-  for (int k = 0; k < size; ++k) {
-    const double* const row = from.value[which[k]];
-    int first = 0;
-    while (which[first] < from.first[which[k]]) ++first;
-    to.first[k] = first;
-    for (int l = first; l <= k; ++l) to.value[k][l] = row[which[l]];
-  }
-}
-
-// Returns whether two rows act on a dynamic body in common.
-bool are_neighbours(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow& s) {
-  return ((r.a == s.a || r.a == s.b) && bodies[r.a].is_dynamic()) ||
-         ((r.b == s.a || r.b == s.b) && bodies[r.b].is_dynamic());
 }
 
 }  // namespace
@@ -494,94 +402,6 @@ void BoundedRows::set_fixed() {
     if (row.lower >= row.upper) row.state = BoundedRow::kLower;
     guess_[i] = std::min(std::max(row.impulse, row.lower), row.upper);
   }
-}
-
-// Runs block pivots on a system of few rows that are far from dependent: without an order of elimination,
-// regularisation and refinement. Returns false, with the bodies as they were, if it is none, or if the pivots
-// do not end.
-bool BoundedRows::solve_small() {
-  const int count = static_cast<int>(rows.size());
-  if (count > kSmallRows) return false;
-  if (count == 1 && rows[0].lower == -std::numeric_limits<double>::infinity() &&
-      rows[0].upper == std::numeric_limits<double>::infinity()) {
-    BoundedRow& row = rows[0];
-    row.impulse = (row.wanted - along(row)) / (mobility_[0] * (1 + row.softening) + row.compliance);
-    push(row, row.impulse);
-    return true;
-  }
-  SmallMatrix all, part;
-  int begin[kSmallRows + 1], blocks = 0;
-  bool bounded = false;
-  for (int i = 0; i < count; ++i) {
-    const BoundedRow& row = rows[i];
-    if (i == 0 || row.block != rows[i - 1].block) begin[blocks++] = i;
-    bounded = bounded || row.lower > -std::numeric_limits<double>::infinity() ||
-              row.upper < std::numeric_limits<double>::infinity();
-  }
-  begin[blocks] = count;
-  for (int block = 0; block < blocks; ++block) {
-    const int from = begin[block];
-    int first = from;
-    for (int other = 0; other < block; ++other) {
-      const int start = begin[other], size = begin[other + 1] - start;
-      const bool coupled = are_neighbours(bodies, rows[from], rows[start]);
-      if (coupled) first = std::min(first, start);
-      if (start < first) continue;
-      for (int i = from; i < begin[block + 1]; ++i) {
-        if (coupled) {
-          couple(bodies, rows[i], &rows[start], size, all.value[i] + start);
-        } else {
-          std::fill_n(all.value[i] + start, size, 0.0);
-        }
-      }
-    }
-    for (int i = from; i < begin[block + 1]; ++i) {
-      const BoundedRow& row = rows[i];
-      double* const to = all.value[i];
-      all.first[i] = first;
-      for (int j = from; j < i; ++j) to[j] = coupling(bodies, row, rows[j]);
-      if (row.coupled_compliance != 0) to[i - 1] += row.coupled_compliance;
-      to[i] = mobility_[i] * (1 + row.softening) + row.compliance;
-    }
-  }
-  if (bounded) find_largest();
-  int which[kSmallRows];
-  double x[kSmallRows];
-  for (int pivots = 0; pivots < kPivots; ++pivots) {
-    int size = 0;
-    bool held = false;
-    for (int i = 0; i < count; ++i) {
-      BoundedRow& row = rows[i];
-      if (row.state == BoundedRow::kFree) {
-        row.impulse = 0, which[size++] = i;
-      } else {
-        row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
-        held = held || row.impulse != 0;
-      }
-    }
-    if (held) apply_all();
-    for (int k = 0; k < size; ++k) x[k] = residual(which[k]);
-    if (bounded) gather(all, which, size, part);
-    SmallMatrix& free = bounded ? part : all;  // without bounds all rows are free, and stay so
-    const bool well = free.factorise(size);
-    if (well) {
-      free.solve(size, x);
-      for (int k = 0; k < size; ++k) {
-        rows[which[k]].impulse = x[k];
-        push(rows[which[k]], x[k]);
-      }
-      if (!bounded) return true;
-      if (count_wrong() == 0) {
-        if (held) shrink();
-        return true;
-      }
-      for (int i = 0; i < count; ++i)
-        if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
-    }
-    std::copy(start_.begin(), start_.end(), bodies.begin());
-    if (!well) return false;
-  }
-  return false;
 }
 
 void BoundedRows::solve() {

@@ -85,6 +85,9 @@ class BoundedRows {
   std::pmr::vector<Shift> shifts;  ///< by body, set by `correct`
 
  private:
+  // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
+  static constexpr int kPivots = 4;
+
   double along(const BoundedRow& row) const;
   void push(const BoundedRow& row, double impulse);
   void find_mobility();

@@ -32,6 +32,18 @@ double twice_work_on(const WorldData<Real>& w, int body, double dt) {
          dt;
 }
 
+// How a joint ties the anchors of its bodies together.
+enum class Hold { No, Length, Place };
+
+// A rod keeps a length, whatever way its ends turn; other joints a place, or a line, in the frame of a.
+template <class Definition>
+constexpr Hold hold_of(const Definition&) {
+  if constexpr (std::is_same_v<Definition, DistanceDefinition>) return Hold::Length;
+  if constexpr (std::is_same_v<Definition, PulleyDefinition>) return Hold::No;
+  return requires(Definition d) { d.anchor_a; }
+  ? Hold::Place : Hold::No;
+}
+
 }  // namespace
 
 template <class Real>
@@ -54,22 +66,6 @@ void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, doubl
     motion.velocity *= keep, motion.angular_velocity *= keep;
   }
 }
-
-namespace {
-
-// How a joint ties the anchors of its bodies together.
-enum class Hold { No, Length, Place };
-
-// A rod keeps a length, whatever way its ends turn; other joints a place, or a line, in the frame of a.
-template <class Definition>
-constexpr Hold hold_of(const Definition&) {
-  if constexpr (std::is_same_v<Definition, DistanceDefinition>) return Hold::Length;
-  if constexpr (std::is_same_v<Definition, PulleyDefinition>) return Hold::No;
-  return requires(Definition d) { d.anchor_a; }
-  ? Hold::Place : Hold::No;
-}
-
-}  // namespace
 
 template <class Real>
 void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double fraction) {

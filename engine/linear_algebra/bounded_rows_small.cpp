@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <limits>
+
+#include "engine/linear_algebra/bounded_rows.h"
+#include "engine/linear_algebra/row_coupling.h"
+#include "engine/linear_algebra/small_matrix.h"
+
+// Systems of few rows, without an order of elimination.
+namespace plumb {
+
+// Runs block pivots on a system of few rows that are far from dependent: without an order of elimination,
+// regularisation and refinement. Returns false, with the bodies as they were, if it is none, or if the pivots
+// do not end.
+bool BoundedRows::solve_small() {
+  const int count = static_cast<int>(rows.size());
+  if (count > kSmallRows) return false;
+  if (count == 1 && rows[0].lower == -std::numeric_limits<double>::infinity() &&
+      rows[0].upper == std::numeric_limits<double>::infinity()) {
+    BoundedRow& row = rows[0];
+    row.impulse = (row.wanted - along(row)) / (mobility_[0] * (1 + row.softening) + row.compliance);
+    push(row, row.impulse);
+    return true;
+  }
+  SmallMatrix all, part;
+  int begin[kSmallRows + 1], blocks = 0;
+  bool bounded = false;
+  for (int i = 0; i < count; ++i) {
+    const BoundedRow& row = rows[i];
+    if (i == 0 || row.block != rows[i - 1].block) begin[blocks++] = i;
+    bounded = bounded || row.lower > -std::numeric_limits<double>::infinity() ||
+              row.upper < std::numeric_limits<double>::infinity();
+  }
+  begin[blocks] = count;
+  for (int block = 0; block < blocks; ++block) {
+    const int from = begin[block];
+    int first = from;
+    for (int other = 0; other < block; ++other) {
+      const int start = begin[other], size = begin[other + 1] - start;
+      const bool coupled = are_neighbours(bodies, rows[from], rows[start]);
+      if (coupled) first = std::min(first, start);
+      if (start < first) continue;
+      for (int i = from; i < begin[block + 1]; ++i) {
+        if (coupled) {
+          couple(bodies, rows[i], &rows[start], size, all.value[i] + start);
+        } else {
+          std::fill_n(all.value[i] + start, size, 0.0);
+        }
+      }
+    }
+    for (int i = from; i < begin[block + 1]; ++i) {
+      const BoundedRow& row = rows[i];
+      double* const to = all.value[i];
+      all.first[i] = first;
+      for (int j = from; j < i; ++j) to[j] = coupling(bodies, row, rows[j]);
+      if (row.coupled_compliance != 0) to[i - 1] += row.coupled_compliance;
+      to[i] = mobility_[i] * (1 + row.softening) + row.compliance;
+    }
+  }
+  if (bounded) find_largest();
+  int which[kSmallRows];
+  double x[kSmallRows];
+  for (int pivots = 0; pivots < kPivots; ++pivots) {
+    int size = 0;
+    bool held = false;
+    for (int i = 0; i < count; ++i) {
+      BoundedRow& row = rows[i];
+      if (row.state == BoundedRow::kFree) {
+        row.impulse = 0, which[size++] = i;
+      } else {
+        row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
+        held = held || row.impulse != 0;
+      }
+    }
+    if (held) apply_all();
+    for (int k = 0; k < size; ++k) x[k] = residual(which[k]);
+    if (bounded) gather(all, which, size, part);
+    SmallMatrix& free = bounded ? part : all;  // without bounds all rows are free, and stay so
+    const bool well = free.factorise(size);
+    if (well) {
+      free.solve(size, x);
+      for (int k = 0; k < size; ++k) {
+        rows[which[k]].impulse = x[k];
+        push(rows[which[k]], x[k]);
+      }
+      if (!bounded) return true;
+      if (count_wrong() == 0) {
+        if (held) shrink();
+        return true;
+      }
+      for (int i = 0; i < count; ++i)
+        if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
+    }
+    std::copy(start_.begin(), start_.end(), bodies.begin());
+    if (!well) return false;
+  }
+  return false;
+}
+
+}  // namespace plumb
