@@ -31,7 +31,7 @@ void hash_awake_bodies(const WorldData<Real>& w, std::vector<BodyHash>& hashes) 
     add(w.position[body].x), add(w.position[body].y), add(w.bodies[body].angle);
     add(motion.velocity.x), add(motion.velocity.y), add(motion.angular_velocity);
     const std::uint64_t hash = checksum(bytes);
-    hashes.push_back({static_cast<std::uint32_t>(body), static_cast<std::uint32_t>(hash ^ (hash >> 32))});
+    hashes.push_back({static_cast<std::uint32_t>(body), static_cast<std::uint32_t>(hash)});
   }
 }
 
