@@ -439,6 +439,8 @@ MUTATIONS = [
     # Fixed steps of a scene, and the invariant monitor.
     Mutation("the substeps of force laws are lost", "engine/simulation/world_driver.cpp",
              "one_by_one ? accuracy_.substeps : 1;", "1;", "simulation"),
+    Mutation("springs pull as at the end of the step", "engine/world/forces/elastic_step.cpp",
+             "mean = 0.5 * (start + end);", "mean = end;", "simulation", ("simulation/springs_keep_energy",)),
     Mutation("explicit Euler is semi-implicit", "engine/world/integration/free_motion.cpp",
              "Integrator::ExplicitEuler ? 1 : 0", "Integrator::ExplicitEuler ? 0 : 0", "simulation"),
     Mutation("restitution in float in a world in double", "engine/world/state/shapes.cpp",

@@ -4,16 +4,13 @@
 #include <variant>
 
 #include "engine/forces/compile.h"
+#include "engine/math/small_turn.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/forces/law_bodies.h"
 #include "engine/world/state/lock.h"
 
 namespace plumb {
 namespace {
-
-/// Phase per step, rad, above which a spring is stiff. The explicit midpoint method is unstable from 2 on; at
-/// this value its energy oscillates by 2 %.
-constexpr double kStiffTurn = 0.3;
 
 Scene without_springs_and_drag(const Scene& scene) {
   Scene out = scene;
@@ -46,6 +43,7 @@ template <class Real>
 SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
     : laws_(without_springs_and_drag(scene)),
       drags_(scene.bodies.size()),
+      ends_(scene.bodies.size()),
       ids_(parts.bodies),
       poses_(scene.bodies.size()),
       twists_(scene.bodies.size()),
@@ -64,9 +62,10 @@ SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
       pulled[body] = 1;
     }
     const auto* spring = std::get_if<SpringForce>(&law);
+    predicts_ = predicts_ || spring == nullptr;
     if (spring == nullptr) continue;
-    springs_.push_back({compiler.compile(*spring)});
-    for (const int end : {springs_.back().law.a, springs_.back().law.b})
+    springs_.push_back(compiler.compile(*spring));
+    for (const int end : {springs_.back().a, springs_.back().b})
       if (end != kFixedFrame) pulled[static_cast<std::size_t>(end)] = 1;
   }
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
@@ -113,68 +112,66 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   }
 }
 
-/// Finds the stiff springs from the motion at the start of the step, and their forces by the implicit
-/// midpoint method. The tension at the middle of the step is taken at l + dt/2 l' - dt^2/4 w T. It equals
-/// that at l + dt/2 l' divided by 1 + dt^2/4 k w + dt/2 c w. w is the inverse mass of both ends along the
-/// line (Hairer, Lubich, Wanner, Geometric Numerical Integration, VI.1). The direction, too, is that at the
-/// middle, even if the line only rotates.
+/// Takes the springs' bodies and ends at the start of the step. A body that the world moves by x + dt v + c
+/// dt^2 a counts as at x + (1/2 - c) dt v: from there to the place of the next step it moves by the mean of
+/// its velocities.
 template <class Real>
-void SceneForces<Real>::stiffen(const BasicWorld<Real>& world, double dt) {
-  struct End {
-    Vec2d point{}, velocity{}, arm{};
-    double ahead = 0;  // s, time at which its position is taken
-    double inverse_mass = 0, inverse_inertia = 0;
+void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) {
+  elastic_.clear();
+  const int frame = elastic_.add_body({});
+  const WorldData<Real>& w = world.data();
+  for (const std::size_t body : acted_on_) {
+    const int index = static_cast<int>(ids_[body].index);
+    const BodyRecord<Real>& record = w.bodies[index];
+    const double inverse_mass = static_cast<double>(w.motion[index].inverse_mass);
+    const double ahead = (place_share(w, index, dt) - 0.5) * dt;
+    Elastic& end = ends_[body];
+    end.body = elastic_.add_body(
+        {.position = poses_[body].position + ahead * twists_[body].velocity,
+         .inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
+         .inverse_inertia = static_cast<double>(w.motion[index].inverse_inertia)});
+    end.rotation = turned_by(poses_[body].rotation, ahead * twists_[body].angular_velocity);
+    end.start = twists_[body];
+  }
+  const auto end_of = [&](int body, Vec2d anchor) {
+    return body == kFixedFrame ? std::pair(frame, anchor)
+                               : std::pair(ends_[body].body, ends_[body].rotation * anchor);
   };
-  const auto end_of = [&](int body, Vec2d anchor) -> End {
-    if (body == kFixedFrame) return {.point = anchor};
-    const Vec2d arm = poses_[body].rotation * anchor;
-    End end{.point = poses_[body].position + arm,
-            .velocity = twists_[body].velocity + cross(twists_[body].angular_velocity, arm),
-            .arm = arm,
-            .ahead = place_share(world.data(), static_cast<int>(ids_[body].index), dt) * dt};
-    if (world.type(ids_[body]) != BodyType::Dynamic) return end;
-    const double mass = world.mass(ids_[body]), inertia = world.inertia(ids_[body]);
-    end.inverse_mass = mass > 0 ? 1 / mass : 0;
-    end.inverse_inertia = inertia > 0 ? 1 / inertia : 0;
-    return end;
-  };
-  for (Spring& spring : springs_) {
-    const double k = spring.law.stiffness, c = spring.law.damping;
-    const End a = end_of(spring.law.a, spring.law.anchor_a), b = end_of(spring.law.b, spring.law.anchor_b);
-    const Vec2d way = b.point - a.point, speed = b.velocity - a.velocity;
-    const double length = std::sqrt(length_squared(way));
-    spring.stiff = false;
-    if (length == 0) continue;
-    const Vec2d axis = (1 / length) * way;
-    const double lever_a = cross(a.arm, axis), lever_b = cross(b.arm, axis);
-    const double w = a.inverse_mass + b.inverse_mass + lever_a * lever_a * a.inverse_inertia +
-                     lever_b * lever_b * b.inverse_inertia;
-    spring.stiff = (k * dt + c) * dt * w > kStiffTurn * kStiffTurn;
-    if (!spring.stiff) continue;
-    const double rate = dot(axis, speed);
-    const Vec2d shift = b.ahead * b.velocity - a.ahead * a.velocity;
-    const double along = dot(axis, shift);
-    const double tension = (k * (length + along - spring.law.rest_length) + c * rate) /
-                           (1 + 0.25 * dt * dt * k * w + 0.5 * dt * c * w);
-    const Vec2d middle = way + shift - along * axis;
-    const Vec2d pull = tension / std::sqrt(length_squared(middle)) * middle;
-    spring.on_a = {pull, cross(a.arm, pull)};
-    spring.on_b = {-pull, -cross(b.arm, pull)};
+  for (const SpringForceLaw<double>& law : springs_) {
+    const auto [a, arm_a] = end_of(law.a, law.anchor_a);
+    const auto [b, arm_b] = end_of(law.b, law.anchor_b);
+    elastic_.add({a, b, arm_a, arm_b, law.rest_length, law.stiffness, law.damping});
   }
 }
 
+/// Adds the forces of the springs over the step, given those of everything else in `wrenches_`.
 template <class Real>
-void SceneForces<Real>::add_springs(bool stiff) {
+void SceneForces<Real>::add_springs(double dt) {
+  if (springs_.empty()) return;
+  for (const std::size_t body : acted_on_) {
+    const Elastic& end = ends_[body];
+    const ElasticStep::Body& b = elastic_.body(end.body);
+    const Vec2d push = wrenches_[body].force;
+    const Vec2d gain{b.inverse_mass.x > 0 ? gravity_[body].x + b.inverse_mass.x * push.x : 0,
+                     b.inverse_mass.y > 0 ? gravity_[body].y + b.inverse_mass.y * push.y : 0};
+    elastic_.set_free_motion(
+        end.body, dt * (end.start.velocity + 0.5 * dt * gain),
+        dt * (end.start.angular_velocity + 0.5 * dt * b.inverse_inertia * wrenches_[body].torque));
+  }
+  elastic_.solve(dt);
+  for (const std::size_t body : acted_on_) wrenches_[body] += elastic_.wrench(ends_[body].body);
+}
+
+/// Adds the forces of the springs at the poses in `poses_`.
+template <class Real>
+void SceneForces<Real>::add_springs_at_start() {
   const Pose<double> fixed_pose{};
   const Twist<double> no_motion{};
-  for (const Spring& spring : springs_) {
-    if (spring.stiff && !stiff) continue;
-    const SpringForceLaw<double>& law = spring.law;
+  for (const SpringForceLaw<double>& law : springs_) {
     const bool has_a = law.a != kFixedFrame, has_b = law.b != kFixedFrame;
-    auto [on_a, on_b] =
-        spring.stiff ? std::pair(spring.on_a, spring.on_b)
-                     : law.wrenches(has_a ? poses_[law.a] : fixed_pose, has_a ? twists_[law.a] : no_motion,
-                                    has_b ? poses_[law.b] : fixed_pose, has_b ? twists_[law.b] : no_motion);
+    const auto [on_a, on_b] =
+        law.wrenches(has_a ? poses_[law.a] : fixed_pose, has_a ? twists_[law.a] : no_motion,
+                     has_b ? poses_[law.b] : fixed_pose, has_b ? twists_[law.b] : no_motion);
     if (has_a) wrenches_[law.a] += on_a;
     if (has_b) wrenches_[law.b] += on_b;
   }
@@ -195,13 +192,15 @@ void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   if (empty()) return;
   const double start = world.time(), end = start + dt;
   place(world);
-  stiffen(world, dt);
-  laws_.add(start, start + 0.5 * dt, poses_.data(), twists_.data(), wrenches_.data());
-  add_springs(false);
-  advance(world, dt);
-  laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
-  add_springs(true);
-  add_drag();
+  if (!springs_.empty()) place_springs(world, dt);
+  if (predicts_) {
+    laws_.add(start, start + 0.5 * dt, poses_.data(), twists_.data(), wrenches_.data());
+    add_springs(dt);
+    advance(world, dt);
+    laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
+    add_drag();
+  }
+  add_springs(dt);
   push(world);
 }
 
@@ -209,9 +208,8 @@ template <class Real>
 void SceneForces<Real>::apply_at_start(BasicWorld<Real>& world, double dt) {
   if (empty()) return;
   place(world);
-  for (Spring& spring : springs_) spring.stiff = false;
   laws_.add(world.time(), world.time() + dt, poses_.data(), twists_.data(), wrenches_.data());
-  add_springs(true);
+  add_springs_at_start();
   for (const std::size_t body : acted_on_) {
     Drag& drag = drags_[body];
     drag.now = drag.linear + drag.quadratic * std::sqrt(length_squared(twists_[body].velocity));

@@ -4,6 +4,7 @@
 
 #include "engine/forces/laws.h"
 #include "engine/world/add_scene.h"
+#include "engine/world/forces/elastic_step.h"
 
 namespace plumb {
 
@@ -19,8 +20,8 @@ class SceneForces {
   /// Adds the laws' forces for the next step of `dt` s. They are evaluated at the middle of the step,
   /// predicted without joints and contacts, so that free flight follows the midpoint method. Laws that depend
   /// on time act with their mean over the step. Drag stops a body however strong it is, and never reverses
-  /// it. Springs too stiff for the step follow the implicit midpoint method along their line: they oscillate
-  /// too slowly, but conserve energy.
+  /// it. Springs conserve energy, however stiff (elastic_step.h); with a phase of theta = omega dt a step
+  /// they oscillate too slowly by theta^2 / 12.
   void apply(BasicWorld<Real>& world, double dt);
 
   /// Does the same with the forces at the start of the step, as the Euler schemes take them.
@@ -29,10 +30,11 @@ class SceneForces {
  private:
   void place(const BasicWorld<Real>& world);
   void advance(const BasicWorld<Real>& world, double dt);
-  struct Spring {
-    SpringForceLaw<double> law;
-    bool stiff = false;             ///< in the next step
-    Wrench<double> on_a{}, on_b{};  ///< of a stiff spring
+  /// A body at the start of the step, as its springs count it.
+  struct Elastic {
+    int body = 0;  ///< in `elastic_`
+    Rotation<double> rotation{};
+    Twist<double> start{};
   };
   /// All drag on a body.
   struct Drag {
@@ -43,13 +45,17 @@ class SceneForces {
   };
   void push(BasicWorld<Real>& world);
   void add_drag();
-  void stiffen(const BasicWorld<Real>& world, double dt);
-  void add_springs(bool stiff);  ///< true: all springs; false: only those that are not stiff
+  void place_springs(const BasicWorld<Real>& world, double dt);
+  void add_springs(double dt);
+  void add_springs_at_start();
 
   Forces<double> laws_;      // all but springs and drag
   std::vector<Drag> drags_;  // by body
-  std::vector<Spring> springs_;
-  std::vector<BodyId> ids_;  // by body
+  std::vector<SpringForceLaw<double>> springs_;
+  ElasticStep elastic_;
+  std::vector<Elastic> ends_;  // by body
+  bool predicts_ = false;      // there are laws that depend on the motion at the middle of a step
+  std::vector<BodyId> ids_;    // by body
   std::vector<std::size_t> acted_on_;
   std::vector<Vec2d> gravity_;  // m/s^2, by body
   std::vector<Pose<double>> poses_;

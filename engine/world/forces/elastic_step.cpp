@@ -1,0 +1,373 @@
+#include "engine/world/forces/elastic_step.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/math/trigonometry.h"
+
+namespace plumb {
+namespace {
+
+/// Largest number of rows of a spring: along its line, across it, and the levers of its two ends.
+constexpr int kRows = 4;
+
+/// Largest number of Newton steps from one start. Nine in ten need at most 10.
+constexpr int kIterations = 20;
+/// Shortest fraction of a Newton step that is tried: 2^-8.
+constexpr int kHalvings = 8;
+/// Residual, as a fraction of the motion, at which Newton's method ends but for one more step.
+constexpr double kFound = 1e-12;
+/// The same, up to which what many iterations leave is taken for a solution.
+constexpr double kEnough = 1e-9;
+/// Rounding of the line of a spring, as a fraction of the places of its ends.
+constexpr double kRounding = 1e-15;
+/// Least change of energy in a step, as a fraction of what there is, that is undone: far above rounding, and
+/// in 1e6 steps 1 %.
+constexpr double kGain = 1e-8;
+/// Largest share by which a motion that loses energy is drawn away.
+constexpr double kMostAway = 0.5;
+/// Halvings in the search for the least share: to 1e-9.
+constexpr int kSearch = 30;
+
+Vec2d across(Vec2d axis) { return {-axis.y, axis.x}; }
+
+/// Returns sin(x) / x.
+double sinc(double x) { return std::abs(x) < 1e-2 ? 1 - x * x / 6 * (1 - x * x / 20) : rotation_of(x).s / x; }
+
+double square(double x) { return x * x; }
+
+/// Returns 1 / x, and 0 for 0: of what does not move.
+double inverse_of(double x) { return x > 0 ? 1 / x : 0; }
+
+double length_of(Vec2d v) { return std::sqrt(length_squared(v)); }
+
+/// Returns the direction of a line; of one without length, any.
+Vec2d axis_of(Vec2d line) {
+  const double length = length_of(line);
+  return length > 0 ? (1 / length) * line : Vec2d{1, 0};
+}
+
+/// Returns the row of a pull of `a` towards `direction`, and of `b` towards its opposite.
+BoundedRow pull_row(int a, Vec2d arm_a, int b, Vec2d arm_b, Vec2d direction) {
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  return {.a = a,
+          .b = b,
+          .linear_a = direction,
+          .linear_b = -direction,
+          .angular_a = cross(arm_a, direction),
+          .angular_b = -cross(arm_b, direction),
+          .lower = -kUnbounded,
+          .upper = kUnbounded};
+}
+
+}  // namespace
+
+void ElasticStep::clear() { bodies_.clear(), springs_.clear(), free_.clear(), system_.bodies.clear(); }
+
+int ElasticStep::add_body(const Body& body) {
+  bodies_.push_back(body), free_.push_back({});
+  system_.bodies.push_back({.inverse_mass = body.inverse_mass, .inverse_inertia = body.inverse_inertia});
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+/// Sums dt c / m over the springs of each body, and the squares of what rounding makes of the motion, times
+/// M.
+void ElasticStep::find_scales(double dt) {
+  damping_.assign(bodies_.size(), 0);
+  rounding_ = 0;
+  for (const Spring& spring : springs_) {
+    double places = spring.rest_length, mobility = 0;
+    for (const auto& [body, arm] : {std::pair(spring.a, spring.arm_a), std::pair(spring.b, spring.arm_b)}) {
+      const Body& b = bodies_[body];
+      const double own =
+          std::max(b.inverse_mass.x, b.inverse_mass.y) + length_squared(arm) * b.inverse_inertia;
+      damping_[body] += dt * spring.damping * own;
+      places += length_of(b.position) + length_of(arm);
+      mobility += own;
+    }
+    rounding_ += mobility * square(0.5 * dt * dt * spring.stiffness * kRounding * places);
+  }
+}
+
+Vec2d ElasticStep::line_before(const Spring& spring) const {
+  return (bodies_[spring.b].position + spring.arm_b) - (bodies_[spring.a].position + spring.arm_a);
+}
+
+Vec2d ElasticStep::line_after(const Spring& spring) const {
+  const Motion &a = moved_[spring.a], &b = moved_[spring.b];
+  return (bodies_[spring.b].position + b.way + rotation_of(b.turn) * spring.arm_b) -
+         (bodies_[spring.a].position + a.way + rotation_of(a.turn) * spring.arm_a);
+}
+
+/// Returns the damping of a spring over the step, N s/m. With dt c / m = z in sum it leaves 1 / (1 + z + z^2
+/// / 2) of a velocity: as exp(-z) to second order, and of a large z nothing. c itself, with the mean
+/// velocity, would reverse it.
+double ElasticStep::damping_of(const Spring& spring) const {
+  const double z = damping_[spring.a] + damping_[spring.b];
+  return spring.damping * (4 + 2 * z) / (4 + 2 * z + z * z);
+}
+
+/// Returns a spring's mean forces for the motion in `moved_`.
+ElasticStep::Line ElasticStep::line_of(const Spring& spring, double dt) const {
+  const Vec2d start = line_before(spring), end = line_after(spring), mean = 0.5 * (start + end);
+  const double middle = length_of(mean), lengths = length_of(start) + length_of(end);
+  const double bent = lengths > 0 ? 2 * spring.rest_length / lengths : 0;
+  const double damping = damping_of(spring);
+  const auto mean_arm = [&](int body, Vec2d arm) {
+    const double half = 0.5 * moved_[body].turn;
+    return sinc(half) * (rotation_of(half) * arm);
+  };
+  Line line{.arm_a = mean_arm(spring.a, spring.arm_a),
+            .arm_b = mean_arm(spring.b, spring.arm_b),
+            .axis = axis_of(mean)};
+  const double pull = spring.stiffness * (1 - bent);
+  line.pull = pull * mean + (damping / dt * dot(line.axis, end - start)) * line.axis;
+  line.across = std::max(pull, 0.0);
+  line.along = line.across + 2 * damping / dt;
+  if (lengths > 0) line.along += spring.stiffness * bent * 2 * middle / lengths;
+  return line;
+}
+
+/// Computes the springs' wrenches for the motion in `moved_`, and the residual free + dt^2/2 M^-1 F - moved
+/// into the bodies of the system. Returns the sum of its squares times M, kg m^2.
+double ElasticStep::evaluate(double dt) {
+  wrenches_.assign(bodies_.size(), {});
+  lines_.clear();
+  for (const Spring& spring : springs_) {
+    const Line& line = lines_.emplace_back(line_of(spring, dt));
+    wrenches_[spring.a] += {line.pull, cross(line.arm_a, line.pull)};
+    wrenches_[spring.b] += {-line.pull, -cross(line.arm_b, line.pull)};
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    BoundedBody& body = system_.bodies[i];
+    const Motion after = moved_by(static_cast<int>(i), dt);
+    body.velocity = after.way - moved_[i].way;
+    body.spin = after.turn - moved_[i].turn;
+    sum += energy_of(static_cast<int>(i), {body.velocity, body.spin});
+  }
+  return sum;
+}
+
+/// Returns the motion of a body under its wrench.
+ElasticStep::Motion ElasticStep::moved_by(int body, double dt) const {
+  const Body& b = bodies_[body];
+  const Wrench<double>& w = wrenches_[body];
+  const double share = 0.5 * dt * dt;
+  return {free_[body].way + share * Vec2d{b.inverse_mass.x * w.force.x, b.inverse_mass.y * w.force.y},
+          free_[body].turn + share * b.inverse_inertia * w.torque};
+}
+
+/// Returns M motion^2 of a body.
+double ElasticStep::energy_of(int body, const Motion& motion) const {
+  const Body& b = bodies_[body];
+  return inverse_of(b.inverse_mass.x) * square(motion.way.x) +
+         inverse_of(b.inverse_mass.y) * square(motion.way.y) +
+         inverse_of(b.inverse_inertia) * square(motion.turn);
+}
+
+/// Makes a row for each restoring part of the derivative. One of the stiffness k has the impulse x that
+/// solves J step + x / (dt^2/4 k) = 0.
+void ElasticStep::make_rows(double dt) {
+  system_.rows.clear();
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const Spring& spring = springs_[i];
+    const Line& line = lines_[i];
+    const auto add = [&](BoundedRow row, double stiffness) {
+      if (!(stiffness > 0)) return;
+      row.compliance = 1 / (0.25 * dt * dt * stiffness);
+      row.block = static_cast<int>(i);
+      system_.rows.push_back(row);
+    };
+    const auto row = [&](Vec2d direction) {
+      return pull_row(spring.a, line.arm_a, spring.b, line.arm_b, direction);
+    };
+    add(row(line.axis), line.along);
+    add(row(across(line.axis)), line.across);
+    BoundedRow lever = row({});
+    lever.angular_a = 1, lever.angular_b = 0;
+    add(lever, dot(line.arm_a, line.pull));
+    lever.angular_a = 0, lever.angular_b = 1;
+    add(lever, -dot(line.arm_b, line.pull));
+  }
+}
+
+/// Orders the elimination anew if other bodies are connected than in the last step.
+void ElasticStep::order() {
+  connected_.clear();
+  for (const Spring& spring : springs_) connected_.emplace_back(spring.a, spring.b);
+  if (connected_ == ordered_) return;
+  sizes_.assign(springs_.size(), kRows);
+  system_.order(connected_, sizes_);
+  ordered_ = connected_;
+}
+
+/// Finds Newton's step from the motion in `moved_`.
+void ElasticStep::find_step(double dt) {
+  make_rows(dt);
+  system_.solve();
+  step_.clear();
+  for (const BoundedBody& body : system_.bodies) step_.push_back({body.velocity, body.spin});
+}
+
+/// Improves the motion in `moved_` by Newton steps, each shortened until the residual shrinks. Returns the
+/// last residual.
+double ElasticStep::newton(double dt) {
+  double residual = evaluate(dt);
+  for (int iteration = 0; iteration < kIterations && residual > bound(kFound); ++iteration) {
+    const double before = residual;
+    find_step(dt);
+    last_ = moved_;
+    double part = 1;
+    for (int halving = 0; halving <= kHalvings; ++halving, part *= 0.5) {
+      for (std::size_t i = 0; i < bodies_.size(); ++i)
+        moved_[i] = {last_[i].way + part * step_[i].way, last_[i].turn + part * step_[i].turn};
+      residual = evaluate(dt);
+      if (residual < before) break;
+    }
+    if (residual < before) continue;
+    moved_ = last_;
+    return evaluate(dt);
+  }
+  return residual;
+}
+
+/// Returns the residual of which a motion is found to within a fraction: that of M times the squares of the
+/// motion, free and in `moved_`, and rounding.
+double ElasticStep::bound(double fraction) const {
+  double sum = 0;
+  for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
+    sum += energy_of(body, moved_[body]) + energy_of(body, free_[body]);
+  return square(fraction) * sum + rounding_;
+}
+
+/// Adds what one more Newton step changes to the wrenches. Those of a very stiff spring, computed from the
+/// motion alone, would be k times its rounding.
+void ElasticStep::refine(double dt) {
+  find_step(dt);
+  for (const BoundedRow& row : system_.rows) {
+    const double mean = 2 / (dt * dt) * row.impulse;
+    wrenches_[row.a] += mean * Wrench<double>{row.linear_a, row.angular_a};
+    wrenches_[row.b] += mean * Wrench<double>{row.linear_b, row.angular_b};
+  }
+}
+
+void ElasticStep::solve(double dt) {
+  find_scales(dt);
+  order();
+  double least = std::numeric_limits<double>::infinity();
+  // From rest, the first step is the linearly implicit one: of several solutions it leads to the one that
+  // shorter steps have as well.
+  for (const double start : {0.0, 1.0, 0.5}) {
+    moved_.clear();
+    for (const Motion& free : free_) moved_.push_back({start * free.way, start * free.turn});
+    const double residual = newton(dt);
+    if (residual <= bound(kEnough)) return refine(dt);
+    if (residual < least) least = residual, best_ = moved_;
+  }
+  moved_ = best_;
+  evaluate(dt);
+  hold_energy(dt);
+}
+
+int ElasticStep::group_of(const Spring& spring) const {
+  return group_of_[system_.bodies[spring.a].is_dynamic() ? spring.a : spring.b];
+}
+
+/// Finds the groups of bodies that stiff springs connect, and their energy and mean free motion.
+void ElasticStep::find_groups(double dt) {
+  group_of_.resize(bodies_.size());
+  std::iota(group_of_.begin(), group_of_.end(), 0);
+  const auto root = [&](int body) {
+    while (group_of_[body] != body) body = group_of_[body] = group_of_[group_of_[body]];
+    return body;
+  };
+  for (const auto& [a, b] : connected_)
+    if (system_.bodies[a].is_dynamic() && system_.bodies[b].is_dynamic()) group_of_[root(a)] = root(b);
+  for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) group_of_[body] = root(body);
+  groups_.assign(bodies_.size(), {});
+  for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
+    Group& group = groups_[group_of_[body]];
+    const Vec2d mass{inverse_of(bodies_[body].inverse_mass.x), inverse_of(bodies_[body].inverse_mass.y)};
+    group.mass += mass;
+    group.moment += Vec2d{mass.x * free_[body].way.x, mass.y * free_[body].way.y};
+    group.size += energy_of(body, free_[body]);
+  }
+  for (const Spring& spring : springs_) {
+    Group& group = groups_[group_of(spring)];
+    group.held =
+        group.held || !system_.bodies[spring.a].is_dynamic() || !system_.bodies[spring.b].is_dynamic();
+    group.size +=
+        0.5 * dt * dt * 0.5 * spring.stiffness * square(length_of(line_before(spring)) - spring.rest_length);
+  }
+}
+
+/// Computes what the motion in `moved_` adds to the energy of each group: the work of the wrenches that lead
+/// to it, the elastic energy, and what dampers take.
+void ElasticStep::find_gains(double dt) {
+  for (Group& group : groups_) group.gain = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    const Vec2d by_wrench = moved_[i].way - free_[i].way;
+    groups_[group_of_[i]].gain +=
+        inverse_of(body.inverse_mass.x) * by_wrench.x * moved_[i].way.x +
+        inverse_of(body.inverse_mass.y) * by_wrench.y * moved_[i].way.y +
+        inverse_of(body.inverse_inertia) * (moved_[i].turn - free_[i].turn) * moved_[i].turn;
+  }
+  for (const Spring& spring : springs_) {
+    const Vec2d before = line_before(spring), after = line_after(spring);
+    const double start = length_of(before), end = length_of(after);
+    const double elastic = 0.5 * spring.stiffness * (end - start) * (end + start - 2 * spring.rest_length);
+    const double damped = damping_of(spring) / dt * square(dot(axis_of(before + after), after - before));
+    groups_[group_of(spring)].gain += 0.5 * dt * dt * (elastic + damped);
+  }
+}
+
+/// Makes the motion of groups keep their energy: it is drawn towards one that does or, if it loses energy,
+/// away from it, by the least share. That one is the motion of their centre of mass or, if they are held,
+/// none.
+void ElasticStep::hold_energy(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) moved_[i] = moved_by(static_cast<int>(i), dt);
+  best_ = moved_;
+  find_groups(dt);
+  find_gains(dt);
+  for (Group& group : groups_) {
+    group.differs = std::abs(group.gain) > kGain * group.size;
+    group.least = group.share = group.gain > 0 ? 0 : -kMostAway;
+    group.most = group.gain > 0 ? 1 : 0;
+  }
+  draw(dt);
+  for (Group& group : groups_) group.differs = group.differs && (group.most > 0 || group.gain > 0);
+  for (int halving = 0; halving < kSearch; ++halving) {
+    for (Group& group : groups_) group.share = 0.5 * (group.least + group.most);
+    draw(dt);
+    for (Group& group : groups_) (group.gain > kGain * group.size ? group.least : group.most) = group.share;
+  }
+  for (Group& group : groups_) group.share = group.most;
+  draw(dt);
+  const double share = 2 / (dt * dt);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!groups_[group_of_[i]].differs) continue;
+    const Body& body = bodies_[i];
+    const Vec2d way = share * (moved_[i].way - free_[i].way);
+    wrenches_[i] = {{inverse_of(body.inverse_mass.x) * way.x, inverse_of(body.inverse_mass.y) * way.y},
+                    inverse_of(body.inverse_inertia) * share * (moved_[i].turn - free_[i].turn)};
+  }
+}
+
+/// Sets the motion in `moved_` to that in `best_`, drawn by the groups' shares, and finds its gains.
+void ElasticStep::draw(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Group& group = groups_[group_of_[i]];
+    const Vec2d centre = group.held ? Vec2d{}
+                                    : Vec2d{group.mass.x > 0 ? group.moment.x / group.mass.x : 0,
+                                            group.mass.y > 0 ? group.moment.y / group.mass.y : 0};
+    moved_[i] = {best_[i].way + group.share * (centre - best_[i].way), (1 - group.share) * best_[i].turn};
+  }
+  find_gains(dt);
+}
+
+}  // namespace plumb
