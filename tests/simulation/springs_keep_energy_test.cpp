@@ -104,7 +104,7 @@ TEST_P(SpringsKeepEnergy, HoweverStiffAndManyAndWithWhateverLevers) {
       if (drawn.springs[0].damping == 0 && last < 0.99) ++losses;
     }
   }
-  // Where a step does not converge, and no motion nearby keeps the energy, it is lost.
+  // Loses it where a step does not converge and no motion nearby keeps it.
   EXPECT_LE(losses, most_losses);
 }
 
