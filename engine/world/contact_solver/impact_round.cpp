@@ -235,7 +235,8 @@ class JointedRound {
       if (!has_mass(motion_[body]) || room_.struck_now[group]) continue;
       room_.struck_now[group] = 1;
       for (int i = room_.first_joint[group]; i != -1; i = room_.joints[i].next) {
-        const ImpactJoint& joint = room_.joints[i];
+        ImpactJoint& joint = room_.joints[i];
+        if (!joint.known) room_.fill_rows(room_.world, joint), joint.known = true;
         if (joint.rows == 0) continue;
         room_.taking_part.push_back(i);
         add_block(joint.a, joint.b, joint.rows);
