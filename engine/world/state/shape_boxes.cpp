@@ -24,9 +24,14 @@ Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   // Static shapes get no margin: 10 % of a large ground would pair it with everything nearby.
   if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
   box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
-  const bool alone = w.bodies[body].first_contact == kNone;
-  const Real steps = Real(alone ? tuning::kBoxSteps : tuning::kBoxStepsInCrowd);
   const BodyMotion<Real>& motion = w.motion[body];
+  const bool alone = w.bodies[body].first_contact == kNone;
+  Real steps = Real(alone ? tuning::kBoxSteps : tuning::kBoxStepsInCrowd);
+  if (!alone) {
+    const Real way = dt * (std::abs(motion.velocity.x) + std::abs(motion.velocity.y));
+    const Real most = Real(tuning::kBoxRoomInCrowd) * w.forms[shape].extent;
+    if ((steps - 1) * way > most) steps = 1 + most / way;
+  }
   return room_ahead(box, (steps * dt) * motion.velocity,
                     dt * std::abs(motion.angular_velocity) * w.extents[body], w.extents[body]);
 }
