@@ -133,13 +133,13 @@ void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Rea
   bool changes = true, rubs = false;
   for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
     looks -= static_cast<int>(struck.size());
-    changes = press();
+    changes = press() && struck.size() > 1;  // one point is solved at once
   }
   for (StruckPoint<Real>& at : struck) rubs = rubs || at.bounce->contact->friction * at.impulse > 0;
   if (rubs) rub();
   for (int sweep = 0; rubs && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
     looks -= static_cast<int>(struck.size());
-    rubs = press();
+    rubs = press() && struck.size() > 1;
   }
   const Real scale = energy_scale(work_before<Real>(struck), work_of<Real>(motion, struck));
   if (scale == 1) return;
