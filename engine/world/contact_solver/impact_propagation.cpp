@@ -15,11 +15,14 @@ constexpr double kAtOnce = 1e-3;
 // Approaches below this fraction of the fastest are left to the solver's iterations, which stop them.
 constexpr double kSlow = 1e-4;
 // Maximum number of contacts examined in all rounds of a substep, and of points solved in all their
-// iterations: kLooks and, for rebounds, kLooksToRebound times the largest e of the crowd; with e = 1 about 2
-// ms. Impacts beyond it are left to the constraints, which lose their rebounds: the fraction e of an
-// approach. A stirred heap of 6000 bodies with e = 0.1 reaches it in its first round. With six times as many
-// its overlaps are smaller by 3 % (0.107 m in place of 0.11 m), and as many bodies escape.
+// iterations: kLooks and, for rebounds, kLooksToRebound times the largest e of the impacts; with e = 1 about
+// 2 ms. Impacts beyond it are left to the constraints, which lose their rebounds: the fraction e of an
+// approach. A first round that it does not suffice for is left out, with all that it would cost: its impulses
+// would be those of an iteration broken off. A stirred heap of 6000 bodies with e = 0.1 is such a crowd in
+// nearly each substep. With six times as many looks its overlaps are smaller by 3 %.
 constexpr int kLooks = 1 << 12, kLooksToRebound = 1 << 16;
+// Least number of iterations over the points of a round: one to solve them, and one to find that done.
+constexpr int kLeastSweeps = 2;
 // Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
 // An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
 // presses a body back at once.
@@ -33,109 +36,76 @@ Real separation_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>
 }
 
 template <class Real>
-Real nearest_point(const ContactConstraint<Real>& c) {
-  return c.count == 2 ? std::min(c.now[0], c.now[1]) : c.now[0];
-}
-
-template <class Real>
 bool is_struck(const RestitutionContact<Real>& bounce) {
   return bounce.strikes[0] || bounce.strikes[1];
 }
 
-// Returns the fastest approach of a point that has an impact, m/s.
+// Returns the looks that a crowd with impacts of this largest e may take.
 template <class Real>
-Real fastest_strike(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces) {
-  Real fastest = 0;
-  for (const RestitutionContact<Real>& bounce : bounces) {
+int looks_for(Real restitution) {
+  return kLooks + static_cast<int>(Real(kLooksToRebound) * restitution);
+}
+
+// Finds the contacts that have impacts, and how fast and elastic these are.
+template <class Real>
+void find_strikes(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+                  ImpactScratch<Real>& room) {
+  room.strikes.clear(), ensure_room(room.strikes, bounces.size());
+  room.struck_points = 0, room.fastest = room.most_restitution = 0;
+  for (std::size_t at = 0; at < bounces.size(); ++at) {
+    const RestitutionContact<Real>& bounce = bounces[at];
     if (!is_struck(bounce)) continue;
-    for (int i = 0; i < bounce.contact->count; ++i) {
-      if (bounce.strikes[i]) fastest = std::max(fastest, -velocity_along_normal(motion, *bounce.contact, i));
+    room.strikes.push_back(static_cast<int>(at));
+    const ContactConstraint<Real>& c = *bounce.contact;
+    room.most_restitution = std::max(room.most_restitution, c.restitution);
+    for (int i = 0; i < c.count; ++i) {
+      if (!bounce.strikes[i]) continue;
+      ++room.struck_points;
+      room.fastest = std::max(room.fastest, -velocity_along_normal(motion, c, i));
     }
   }
-  return fastest;
 }
 
 // Time of a point without an impact to come.
 template <class Real>
 constexpr Real kNever = std::numeric_limits<Real>::infinity();
 
+// Makes room for the groups and contacts of a step, without impacts.
 template <class Real>
 void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScratch<Real>& room) {
   int bodies = static_cast<int>(room.group.size());
   for (const RestitutionContact<Real>& bounce : bounces)
     bodies = std::max({bodies, bounce.contact->body_a + 1, bounce.contact->body_b + 1});
-  if (static_cast<int>(room.reached.size()) < bodies) {
-    make_room(room.reached, bodies), make_room(room.marked, bodies), make_room(room.earliest, bodies);
-    make_room(room.last, bodies), make_room(room.first_contact, bodies), make_room(room.struck_at, bodies);
-    make_room(room.struck_now, bodies);
-  }
   const int contacts = static_cast<int>(bounces.size());
+  for (std::vector<char>* const flags : {&room.marked, &room.struck_now}) {
+    if (static_cast<int>(flags->size()) < bodies) make_room(*flags, bodies);
+    std::fill_n(flags->begin(), bodies, char(0));
+  }
+  for (std::vector<int>* const places : {&room.first_contact, &room.struck_at}) {
+    if (static_cast<int>(places->size()) < bodies) make_room(*places, bodies);
+    std::fill_n(places->begin(), bodies, -1);
+  }
+  if (static_cast<int>(room.earliest.size()) < bodies) make_room(room.earliest, bodies);
+  if (static_cast<int>(room.last.size()) < bodies) make_room(room.last, bodies);
+  std::fill_n(room.last.begin(), bodies, Real(0));
   if (static_cast<int>(room.in_list.size()) < contacts) {
-    make_room(room.in_list, contacts), make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
+    make_room(room.in_list, contacts), make_room(room.seen, contacts);
+    make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
     const std::size_t points = room.next.size();
     ensure_room(room.struck, points), ensure_room(room.grouped, points);
     ensure_room(room.following, points), ensure_room(room.latest, points);
-    ensure_room(room.crowd, room.in_list.size()), ensure_room(room.looked, room.in_list.size());
+    ensure_room(room.looked, room.in_list.size()), ensure_room(room.all_seen, room.in_list.size());
     ensure_room(room.groups, points);
   }
-  for (const RestitutionContact<Real>& bounce : bounces) {
-    for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
-      const int group = group_of(room, body);
-      room.reached[group] = room.marked[group] = 0, room.last[group] = 0;
-      room.first_contact[group] = room.struck_at[group] = -1;
-    }
-  }
-  for (const int group : room.group) room.reached[group] = 0;
-  std::fill_n(room.in_list.begin(), contacts, char(0));
-  room.crowd.clear(), room.looked.clear(), room.groups.clear(), room.struck.clear();
+  std::fill_n(room.in_list.begin(), contacts, char(0)), std::fill_n(room.seen.begin(), contacts, char(0));
+  for (int i = 0; i < contacts; ++i) room.coming[i].time[0] = room.coming[i].time[1] = kNever<Real>;
+  room.looked.clear(), room.groups.clear(), room.struck.clear(), room.all_seen.clear();
 }
 
-// Calls visit(contact) for the contacts of a group to which impacts may propagate.
+// Calls visit(contact) for the contacts of a group.
 template <class Real, class Visit>
 void for_each_at(const ImpactScratch<Real>& room, int group, const Visit& visit) {
   for (int edge = room.first_contact[group]; edge != -1; edge = room.next[edge]) visit(edge / 2);
-}
-
-// Marks the contact's bodies as reachable by impact propagation, and lists those that were not before.
-template <class Real>
-void reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, ImpactScratch<Real>& room) {
-  for (const int body : {c.body_a, c.body_b}) {
-    const int group = group_of(room, body);
-    if (!has_mass(motion[body]) || room.reached[group]) continue;
-    room.reached[group] = 1;
-    room.groups.push_back(group);
-  }
-}
-
-// Collects the contacts with impacts and all contacts to which these may propagate.
-template <class Real>
-void find_crowd(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real within,
-                ImpactScratch<Real>& room) {
-  clear_room(bounces, room);
-  const int contacts = static_cast<int>(bounces.size());
-  for (int i = contacts - 1; i >= 0; --i) {
-    const ContactConstraint<Real>& c = *bounces[i].contact;
-    if (!is_struck(bounces[i]) && !(nearest_point(c) <= within)) continue;
-    for (int side = 0; side < 2; ++side) {
-      const int body = side == 0 ? c.body_a : c.body_b;
-      if (!is_dynamic(motion[body])) continue;
-      int& first = room.first_contact[group_of(room, body)];
-      room.next[2 * i + side] = first, first = 2 * i + side;
-    }
-    if (is_struck(bounces[i])) reach(motion, c, room);
-  }
-  for (std::size_t next = 0; next < room.groups.size(); ++next) {
-    for_each_at(room, room.groups[next], [&](int i) {
-      room.in_list[i] = 1;
-      reach(motion, *bounces[i].contact, room);
-    });
-  }
-  room.groups.clear();
-  for (int i = 0; i < contacts; ++i) {
-    if (room.in_list[i] == 0) continue;
-    room.in_list[i] = 0;
-    room.crowd.push_back(i);
-  }
 }
 
 // Adds an item to a list, unless it is in there. Lists have room for all (`clear_room`).
@@ -185,17 +155,17 @@ template <class Real>
   __builtin_prefetch(&motion[c.body_a]), __builtin_prefetch(&motion[c.body_b]);
 }
 
-// Brings the contacts of a list, all of the crowd and marked, into the order of the crowd. Clears the marks.
+// Brings the contacts of a list, all marked, into the order of all `contacts`. Clears the marks.
 template <class Real>
-void arrange_looked(ImpactScratch<Real>& room) {
-  constexpr std::size_t kSorted = 16;  // a list of fewer than one in so many is sorted by itself
-  if (kSorted * room.looked.size() < room.crowd.size()) {
+void arrange_looked(int contacts, ImpactScratch<Real>& room) {
+  constexpr int kSorted = 16;  // a list of fewer than one in so many is sorted by itself
+  if (kSorted * static_cast<int>(room.looked.size()) < contacts) {
     std::sort(room.looked.begin(), room.looked.end());
     for (const int i : room.looked) room.in_list[i] = 0;
     return;
   }
   room.looked.clear();
-  for (const int i : room.crowd) {
+  for (int i = 0; i < contacts; ++i) {
     if (room.in_list[i] == 0) continue;
     room.in_list[i] = 0;
     room.looked.push_back(i);
@@ -213,6 +183,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     prefetch_listed(motion, bounces, room.looked, k);
     const int i = room.looked[k];
     room.in_list[i] = 0;
+    note(room.all_seen, room.seen, i);
     look_at(motion, bounces[i], least, h, room, room.coming[i]);
     for (const int body : {bounces[i].contact->body_a, bounces[i].contact->body_b})
       if (has_mass(motion[body])) note(room.groups, room.marked, group_of(room, body));
@@ -228,7 +199,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     room.earliest[group] = earliest;
     room.marked[group] = 0;
   }
-  arrange_looked(room);
+  arrange_looked(static_cast<int>(bounces.size()), room);
   for (const int i : room.looked) {
     const ComingImpact<Real>& coming = room.coming[i];
     if (coming.time[0] == kNever<Real> && coming.time[1] == kNever<Real>) continue;
@@ -258,42 +229,12 @@ bool time_passes(const ImpactScratch<Real>& room) {
   });
 }
 
-}  // namespace
-
+// Updates the contacts whose bodies the impacts have moved, and forgets the impacts.
 template <class Real>
-bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
-                           const ContactStep<Real>& step, ImpactScratch<Real>& room) {
-  find_crowd(motion, bounces, 2 * step.h * fastest_strike(motion, bounces), room);
-  return !room.crowd.empty();
-}
-
-template <class Real>
-int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
-                      std::vector<RestitutionContact<Real>>& bounces, const ContactStep<Real>& step,
-                      ImpactScratch<Real>& room) {
-  const Real fastest = fastest_strike(motion, bounces);
-  const Real least = std::max(step.bounce_threshold, Real(kSlow) * fastest);
-  const int size = static_cast<int>(room.crowd.size());
-  Real most_restitution = 0;
-  for (const int i : room.crowd)
-    most_restitution = std::max(most_restitution, bounces[i].contact->restitution);
-  int looks = kLooks + static_cast<int>(Real(kLooksToRebound) * most_restitution);
-  int at_one_time = kAtOneTime + kAtOneTimeEach * size;
-  int round = 0;
-  room.looked = room.crowd;
-  for (; looks > 0 && at_one_time > 0; ++round) {
-    looks -= static_cast<int>(room.looked.size());
-    find_struck(motion, bounces, least, step.h, room);
-    if (room.struck.empty()) break;
-    if (!time_passes(room)) --at_one_time;
-    resolve_round(motion, rotation, fastest, looks, room);
-    for (const StruckPoint<Real>& at : room.struck) {
-      for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
-        if (is_dynamic(motion[body]))
-          for_each_at(room, group_of(room, body), [&](int i) { note(room.looked, room.in_list, i); });
-    }
-  }
-  for (const int i : room.crowd) {
+void settle(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+            const ContactStep<Real>& step, ImpactScratch<Real>& room) {
+  for (const int i : room.looked) room.in_list[i] = 0, note(room.all_seen, room.seen, i);
+  for (const int i : room.all_seen) {
     RestitutionContact<Real>& bounce = bounces[i];
     ContactConstraint<Real>& c = *bounce.contact;
     // The remaining approaches are too slow or do not touch within this substep.
@@ -307,13 +248,68 @@ int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
       open = open && c.now[k] > step.h * closing;
     }
     bounce.closes = bounce.closes && open;
+    room.seen[i] = 0;
+    room.coming[i].time[0] = room.coming[i].time[1] = kNever<Real>;
+    for (const int body : {c.body_a, c.body_b}) room.last[group_of(room, body)] = 0;
   }
+  room.looked.clear(), room.all_seen.clear();
+}
+
+}  // namespace
+
+template <class Real>
+bool find_impacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+                  ImpactScratch<Real>& room) {
+  find_strikes(motion, bounces, room);
+  const int first_round = static_cast<int>(room.strikes.size()) + kLeastSweeps * room.struck_points;
+  return room.struck_points > 0 && first_round <= looks_for(room.most_restitution);
+}
+
+template <class Real>
+void link_contacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+                   ImpactScratch<Real>& room) {
+  clear_room(bounces, room);
+  for (int i = static_cast<int>(bounces.size()) - 1; i >= 0; --i) {
+    const ContactConstraint<Real>& c = *bounces[i].contact;
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? c.body_a : c.body_b;
+      if (!is_dynamic(motion[body])) continue;
+      int& first = room.first_contact[group_of(room, body)];
+      room.next[2 * i + side] = first, first = 2 * i + side;
+    }
+  }
+}
+
+template <class Real>
+int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
+                      std::vector<RestitutionContact<Real>>& bounces, const ContactStep<Real>& step,
+                      ImpactScratch<Real>& room) {
+  const Real least = std::max(step.bounce_threshold, Real(kSlow) * room.fastest);
+  int looks = looks_for(room.most_restitution);
+  int round = 0, at_one_time = 0;
+  room.looked = room.strikes;
+  for (; static_cast<int>(room.looked.size()) < looks; ++round) {
+    looks -= static_cast<int>(room.looked.size());
+    find_struck(motion, bounces, least, step.h, room);
+    if (room.struck.empty()) break;
+    if (!time_passes(room)) ++at_one_time;
+    resolve_round(motion, rotation, room.fastest, looks, room);
+    for (const StruckPoint<Real>& at : room.struck) {
+      for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
+        if (is_dynamic(motion[body]))
+          for_each_at(room, group_of(room, body), [&](int i) { note(room.looked, room.in_list, i); });
+    }
+    if (at_one_time >= kAtOneTime + kAtOneTimeEach * static_cast<int>(room.all_seen.size())) break;
+  }
+  settle(motion, bounces, step, room);
   return round;
 }
 
 #define PLUMB_FOR(Real)                                                                                      \
-  template bool find_reached_contacts(const BodyMotion<Real>*, std::vector<RestitutionContact<Real>>&,       \
-                                      const ContactStep<Real>&, ImpactScratch<Real>&);                       \
+  template bool find_impacts(const BodyMotion<Real>*, const std::vector<RestitutionContact<Real>>&,          \
+                             ImpactScratch<Real>&);                                                          \
+  template void link_contacts(const BodyMotion<Real>*, const std::vector<RestitutionContact<Real>>&,         \
+                              ImpactScratch<Real>&);                                                         \
   template int propagate_impacts(BodyMotion<Real>*, Rotation<Real>*, std::vector<RestitutionContact<Real>>&, \
                                  const ContactStep<Real>&, ImpactScratch<Real>&);
 PLUMB_FOR(float)

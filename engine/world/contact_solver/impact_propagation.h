@@ -6,12 +6,17 @@
 
 namespace plumb {
 
-/// Finds the contacts that impacts may reach, before `propagate_impacts`. Returns false if there are none. So
-/// far joints are given by `room.group` alone; the caller then fills in the rows of joints whose group is
-/// reached.
+/// Finds the impacts of a substep. Returns false if there are none, or more than the limit of
+/// `propagate_impacts` on work suffices for in a first round: then they are all left to the constraints.
 template <class Real>
-bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
-                           const ContactStep<Real>& step, ImpactScratch<Real>& room);
+bool find_impacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+                  ImpactScratch<Real>& room);
+
+/// Links the contacts of each group of bodies, for the substeps of a step, whose contacts and groups are the
+/// same. `room.group` is filled in.
+template <class Real>
+void link_contacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+                   ImpactScratch<Real>& room);
 
 /// Resolves the impacts of a substep by impact propagation. A body with an impact passes it on to others that
 /// it touches or is about to touch (the break of a rack). Runs before the constraints are solved, in rounds.
@@ -20,7 +25,8 @@ bool find_reached_contacts(const BodyMotion<Real>* motion, std::vector<Restituti
 /// Impulses of iterations that have not converged are scaled back until this is not positive, so no round
 /// gains energy. Friction follows, at most as much as stops the sliding. Impacts of a round that share no
 /// dynamic body, directly or by joints, are solved apart. A round examines only contacts of bodies that the
-/// last one has struck: the cost depends on the number of impacts, not on the size of the crowd.
+/// last one has struck, and the first one those that `schedule_impacts` has marked: the cost depends on the
+/// number of impacts, not on the size of the crowd.
 /// Joints pass impacts on at once: in each round the rows of a group's joints have impulses such that none of
 /// their rates changes, J M^-1 (J^T mu + N^T lambda) = 0. The impulses mu do no work.
 ///

@@ -133,13 +133,13 @@ void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Rea
   bool changes = true, rubs = false;
   for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
     looks -= static_cast<int>(struck.size());
-    changes = press();
+    changes = press() && struck.size() > 1;  // one point is solved at once
   }
   for (StruckPoint<Real>& at : struck) rubs = rubs || at.bounce->contact->friction * at.impulse > 0;
   if (rubs) rub();
   for (int sweep = 0; rubs && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
     looks -= static_cast<int>(struck.size());
-    rubs = press();
+    rubs = press() && struck.size() > 1;
   }
   const Real scale = energy_scale(work_before<Real>(struck), work_of<Real>(motion, struck));
   if (scale == 1) return;
@@ -235,7 +235,8 @@ class JointedRound {
       if (!has_mass(motion_[body]) || room_.struck_now[group]) continue;
       room_.struck_now[group] = 1;
       for (int i = room_.first_joint[group]; i != -1; i = room_.joints[i].next) {
-        const ImpactJoint& joint = room_.joints[i];
+        ImpactJoint& joint = room_.joints[i];
+        if (!joint.known) room_.fill_rows(room_.world, joint), joint.known = true;
         if (joint.rows == 0) continue;
         room_.taking_part.push_back(i);
         add_block(joint.a, joint.b, joint.rows);

@@ -36,6 +36,7 @@ struct ImpactJoint {
   int a = 0, b = 0;             ///< bodies
   int slot = 0;                 ///< in the joint set
   int first_row = 0, rows = 0;  ///< in `ImpactScratch::rows`
+  bool known = false;           ///< its rows are those of the present substep
   int next = -1;                ///< joint of the same group, in `ImpactScratch::joints`
 };
 
@@ -51,22 +52,32 @@ struct ImpactScratch {
   std::vector<int> first_joint;  ///< by group, in `joints`
   std::vector<BoundedRow> rows;  ///< between bodies of the world: equalities, or an impulse of at least 0
 
-  // By group; valid for the groups of the present impacts.
-  std::vector<char> reached;       ///< impacts may propagate to it
+  // The impacts of the substep.
+  std::vector<int> strikes;   ///< contacts that have impacts, ascending
+  int struck_points = 0;      ///< their points that have
+  Real fastest = 0;           ///< m/s, the fastest approach of these
+  Real most_restitution = 0;  ///< the largest coefficient of these contacts
+
+  void (*fill_rows)(void* world, ImpactJoint& joint) = nullptr;  ///< appends those of a joint that is struck
+  void* world = nullptr;                                         ///< for `fill_rows`
+
+  // By group.
+  bool linked = false;             ///< the contacts of groups are those of the present step
   std::vector<char> struck_now;    ///< it has an impact in this round
   std::vector<char> marked;        ///< it is in `groups`
   std::vector<Real> earliest;      ///< s, time of its next impact
   std::vector<Real> last;          ///< s, time of its last impact
-  std::vector<int> first_contact;  ///< first of the crowd's contacts at it: edge = 2 contact + side
+  std::vector<int> first_contact;  ///< first of the contacts at it: edge = 2 contact + side
   std::vector<int> struck_at;      ///< struck point of the present round at it
   // By contact.
   std::vector<int> next;      ///< by edge: the next one at the same group
   std::vector<char> in_list;  ///< it is in a list of the present round
+  std::vector<char> seen;     ///< it is in `all_seen`
   std::vector<ComingImpact<Real>> coming;
   // Lists.
-  std::vector<int> crowd;   ///< contacts to which impacts may propagate, ascending
-  std::vector<int> looked;  ///< contacts to look at
-  std::vector<int> groups;  ///< those whose impacts have changed
+  std::vector<int> looked;    ///< contacts to look at
+  std::vector<int> all_seen;  ///< contacts looked at in any round
+  std::vector<int> groups;    ///< those whose impacts have changed
   std::vector<StruckPoint<Real>> struck, grouped;
   std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
 

@@ -78,14 +78,16 @@ bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionConta
     bool arrives = false;
     for (int i = 0; i < c.count; ++i) {
       const Real closing = -velocity_along_normal(motion, c, i), s = std::max(c.now[i], Real(0));
-      const Real u = -bounce.before[i], a = (closing - u) * step.inverse_h;
-      const Real strike = std::sqrt(std::max(u * u + 2 * a * s, Real(0)));
       bounce.closes = bounce.closes || closing > step.bounce_threshold;
       // Err on the side of "in time" (factor 0.999): the solved impulse decides in the end, and rounding must
       // not exclude an impact.
       const bool in_time = closing * h > Real(0.999) * s;
-      bounce.strikes[i] = in_time && strike > step.bounce_threshold;
       arrives = arrives || in_time;
+      bounce.strikes[i] = false;
+      if (!in_time) continue;
+      const Real u = -bounce.before[i], a = (closing - u) * step.inverse_h;
+      const Real strike = std::sqrt(std::max(u * u + 2 * a * s, Real(0)));
+      bounce.strikes[i] = strike > step.bounce_threshold;
       if (!bounce.strikes[i]) continue;
       any = true;
       if (bounce.radii > 0 && c.watched != Watch::Off) note_approach(c, i, -strike);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/aabb.h"
@@ -29,14 +30,15 @@ bool may_block(const WorldData<Real>& w, int body, int other) {
   return met != nullptr && met->changed;
 }
 
-/// Returns an AABB of the body's motion until the step's end.
+/// Returns an AABB of the body's motion until the step's end. An arc through an angle leaves the straight
+/// line between its ends, passed at the same rate, by at most arm angle^2 / 8, and by no more than two arms.
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const SweptBody& flight) {
-  const Vec2<Real> start = flight.straight_at(flight.from).template as<Real>(),
-                   end = flight.straight_at(1).template as<Real>();
-  const Real arm = std::sqrt(length_squared(flight.arm.template as<Real>()));
-  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y));
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + arm + aside);
+  const Vec2<Real> start = flight.start_at(flight.from).template as<Real>(),
+                   end = flight.start_at(1).template as<Real>();
+  const double arc = length(flight.arm) * std::min(flight.turn * flight.turn / 8, 2.0);
+  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y) + arc);
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + aside);
 }
 
 /// Returns the solver's constraint of a contact, or null if it had none.

@@ -46,7 +46,7 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Restit
 template <class Real>
 void collect_joints(WorldData<Real>& w) {
   ImpactScratch<Real>& room = w.scratch.impacts;
-  room.group.clear(), room.joints.clear(), room.rows.clear();
+  room.group.clear(), room.joints.clear();
   if (w.joint_set.active_count() <= w.scratch.trees.hinges) return;
   UnionFind groups(room.group, w.bodies.size());
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -64,49 +64,62 @@ void collect_joints(WorldData<Real>& w) {
   }
 }
 
-// Fills in the rows of the joints that impacts reach: rigid rows and reached limits.
+// Fills in the rows of a joint: rigid rows and reached limits.
 template <class Real>
-void fill_joint_rows(WorldData<Real>& w) {
+void fill_joint_rows(void* world, ImpactJoint& joint) {
+  WorldData<Real>& w = *static_cast<WorldData<Real>*>(world);
   ImpactScratch<Real>& room = w.scratch.impacts;
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
-  for (ImpactJoint& joint : room.joints) {
-    joint.first_row = static_cast<int>(room.rows.size());
-    if (!room.reached[room.group[w.is_dynamic(joint.a) ? joint.a : joint.b]]) continue;
-    rows.clear();
-    w.joint_set.solver_rows(joint.slot, w.solver_bodies(), rows);
-    for (const JointSolverRow<Real>& from : rows) {
-      const bool limit = from.role == RowRole::Limit;
-      if (from.role != RowRole::Rigid && !(limit && from.row.residual <= 0)) continue;
-      BoundedRow row;
-      row.linear_a = from.row.linear_a.template as<double>();
-      row.linear_b = from.row.linear_b.template as<double>();
-      row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
-      row.upper = std::numeric_limits<double>::infinity();
-      row.lower = limit ? 0 : -row.upper;
-      room.rows.push_back(row);
-    }
-    joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
+  joint.first_row = static_cast<int>(room.rows.size());
+  rows.clear();
+  w.joint_set.solver_rows(joint.slot, w.solver_bodies(), rows);
+  for (const JointSolverRow<Real>& from : rows) {
+    const bool limit = from.role == RowRole::Limit;
+    if (from.role != RowRole::Rigid && !(limit && from.row.residual <= 0)) continue;
+    BoundedRow row;
+    row.linear_a = from.row.linear_a.template as<double>();
+    row.linear_b = from.row.linear_b.template as<double>();
+    row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+    row.upper = std::numeric_limits<double>::infinity();
+    row.lower = limit ? 0 : -row.upper;
+    room.rows.push_back(row);
   }
+  joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
+}
+
+// Begins the impacts of a substep: what has not changed since the last one of the step is kept.
+template <class Real>
+void begin_impacts(WorldData<Real>& w) {
+  ImpactScratch<Real>& room = w.scratch.impacts;
+  if (!room.linked) {
+    collect_joints(w);
+    link_contacts(w.motion.data(), w.scratch.bounces, room);
+    room.linked = true;
+  }
+  room.rows.clear();
+  for (ImpactJoint& joint : room.joints) joint.known = false;
+  room.fill_rows = fill_joint_rows<Real>, room.world = &w;
 }
 
 }  // namespace
 
 template <class Real>
-void propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
+bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
   const SolverBodies<Real> bodies = w.solver_bodies();
   ImpactScratch<Real>& room = w.scratch.impacts;
-  collect_joints(w);
-  if (!find_reached_contacts(bodies.motion, w.scratch.bounces, step, room)) return;
-  fill_joint_rows(w);
+  if (!find_impacts(bodies.motion, w.scratch.bounces, room)) return false;
+  begin_impacts(w);
   propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.bounces, step, room);
+  return true;
 }
 
-template void propagate_impacts(WorldData<float>&, const ContactStep<float>&);
-template void propagate_impacts(WorldData<double>&, const ContactStep<double>&);
+template bool propagate_impacts(WorldData<float>&, const ContactStep<float>&);
+template bool propagate_impacts(WorldData<double>&, const ContactStep<double>&);
 
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w) {
   w.scratch.bounces.clear();
+  w.scratch.impacts.linked = false;
   for (const int id : w.scratch.bouncing) {
     const ContactRecord& contact = w.contacts[id];
     if (contact.home != ContactHome::Graph) continue;

@@ -10,8 +10,9 @@ namespace plumb {
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w);
 
-/// Propagates the impacts of a substep, by contacts and by joints.
+/// Propagates the impacts of a substep, by contacts and by joints. Returns false if they are left to the
+/// constraints.
 template <class Real>
-void propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step);
+bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step);
 
 }  // namespace plumb

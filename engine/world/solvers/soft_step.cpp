@@ -141,8 +141,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const auto place = [&] {
     strikes = any_bounce(
         w, [&](std::span<Bounce> some) { return schedule_impacts(bodies.motion, some, contacts); });
+    strikes = strikes && propagate_impacts(w, contacts);
     if (!strikes) return;
-    propagate_impacts(w, contacts);
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {

@@ -123,13 +123,17 @@ inline constexpr double kSeamTolerance = 0.002;
 /// this belong to no seam.
 inline constexpr double kSeamDepth = 0.25;
 
-/// Margin of a fat AABB, as a fraction of the shape's extent, and steps of motion that it covers ahead: of a
-/// body without a contact, and of one in a crowd. Larger values mean fewer updates of the tree, but more
-/// pairs. A crowd that moves as one (a drum's filling) has three times as many pairs as contacts at 4 steps,
-/// and a tenth more instructions than at 2; bodies in free flight cost a quarter more at 2.
+/// Margin of a fat AABB, as a fraction of the shape's extent, and steps of motion ahead that it covers of a
+/// body without a contact. Larger values mean fewer updates of the tree, but more pairs; bodies in free
+/// flight cost a quarter more at 2 steps.
 inline constexpr double kBoxMargin = 0.1;
 inline constexpr double kBoxSteps = 4;
-inline constexpr double kBoxStepsInCrowd = 2;
+/// Extents of motion that the fat AABB of a body in a crowd covers, two steps at most and the next one
+/// always. A crowd that moves as one (a drum's filling) has three times as many pairs as contacts at 4 steps,
+/// and a tenth more instructions than at 2. What is stirred by more than an extent a step leaves any AABB
+/// after one or two, and room beyond the next one makes pairs with twenty others that are lost again in the
+/// next.
+inline constexpr double kBoxRoomInCrowd = 2;
 
 /// The self-overlap pass runs when the move buffer holds at least kScreenedMoves shapes, and one in
 /// kScreenedShare of all, most of them without a contact.

@@ -1,5 +1,6 @@
 #include "engine/world/state/shape_boxes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,9 +25,13 @@ Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   // Static shapes get no margin: 10 % of a large ground would pair it with everything nearby.
   if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
   box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
-  const bool alone = w.bodies[body].first_contact == kNone;
-  const Real steps = Real(alone ? tuning::kBoxSteps : tuning::kBoxStepsInCrowd);
   const BodyMotion<Real>& motion = w.motion[body];
+  const bool alone = w.bodies[body].first_contact == kNone;
+  const Real way = dt * (std::abs(motion.velocity.x) + std::abs(motion.velocity.y));
+  const Real further =
+      alone ? Real(tuning::kBoxSteps - 1) * way
+            : std::clamp(Real(tuning::kBoxRoomInCrowd) * w.forms[shape].extent - way, Real(0), way);
+  const Real steps = way > 0 ? 1 + further / way : Real(1);
   return room_ahead(box, (steps * dt) * motion.velocity,
                     dt * std::abs(motion.angular_velocity) * w.extents[body], w.extents[body]);
 }
