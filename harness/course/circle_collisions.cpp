@@ -458,7 +458,7 @@ Finding pile_rests(const Lab& lab) {
            tolerance;
   };
   const bool missed = through && rests_alone() && two_bounce(lab);
-  // What is never pushed out sinks on and on; a step's overlap, or a small share of it, stays as it is.
+  // Tells what sinks on and on from what rests too deep.
   const auto sinks_on = [&] {
     const Trace longer = lab.run(scene_of("pile", {0, -g}, {lower, upper, floor}), 3);
     const double low = longer.last(0).position.y, high = longer.last(1).position.y;

@@ -31,7 +31,7 @@ struct Finding {
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
   bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
-  bool proven = false;    ///< what was seen leaves no other cause: an experiment, or a direct measurement
+  bool proven = false;    ///< an experiment or a direct measurement leaves no other cause
   bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
   bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well

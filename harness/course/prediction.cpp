@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "harness/course/flight.h"
+#include "harness/course/likeness.h"
 #include "harness/course/student/student.h"
 
 namespace plumb::course {
@@ -34,11 +35,6 @@ constexpr double kFittedPath = 0.02, kExactPath = 0.001;
 // Right engines of different manners differ by this much in their paths, so that a wrong one may as well.
 constexpr double kManners = 2, kLoosePath = 0.3;
 
-// m: beyond it a path says nothing but that it grows.
-constexpr double kFar = 30;
-
-constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
-
 struct Attempt {
   Finding finding;
   std::vector<Recorded> runs;
@@ -54,63 +50,6 @@ std::optional<Attempt> attempt(const Check& check, const reference::Backend& eng
     return std::nullopt;
   }
   return out;
-}
-
-// Adds up the squared distances of the bodies' places in two runs.
-double distance(const Trace& a, const Trace& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k)
-    for (std::size_t i = 0; i < std::min(a.states[k].size(), b.states[k].size()); ++i) {
-      const Vec2d way = a.states[k][i].position - b.states[k][i].position;
-      if (dot(a.states[k][i].position, a.states[k][i].position) > kFar * kFar) return sum;
-      const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
-      sum += dot(way, way) + turn * turn;
-    }
-  return sum;
-}
-
-// Compares the first `runs` runs: what a check needs apart from experiments with an engine that fails it.
-double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs) {
-  double sum = 0;
-  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r)
-    sum += distance(a[r].trace, b[r].trace);
-  return std::sqrt(sum);
-}
-
-// Returns true if each reading is that of the mistake, within the tolerance that figures of mistakes have.
-bool same_readings(const Finding& seen, const Finding& predicted) {
-  if (seen.readings.size() != predicted.readings.size()) return false;
-  Judgement judgement;
-  std::vector<double> gives;
-  for (std::size_t i = 0; i < seen.readings.size(); ++i) {
-    const Reading& r = seen.readings[i];
-    judgement.read(r.what, r.unit, r.measured, r.expected, r.tolerance);
-    gives.push_back(predicted.readings[i].measured);
-  }
-  judgement.mistake("this", std::move(gives), "");
-  return judgement.finding().mistake == "this";
-}
-
-// Returns true if each reading is that of the mistake, within a hundredth of its distance from the right one
-// or a tenth of the reading's own tolerance.
-bool same_figures(const Finding& seen, const Finding& predicted) {
-  for (std::size_t i = 0; i < std::min(seen.readings.size(), predicted.readings.size()); ++i) {
-    const Reading &is = seen.readings[i], &due = predicted.readings[i];
-    const double most = std::max(0.01 * std::abs(due.measured - due.expected), 0.1 * due.tolerance);
-    if (!(std::abs(is.measured - due.measured) <= most)) return false;
-  }
-  return true;
-}
-
-// Returns true if a static body has a velocity or leaves its place.
-bool static_moves(const std::vector<Recorded>& runs) {
-  for (const Recorded& run : runs)
-    for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
-      for (const auto& states : run.trace.states)
-        if (run.scene.bodies[b].type == BodyType::Static &&
-            (states[b].velocity != Vec2d{} || states[b].position != run.scene.bodies[b].position))
-          return true;
-  return false;
 }
 
 // A mistake as the learner's engine makes it, in one of the ways in which engines work.
@@ -141,16 +80,6 @@ std::vector<Manner> manners_of(int chapter) {
     default:
       return {{}, {.once = true}, {.by_positions = true}, {.sweeps = 10}, {.fed = 0.2}};
   }
-}
-
-// Returns true if a wrong reading is predicted, and what was seen is nearer to the right one.
-bool refutes(const Finding& seen, const Finding& predicted) {
-  for (std::size_t i = 0; i < std::min(seen.readings.size(), predicted.readings.size()); ++i) {
-    const Reading &is = seen.readings[i], &due = predicted.readings[i];
-    if (!due.good() && !(std::abs(is.measured - due.measured) < std::abs(due.measured - due.expected) / 2))
-      return true;
-  }
-  return false;
 }
 
 struct Fit {
@@ -298,11 +227,6 @@ bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predic
     const auto& run = predictions.of({mistake.planted}, check);
     return run && run->finding.verdict == Verdict::Fail;
   });
-}
-
-bool finite(const Finding& finding) {
-  return std::all_of(finding.readings.begin(), finding.readings.end(),
-                     [](const Reading& r) { return std::isfinite(r.measured); });
 }
 
 bool better(const Fit& a, const Fit& b) {
@@ -455,7 +379,7 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.name, fit.says);
     return;
   }
-  // What was only suspected, and gives another motion, is not named.
+  // Names nothing that was only suspected, and gives another motion.
   if (finding.proven || finding.mistake.empty() || (!computed(finding.mistake) && !finding.observed)) return;
   unname(finding);
 }
