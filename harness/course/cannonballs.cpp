@@ -80,9 +80,9 @@ Finding ten_times_the_mass(const Lab& lab) {
   return Judgement()
       .read("vx after 1 s of a ball of 10 kg", "m/s", trace.last(1).velocity.x, v, lab.rounding(v, t))
       .read("vx of a ball that nothing pushes", "m/s", other, 0, 1e-9)
-      .mistake_if(other > 1e-9, "force_on_wrong_body",
-                  "The force moves a ball that it does not name: it acts on the body called \"body\", and on "
-                  "no other.")
+      .proven_if(other > 1e-9, "force_on_wrong_body",
+                 "The force moves a ball that it does not name: it acts on the body called \"body\", and on "
+                 "no other.")
       .mistake("mass_not_divided", {force * t},
                "Ten times too fast: the force is not divided by the mass. a = F/m; a ball of 1 kg hides it.")
       .mistake("mass_multiplied", {force * mass * t}, "The force is multiplied by the mass: a = F/m.")
@@ -240,6 +240,11 @@ Finding spring(const Lab& lab) {
   law.stiffness = k;
   scene.forces.emplace_back(law);
   const Trace trace = lab.run(scene, 10);
+  // The same, let go where it is too short.
+  Scene shortened = scene;
+  shortened.bodies.front().position.x = rest - amplitude;
+  const double quarter = 0.2;  // s; the period is 2.1 s
+  const Trace pushed = lab.run(shortened, quarter);
   const auto energy = [&](const BodyState& s) {
     const double stretch = std::hypot(s.position.x, s.position.y) - rest;
     return mass * dot(s.velocity, s.velocity) / 2 + k * stretch * stretch / 2;
@@ -257,6 +262,9 @@ Finding spring(const Lab& lab) {
       .read("growth of energy a step", "", growth, 1, swing)
       .read("x after 1 s", "m", trace.states[early][0].position.x, x(w),
             amplitude * w * te * lab.method_error(w, 1e-3) + 1e-3)
+      .read("x after 0.2 s of a ball that begins too near", "m", pushed.last(0).position.x,
+            rest - amplitude * std::cos(w * pushed.duration()),
+            amplitude * w * quarter * lab.method_error(w, 1e-3) + 1e-3)
       .mistake(
           "explicit_euler", {1 + w * w * h * h, kAny},
           fmt::format("Your energy grows by 1 + w^2 h^2 = {:.6f} a step: that is explicit Euler. Update the "
@@ -272,23 +280,23 @@ Finding spring(const Lab& lab) {
       .mistake("rest_length_ignored", {kAny, (rest + amplitude) * std::cos(w * te)},
                "The spring pulls to its anchor: take \"rest_length\" off the length.")
       .mistake("spring_ignored", {1, rest + amplitude}, "The spring does nothing.")
-      .mistake_if(
+      .proven_if(
           acts && acts->seems(acts->stiffness, k) && !acts->seems(acts->rest, rest) && !acts->damped(k),
           "rest_length_wrong",
           fmt::format("The spring acts as if it were {:.3g} m long at rest, and its \"rest_length\" is "
                       "{:.3g}: its force is stiffness (length - rest_length).",
                       acts ? acts->rest : 0, rest))
-      .mistake_if(
+      .proven_if(
           acts && acts->seems(acts->rest, rest) && !acts->seems(acts->stiffness, k) && !acts->damped(k),
           "stiffness_wrong",
           fmt::format("The spring acts with {:.3g} N/m, and its \"stiffness\" is {:.3g}: its "
                       "force is stiffness (length - rest_length), on both ends.",
                       acts ? acts->stiffness : 0, k))
-      .mistake_if(acts && acts->seems(acts->stiffness, k) && acts->seems(acts->rest, rest) && acts->damped(k),
-                  "spring_damped",
-                  fmt::format("A force of {:.3g} N s/m times the velocity acts beside the spring: its "
-                              "\"damping\" is 0 here, and nothing else acts.",
-                              acts ? acts->damping : 0))
+      .proven_if(acts && acts->seems(acts->stiffness, k) && acts->seems(acts->rest, rest) && acts->damped(k),
+                 "spring_damped",
+                 fmt::format("A force of {:.3g} N s/m times the velocity acts beside the spring: its "
+                             "\"damping\" is 0 here, and nothing else acts.",
+                             acts ? acts->damping : 0))
       .finding();
 }
 

@@ -66,6 +66,7 @@ void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
     if (!seen || (seen->general && !finding.mistake.empty())) continue;
     finding.mistake = seen->mistake;
     finding.says = seen->says;
+    finding.proven = true;
     return;
   }
 }
@@ -105,6 +106,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                              const std::function<void(const Outcome&)>& done) {
   std::vector<Outcome> out;
   int timeouts = 0;
+  bool unexplained = false;  // a check before has failed, and no mistake was named until then
   std::string named, known;  // the first mistake, and the first whose motion was computed
   for (const Chapter& chapter : chapters) {
     std::vector<Outcome> outcomes;
@@ -122,6 +124,17 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
         look_at_flights(outcome.runs, finding);
       if (!named.empty() && finding.mistake != named) finding.follows = named;
+      // After a failure that has no name, or that another has, a later one is named only for good reason: the
+      // first cause may spoil any check.
+      const bool later = (!named.empty() && finding.mistake != named) || unexplained;
+      // An experiment with many bodies that all suffer from it proves nothing then.
+      const bool proven = finding.proven && (!unexplained || outcome.check->repeatable);
+      const bool sure = proven || (unexplained ? finding.exact : finding.computed);
+      if (later && !sure && finding.verdict == Verdict::Fail && !finding.mistake.empty()) {
+        finding.mistake.clear();
+        finding.says = describe(finding.readings);
+      }
+      if (finding.verdict == Verdict::Fail && finding.mistake.empty() && named.empty()) unexplained = true;
       if (named.empty()) named = finding.mistake;
       if (known.empty() && finding.computed) known = finding.mistake;
       done(outcome);

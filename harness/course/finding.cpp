@@ -43,13 +43,23 @@ Judgement& Judgement::mistake(std::string name, std::vector<double> gives, std::
   return *this;
 }
 
+Judgement& Judgement::proven_if(bool seen, std::string name, std::string says) {
+  if (seen) proven_.push_back({std::move(name), std::move(says), {}, true});
+  return *this;
+}
+
+Judgement& Judgement::symptom_if(bool seen, std::string says) {
+  if (seen) symptoms_.push_back({"", std::move(says), {}});
+  return *this;
+}
+
 Judgement& Judgement::mistake_if(bool seen, std::string name, std::string says) {
   if (seen) seen_.push_back({std::move(name), std::move(says), {}});
   return *this;
 }
 
 Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says) {
-  if (seen) otherwise_.push_back({std::move(name), std::move(says), {}});
+  if (seen) otherwise_.push_back({std::move(name), std::move(says), {}, true});
   return *this;
 }
 
@@ -81,7 +91,7 @@ Finding Judgement::finding() const {
   out.readings = readings_;
   if (good()) return out;
   out.verdict = Verdict::Fail;
-  const Mistake* nearest = seen_.empty() ? nullptr : &seen_.front();
+  const Mistake* nearest = !proven_.empty() ? &proven_.front() : seen_.empty() ? nullptr : &seen_.front();
   double least = nearest == nullptr ? 1 : 0;
   for (const Mistake& mistake : mistakes_) {
     const double off = miss(mistake);
@@ -92,11 +102,13 @@ Finding Judgement::finding() const {
   if (nearest == nullptr && !otherwise_.empty()) nearest = &otherwise_.front();
   if (nearest == nullptr) {
     out.says = describe(readings_);
+    if (!symptoms_.empty()) out.says += " " + symptoms_.front().says;
     return out;
   }
   out.mistake = nearest->name;
   out.says = nearest->says;
   out.observed = nearest->gives.empty();
+  out.proven = nearest->proven;
   return out;
 }
 

@@ -31,6 +31,8 @@ struct Finding {
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
   bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
+  bool proven = false;    ///< an experiment or a direct measurement leaves no other cause
+  bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
   bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
 };
@@ -49,12 +51,19 @@ class Judgement {
   /// `gives` has the mistake's figure for each reading, in the order of `read`; `kAny` if undetermined.
   Judgement& mistake(std::string name, std::vector<double> gives, std::string says);
 
-  /// Adds a mistake recognised by something other than the readings. It takes precedence over mistakes by
-  /// figures.
+  /// Adds a mistake that something other than the readings proves: a direct measurement of what it does, or
+  /// an experiment that no other cause explains. It takes precedence over all others.
+  Judgement& proven_if(bool seen, std::string name, std::string says);
+
+  /// Adds a mistake that something other than the readings suggests. It takes precedence over mistakes by
+  /// figures, and is named only if the motion that it gives is the engine's (prediction.h).
   Judgement& mistake_if(bool seen, std::string name, std::string says);
 
-  /// Adds a mistake recognised by something other than the readings, named if nothing else matches.
+  /// Adds a mistake that something other than the readings proves, named if nothing else matches.
   Judgement& otherwise_if(bool seen, std::string name, std::string says);
+
+  /// Adds what was seen and has several causes: it is said, and no mistake is named, if nothing else matches.
+  Judgement& symptom_if(bool seen, std::string says);
 
   /// Returns true if every reading is within its tolerance.
   bool good() const;
@@ -65,13 +74,14 @@ class Judgement {
   struct Mistake {
     std::string name, says;
     std::vector<double> gives;
+    bool proven = false;
   };
 
   double miss(const Mistake& mistake) const;
 
   std::vector<Reading> readings_;
   std::vector<Mistake> mistakes_;
-  std::vector<Mistake> seen_, otherwise_;
+  std::vector<Mistake> proven_, seen_, otherwise_, symptoms_;
 };
 
 }  // namespace plumb::course

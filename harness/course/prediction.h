@@ -18,6 +18,17 @@ struct Predictable {
 /// Returns every mistake whose motion can be computed.
 std::vector<Predictable> predictable_mistakes();
 
+/// A quantity that the learner's engine can use with any factor, so that the factor is found by the motion.
+struct Scaled {
+  const char* quantity;
+  const char* name;
+  const char* chapters;
+  const char* says;  ///< with {} for the factor
+};
+
+/// Returns the quantities whose factor is looked for if no other mistake gives a motion.
+std::vector<Scaled> scaled_quantities();
+
 /// Names mistakes by their motion, in the failed checks of a chapter. Runs each such check on the learner's
 /// engine, without a mistake and with each that the chapter knows, by the method that `lab` declares. A
 /// mistake fits a check if the readings and the paths of all bodies are those of the engine under test. Among

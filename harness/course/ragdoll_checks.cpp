@@ -123,13 +123,13 @@ Finding ragdoll_flies(const Lab& lab) {
       .read("spin kept", "of all", l / l0, 1, lost)
       .read("widest gap in a joint", "m", gap, 0, 0.02 * lab.coarseness())
       .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
-      .mistake_if(
-          std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off, "momentum_not_kept",
+      .symptom_if(
+          std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off,
           "The centre of mass does not fall as a single ball does. Chapter 1 checks the fall itself; if that "
           "is "
           "right, joints push the whole ragdoll: their two impulses must be opposite, and corrections of "
           "positions shared by inverse mass.")
-      .mistake_if(std::abs(l / l0 - 1) > lost, "spin_not_kept",
+      .symptom_if(std::abs(l / l0 - 1) > lost,
                   "Joints change the angular momentum of the whole: an impulse at an anchor changes each "
                   "body's spin by "
                   "r x j/I, with r turned by the body's angle.")
@@ -164,17 +164,17 @@ Finding ragdoll_drops(const Lab& lab) {
       .read("widest gap in a joint", "m", gap, 0, 0.1 * lab.coarseness())
       .read("deepest centre below the ground", "m", in_ground, 0, 0.02)
       .read("fastest limb after 4 s", "m/s", fastest, 0, 1.5)
-      .mistake_if(
+      .proven_if(
           joined_fall, "joined_collide_with_nothing",
           "The torso alone lands on the ground, and with joints it falls through: a joint keeps its two "
           "bodies from colliding with each other, and with nothing else. Keep a list of pairs, not of "
           "bodies.")
       .mistake_if(in_ground > 0.5, "falls_through", "The ragdoll falls through the ground.")
-      .mistake_if(
-          gap > 0.1 * lab.coarseness(), "comes_apart",
+      .symptom_if(
+          gap > 0.1 * lab.coarseness(),
           "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
-      .mistake_if(
-          fastest > 1.5, "restless",
+      .symptom_if(
+          fastest > 1.5,
           "The ragdoll does not settle: restitution is 0 here, and corrections must not add energy. Correct "
           "positions by a share of the error each step, 0.1 to 0.3.")
       .finding();

@@ -18,8 +18,9 @@ using namespace plumb::reference;
 class StudentSimulator final : public Simulator {
  public:
   StudentSimulator(const Scene& scene, const StepSettings& settings, const std::string& mistake,
-                   Scheme scheme)
-      : substeps_(settings.substeps.value_or(1)), world_(scene, settings.dt / substeps_, mistake, scheme) {}
+                   Scheme scheme, const Manner& manner)
+      : substeps_(settings.substeps.value_or(1)),
+        world_(scene, settings.dt / substeps_, mistake, scheme, manner) {}
 
   double advance(int steps) override {
     const auto start = std::chrono::steady_clock::now();
@@ -39,7 +40,8 @@ class StudentSimulator final : public Simulator {
 
 class Student final : public Backend {
  public:
-  Student(std::string mistake, Scheme scheme) : mistake_(std::move(mistake)), scheme_(scheme) {}
+  Student(std::string mistake, Scheme scheme, Manner manner)
+      : mistake_(std::move(mistake)), scheme_(scheme), manner_(manner) {}
 
   std::string_view name() const override { return "student"; }
   std::string_view summary() const override { return "an engine as the course builds it"; }
@@ -58,18 +60,19 @@ class Student final : public Backend {
     return {{"dt", shortest(settings.dt)}};
   }
   std::unique_ptr<Simulator> create(const Scene& scene, const StepSettings& settings) const override {
-    return std::make_unique<StudentSimulator>(scene, settings, mistake_, scheme_);
+    return std::make_unique<StudentSimulator>(scene, settings, mistake_, scheme_, manner_);
   }
 
  private:
   std::string mistake_;
   Scheme scheme_;
+  Manner manner_;
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> make_student(std::string mistake, reference::Scheme scheme) {
-  return std::make_unique<Student>(std::move(mistake), scheme);
+std::unique_ptr<Backend> make_student(std::string mistake, reference::Scheme scheme, Manner manner) {
+  return std::make_unique<Student>(std::move(mistake), scheme, manner);
 }
 
 }  // namespace plumb::course

@@ -15,14 +15,22 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   const double ra = radius(bodies_[a]), rb = radius(bodies_[b]);
   const Vec2d way = bodies_[b].position - bodies_[a].position;
   const double d = length(way);
+  // The overlap is taken from r1 + r2, or from the same wrong reach.
+  constexpr std::string_view kInDepth = "_in_depth";
+  const bool in_depth = mistake_.ends_with(kInDepth);
+  const std::string_view name =
+      std::string_view(mistake_).substr(0, mistake_.size() - (in_depth ? kInDepth.size() : 0));
+  const auto wrong = [&](std::string_view reach) { return name == reach; };
   double reach = ra + rb;
-  if (is("diameters")) reach *= 2;
-  if (is("one_radius")) reach = ra;
-  if (is("other_radius")) reach = rb;
-  if (is("larger_radius")) reach = 2 * std::max(ra, rb);
-  if (is("smaller_radius")) reach = 2 * std::min(ra, rb);
-  if (is("sum_of_squared_radii")) reach = std::hypot(ra, rb);
-  if (is("mean_of_radii")) reach = (ra + rb) / 2;
+  if (wrong("diameters")) reach *= 2;
+  if (wrong("one_radius")) reach = ra;
+  if (wrong("other_radius")) reach = rb;
+  if (wrong("larger_radius")) reach = 2 * std::max(ra, rb);
+  if (wrong("smaller_radius")) reach = 2 * std::min(ra, rb);
+  if (wrong("sum_of_squared_radii")) reach = std::hypot(ra, rb);
+  if (wrong("mean_of_radii")) reach = (ra + rb) / 2;
+  if (wrong("first_radius_twice")) reach = 2 * ra;
+  if (wrong("second_radius_twice")) reach = 2 * rb;
   if (is("no_detection")) reach = 0;
   if (d <= 0 || (is("square_of_distance") ? d * d : d) >= reach) return;
   Vec2d n = 1 / d * way, rim = way;
@@ -40,9 +48,11 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
     if (is("normal_along_approach")) rim = d * n;
   }
   if (is("tangent")) n = {-n.y, n.x};
+  if (is("normal_components_swapped")) n = {n.y, n.x};
   if (is("y_of_normal_flipped")) n.y = -n.y;
-  if (is("normal_flipped")) n = -n;
-  out.push_back({a, b, bodies_[a].position + ra / d * rim, n, is("normal_flipped") ? 0 : ra + rb - d});
+  if (wrong("normal_flipped")) n = -n;
+  out.push_back({a, b, bodies_[a].position + ra / d * rim, n,
+                 is("normal_flipped") ? 0 : (in_depth ? reach : ra + rb) - d});
 }
 
 void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
@@ -73,6 +83,7 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
 // The corners of a box that lie in another box.
 void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const {
   const Rigid &b = bodies_[box], &c = bodies_[corners];
+  const auto before = static_cast<std::ptrdiff_t>(out.size());
   const Box size = this->box(b), other = this->box(c);
   const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
   for (const Vec2d sign : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}}) {
@@ -83,12 +94,14 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
     const Vec2d n = (in_x < in_y) != is("largest_overlap") ? Vec2d{std::copysign(1.0, local.x), 0}
                                                            : Vec2d{0, std::copysign(1.0, local.y)};
     Vec2d normal = q * n;
+    if (is("normal_of_the_first_face_only") && corners < box) normal = -normal;
     if (const Vec2d way = c.position - b.position; is("normal_between_centres"))
       normal = 1 / length(way) * way;
     if (is("box_normal_not_turned")) normal = n;
     out.push_back({box, corners, corner, normal, std::min(in_x, in_y)});
     if (is("one_corner")) return;
   }
+  if (is("other_corner") && std::ssize(out) > before + 1) out.erase(out.begin() + before, out.end() - 1);
 }
 
 std::vector<Touch> StudentWorld::touches() const {

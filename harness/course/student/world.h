@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "harness/course/student/student.h"
 #include "reference/backend.h"
 
 namespace plumb::course {
@@ -25,16 +26,16 @@ struct Touch {
   std::size_t a = 0, b = 0;
   Vec2d point, normal;  ///< from a to b
   double depth = 0, bounce = 0, sum = 0, sum_across = 0;
+  double last = 0;  ///< the last impulse along the normal
 };
 
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
-  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5"; ", one sweep"
-  /// after it answers contacts once a step. `scheme` is semi-implicit Euler, explicit Euler or velocity
-  /// Verlet.
+  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5". `scheme` is
+  /// semi-implicit Euler, explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
-               reference::Scheme scheme = reference::Scheme::SemiImplicitEuler);
+               reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
   void step();
   double time() const { return static_cast<double>(steps_) * dt_; }
@@ -43,6 +44,10 @@ class StudentWorld {
  private:
   bool is(std::string_view mistake) const { return mistake_ == mistake; }
   void advance();
+  int sweeps() const;
+  void answer_touches(bool with_joints);
+  void move_and_project(bool moves);
+  void correct_all(int sweeps);
   std::vector<BodyState> truly() const;           ///< the states of now, whatever is answered
   double times(std::string_view quantity) const;  ///< the factor by which a quantity is wrong, or 1
   double shown(double angle) const;
@@ -60,12 +65,17 @@ class StudentWorld {
   double restitution(const Touch& touch) const;
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
+  bool answer_wrongly(Touch& touch, double closing);
   void answer(Touch& touch);
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
   void push_out();
   void solve(const Joint& joint);
   void correct(const Joint& joint);
+  struct Arms {
+    Vec2d a, b;
+  };
+  Arms arms_of(const Touch& touch) const;
   void apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse);
 
   struct Ends {
@@ -79,8 +89,8 @@ class StudentWorld {
   std::string mistake_, quantity_;
   double factor_ = 1;
   reference::Scheme scheme_;
+  Manner manner_;
   bool touched_ = false;  ///< there was a contact
-  bool once_ = false;     ///< contacts are answered once a step
   long steps_ = 0;
   std::vector<BodyState> before_step_;  ///< the states before the last step
   std::vector<Rigid> bodies_;           ///< the scene's, then the world

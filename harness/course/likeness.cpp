@@ -1,0 +1,83 @@
+#include "harness/course/likeness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumb::course {
+namespace {
+
+// m: beyond it a path says nothing but that it grows.
+constexpr double kFar = 30;
+
+constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
+
+// Adds up the squared distances of the bodies' places in two runs.
+double distance(const Trace& a, const Trace& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k)
+    for (std::size_t i = 0; i < std::min(a.states[k].size(), b.states[k].size()); ++i) {
+      const Vec2d way = a.states[k][i].position - b.states[k][i].position;
+      if (dot(a.states[k][i].position, a.states[k][i].position) > kFar * kFar) return sum;
+      const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
+      sum += dot(way, way) + turn * turn;
+    }
+  return sum;
+}
+
+}  // namespace
+
+double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs) {
+  double sum = 0;
+  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r)
+    sum += distance(a[r].trace, b[r].trace);
+  return std::sqrt(sum);
+}
+
+bool same_readings(const Finding& seen, const Finding& predicted) {
+  if (seen.readings.size() != predicted.readings.size()) return false;
+  Judgement judgement;
+  std::vector<double> gives;
+  for (std::size_t i = 0; i < seen.readings.size(); ++i) {
+    const Reading& r = seen.readings[i];
+    judgement.read(r.what, r.unit, r.measured, r.expected, r.tolerance);
+    gives.push_back(predicted.readings[i].measured);
+  }
+  judgement.mistake("this", std::move(gives), "");
+  return judgement.finding().mistake == "this";
+}
+
+bool same_figures(const Finding& seen, const Finding& predicted) {
+  for (std::size_t i = 0; i < std::min(seen.readings.size(), predicted.readings.size()); ++i) {
+    const Reading &is = seen.readings[i], &due = predicted.readings[i];
+    const double most = std::max(0.01 * std::abs(due.measured - due.expected), 0.1 * due.tolerance);
+    if (!(std::abs(is.measured - due.measured) <= most)) return false;
+  }
+  return true;
+}
+
+bool static_moves(const std::vector<Recorded>& runs) {
+  for (const Recorded& run : runs)
+    for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
+      for (const auto& states : run.trace.states)
+        if (run.scene.bodies[b].type == BodyType::Static &&
+            (states[b].velocity != Vec2d{} || states[b].position != run.scene.bodies[b].position))
+          return true;
+  return false;
+}
+
+bool refutes(const Finding& seen, const Finding& predicted) {
+  for (std::size_t i = 0; i < std::min(seen.readings.size(), predicted.readings.size()); ++i) {
+    const Reading &is = seen.readings[i], &due = predicted.readings[i];
+    if (!due.good() && !(std::abs(is.measured - due.measured) < std::abs(due.measured - due.expected) / 2))
+      return true;
+  }
+  return false;
+}
+
+bool finite(const Finding& finding) {
+  return std::all_of(finding.readings.begin(), finding.readings.end(),
+                     [](const Reading& r) { return std::isfinite(r.measured); });
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "harness/course/finding.h"
+#include "harness/course/lab.h"
+
+/// Compares an engine's motion and figures with those of a mistake.
+namespace plumb::course {
+
+/// Compares the first `runs` runs: what a check needs apart from experiments with an engine that fails it.
+double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
+
+/// Returns true if each reading is that of the mistake, within the tolerance that figures of mistakes have.
+bool same_readings(const Finding& seen, const Finding& predicted);
+
+/// Returns true if each reading is that of the mistake, within a hundredth of its distance from the right one
+/// or a tenth of the reading's own tolerance.
+bool same_figures(const Finding& seen, const Finding& predicted);
+
+/// Returns true if a static body has a velocity or leaves its place.
+bool static_moves(const std::vector<Recorded>& runs);
+
+/// Returns true if a wrong reading is predicted, and what was seen is nearer to the right one.
+bool refutes(const Finding& seen, const Finding& predicted);
+
+bool finite(const Finding& finding);
+
+}  // namespace plumb::course

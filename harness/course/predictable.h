@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/course/prediction.h"
+
+/// The mistakes whose motion can be computed, by the chapters that teach what they get wrong.
+namespace plumb::course {
+
+std::vector<Predictable> mistakes_of_motion();
+std::vector<Predictable> mistakes_of_contacts();
+std::vector<Predictable> mistakes_of_joints();
+
+}  // namespace plumb::course

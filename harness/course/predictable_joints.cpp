@@ -1,0 +1,112 @@
+#include "harness/course/predictable.h"
+
+// The mistakes of chapter 5.
+namespace plumb::course {
+namespace {
+
+// Causes that several mistakes share.
+constexpr const char* kArmOfTheOther =
+    "An impulse acts at the other body's arm: each body has its own r, from its centre to the point.";
+constexpr const char* kOneNeverSpins =
+    "Only one of the two bodies gets spin from the joint: each changes its w by r x j/I, with its own r and "
+    "I, and a gets the opposite impulse.";
+constexpr const char* kOneEnd =
+    "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
+
+}  // namespace
+
+std::vector<Predictable> mistakes_of_joints() {
+  return {
+      {"joint_ignored", "joint_ignored", "5", "The joint does nothing: nothing holds the two together."},
+      {"impulse of a joint*0.5", "joint_impulse_halved", "5",
+       "Half of the joint's impulse acts: it is -dC/dt/(1/ma + 1/mb)."},
+      {"impulse of a joint*2", "joint_impulse_twice", "5",
+       "The joint's impulse is twice what it should be: it is to stop the change of length, not to reverse "
+       "it."},
+      {"impulse of a joint*-1", "impulse_backwards", "5",
+       "The joint's impulse has the wrong sign: it is -dC/dt/(1/ma + 1/mb) along the joint; b gets it, and a "
+       "the opposite one."},
+      {"joint_same_direction", "same_direction_for_both", "5",
+       "Both ends get the joint's impulse in the same direction: b gets it, and a the opposite one."},
+      {"no_position_correction", "no_position_correction", "5",
+       "The joint comes apart little by little: its velocities are corrected and its positions are not. "
+       "Correct them by a share of the error each step."},
+      {"correction of a joint*-1", "correction_backwards", "5",
+       "The correction of positions drives the joint apart: a moves towards b, and b towards a."},
+      {"length of a stick*0.5", "length_halved", "5",
+       "The stick is held at half of its length: take \"length\" from the scene."},
+      {"length of a stick*0", "length_ignored", "5",
+       "The stick pulls its ends together: take \"length\" off the distance."},
+      {"length of a stick*2", "length_twice", "5",
+       "The stick is held at twice its length: take \"length\" from the scene."},
+      {"stick_masses_ignored", "masses_ignored", "5",
+       "Both ends are moved alike: share the correction by inverse mass; the light end takes ten parts in "
+       "eleven."},
+      {"correction_moves_both_alike", "masses_ignored", "5",
+       "Correcting a joint's positions moves both ends alike: share it by inverse mass."},
+      {"velocities_not_recomputed", "velocities_not_recomputed", "5",
+       "Positions are corrected and velocities stay as they were: after joints have moved bodies, a velocity "
+       "is the "
+       "displacement over the step, v = (x' - x)/h."},
+      {"spins_not_recomputed", "velocities_not_recomputed", "5",
+       "Angles are corrected and spins stay as they were: after joints have turned bodies, w = (angle' - "
+       "angle)/h."},
+      {"stick_one_body_only", "one_body_only", "5",
+       "Only the second body is held: the joint pulls on both, and the first must come along."},
+      {"stick_pulls_the_second_only", "one_body_only", "5",
+       "Only the second body is held: the joint pulls on both, and the first must come along."},
+      {"stick_other_body_only", "one_body_only", "5",
+       "Only the first body is held: the joint pulls on both, and the second must feel it as well."},
+      {"stick_pulls_the_first_only", "one_body_only", "5",
+       "Only the first body is held: the joint pulls on both, and the second must feel it as well."},
+      {"joint_masses_in_place_of_inverses", "joint_impulse_weak", "5",
+       "The joint's impulse is too weak: it is -dC/dt/(1/ma + 1/mb), not divided by ma + mb."},
+      {"gravity*2", "gravity_twice", "5",
+       "The swing is that of twice the gravity: gravity acts twice a step."},
+      {"gravity*0.5", "gravity_halved", "5", "The swing is that of half the gravity."},
+      {"lever_forgotten", "lever_forgotten", "5",
+       "The hinge holds centres: it should hold the anchor, r from the centre. The anchor's velocity is v + "
+       "w x r, and an impulse changes the spin by r x j/I."},
+      {"anchor_not_turned", "anchor_not_turned", "5",
+       "The anchor does not turn with the body: turn \"anchor_b\" by the body's angle to get r."},
+      {"one_anchor_for_both", "one_anchor", "5",
+       "One anchor is used for both bodies: \"anchor_a\" is a place on a, \"anchor_b\" one on b, each from "
+       "its own centre."},
+      {"second_anchor_for_both", "one_anchor", "5",
+       "One anchor is used for both bodies: \"anchor_a\" is a place on a, \"anchor_b\" one on b, each from "
+       "its own centre."},
+      {"hinge_along_x_only", "hinge_one_axis", "5",
+       "The hinge holds its anchor along x and lets go along y: solve both, along (1, 0) and along (0, 1)."},
+      {"hinge_along_y_only", "hinge_one_axis", "5",
+       "The hinge holds its anchor along y and lets go along x: solve both, along (1, 0) and along (0, 1)."},
+      {"joint_never_spins", "joint_never_spins", "5",
+       "The hinge's impulse never changes the spin: add r x j/I to w."},
+      {"joint_without_rotation", "effective_mass_without_rotation", "5",
+       "The effective mass of the hinge lacks (r x n)^2/I: its impulse is too strong."},
+      {"joint_spins_the_first_only", "one_body_never_spins", "5", kOneNeverSpins},
+      {"joint_spins_the_second_only", "one_body_never_spins", "5", kOneNeverSpins},
+      {"joint_arms_swapped", "arm_of_the_other", "5", kArmOfTheOther},
+      {"joint_first_arm_for_both", "arm_of_the_other", "5", kArmOfTheOther},
+      {"joint_second_arm_for_both", "arm_of_the_other", "5", kArmOfTheOther},
+      {"stick_only_pulls", "stick_only_pulls", "5",
+       "The stick holds as a rope does, and gives way when its ends are pushed together: its impulse and its "
+       "correction have both signs."},
+      {"stick_only_pushes", "stick_only_pushes", "5",
+       "The stick gives way when its ends are pulled apart: its impulse and its correction have both signs."},
+      {"correction_of_the_first_end_only", "correction_of_one_end", "5", kOneEnd},
+      {"correction_of_the_second_end_only", "correction_of_one_end", "5", kOneEnd},
+      {"correction_turns_backwards", "correction_turns_backwards", "5",
+       "Correcting the hinge's positions turns the bodies the wrong way: the angle changes by (r x push)/I, "
+       "with the push that moves this body."},
+      {"correction_never_turns", "correction_never_turns", "5",
+       "Correcting the hinge's positions moves bodies and does not turn them: the push at the anchor also "
+       "changes the angle by (r x push)/I."},
+      {"joined_bodies_collide", "joined_bodies_collide", "5",
+       "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not collide, "
+       "unless \"collide\" is true."},
+      {"length of a stick*-1", "length_of_stick_reversed", "5",
+       "The motion is that of an engine in which the length of a stick has the wrong sign."},
+  };
+}
+
+}  // namespace plumb::course

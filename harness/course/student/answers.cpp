@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "harness/course/student/world.h"
+
+// Answers contacts: by impulses along the normal, by friction, and by moving bodies apart.
+namespace plumb::course {
+namespace {
+
+constexpr double kSlop = 0.001;  // m that resting bodies stay in each other, so that they still touch
+
+double length(Vec2d a) { return std::hypot(a.x, a.y); }
+
+}  // namespace
+
+double StudentWorld::restitution(const Touch& touch) const {
+  const double a = bodies_[touch.a].body->shapes[0].restitution,
+               b = bodies_[touch.b].body->shapes[0].restitution;
+  const double e = std::max(a, b) * times("restitution");
+  if (is("restitution_root")) return std::sqrt(e);
+  if (is("restitution_of_one_less")) return 1 - e;
+  if (is("restitution_minimum")) return std::min(a, b);
+  if (is("restitution_mean")) return std::sqrt(a * b);
+  if (is("restitution_sum")) return a + b;
+  if (is("restitution_of_the_first")) return a;
+  if (is("restitution_of_the_second")) return b;
+  if (is("restitution_squared")) return e * e;
+  if (is("restitution_average")) return (a + b) / 2;
+  if (is("restitution_product")) return a * b;
+  if (is("always_elastic")) return 1;
+  return is("restitution_zero") ? 0 : e;
+}
+
+// The arms of a contact, from the bodies' centres.
+StudentWorld::Arms StudentWorld::arms_of(const Touch& touch) const {
+  const Vec2d a = touch.point - bodies_[touch.a].position, b = touch.point - bodies_[touch.b].position;
+  if (is("contact_arms_exchanged")) return {b, a};
+  if (is("contact_first_arm_everywhere")) return {a, a};
+  if (is("contact_second_arm_everywhere")) return {b, b};
+  if (is("contact_arms_zero")) return {};
+  return {a, b};
+}
+
+// The velocity of b's point relative to that of a.
+Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
+  const auto at_point = [&](const Rigid& body, Vec2d arm) {
+    if (is("spin_not_in_velocity")) return body.velocity;
+    if (is("point_velocity_flipped")) return body.velocity - cross(body.spin, arm);
+    return body.velocity_at(arm);
+  };
+  const Arms arms = arms_of(touch);
+  const auto arm = [&](Vec2d own) { return is("contact_arm_from_origin") ? touch.point : own; };
+  const Vec2d a = at_point(bodies_[touch.a], arm(arms.a)), b = at_point(bodies_[touch.b], arm(arms.b));
+  const bool both = bodies_[touch.a].inverse_mass > 0 && bodies_[touch.b].inverse_mass > 0;
+  if (is("velocity_of_the_first_only") && both) return -a;
+  if (is("velocity_of_the_second_only") && both) return b;
+  if (is("velocities_added")) return a + b;
+  return b - a;
+}
+
+void StudentWorld::prepare(Touch& touch) const {
+  const double closing = dot(relative_velocity(touch), touch.normal);
+  const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
+  if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
+  if (is("bounce_of_whole_speed") && touch.bounce > 0)
+    touch.bounce = restitution(touch) * length(relative_velocity(touch));
+  if (is("bounce_sign")) touch.bounce = -touch.bounce;
+  if (is("one_plus_forgotten") && touch.bounce > 0) touch.bounce += closing;
+  if (quantity_ == "share of an overlap in the bounce") touch.bounce += factor_ * touch.depth / dt_;
+}
+
+void StudentWorld::apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse) {
+  Rigid &first = bodies_[a], &second = bodies_[b];
+  first.velocity -= first.inverse_mass * impulse;
+  first.spin -= first.inverse_inertia * cross(arm_a, impulse);
+  second.velocity += second.inverse_mass * impulse;
+  second.spin += second.inverse_inertia * cross(arm_b, impulse);
+}
+
+void StudentWorld::answer_all(std::vector<Touch>& found) {
+  if (!is("both_corners_take_all")) {
+    for (Touch& touch : found) answer(touch);
+    return;
+  }
+  const std::vector<Rigid> before = bodies_;
+  std::vector<Rigid> after = bodies_;
+  for (Touch& touch : found) {
+    answer(touch);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      after[i].velocity += bodies_[i].velocity - before[i].velocity;
+      after[i].spin += bodies_[i].spin - before[i].spin;
+    }
+    bodies_ = before;
+  }
+  bodies_ = after;
+}
+
+// Makes the mistakes that set velocities without an impulse; returns false if none of them is made.
+bool StudentWorld::answer_wrongly(Touch& touch, double closing) {
+  Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+  const Vec2d n = touch.normal;
+  if (is("both_turned") && closing < 0) {
+    a.velocity = -a.velocity;
+    return true;
+  }
+  if (is("velocity_sign_lost") && closing < 0) {
+    Rigid& moves = a.inverse_mass > 0 ? a : b;
+    const bool upright = std::abs(n.y) > std::abs(n.x);
+    double& v = upright ? moves.velocity.y : moves.velocity.x;
+    v = restitution(touch) * std::abs(v);
+    return true;
+  }
+  if (is("stops_dead") && closing < 0) {
+    a.velocity = b.velocity = {};
+    return true;
+  }
+  if (is("wrong_axis") && closing < 0) {
+    Vec2d& v = (a.inverse_mass > 0 ? a : b).velocity;
+    (std::abs(n.y) > std::abs(n.x) ? v.x : v.y) *= -restitution(touch);
+    touch.bounce = closing;
+    return true;
+  }
+  if (is("whole_velocity_scaled") && closing < 0) {
+    if (a.inverse_mass > 0) a.velocity *= -restitution(touch);
+    if (b.inverse_mass > 0) b.velocity *= -restitution(touch);
+    return true;
+  }
+  if ((is("only_vy_turned") || is("only_vx_turned")) && closing < 0) {
+    for (Rigid* moves : {&a, &b}) {
+      double& v = is("only_vy_turned") ? moves->velocity.y : moves->velocity.x;
+      if (moves->inverse_mass > 0) v *= -restitution(touch);
+    }
+    return true;
+  }
+  if (is("turned_every_step")) {
+    a.velocity -= (1 + restitution(touch)) * dot(a.velocity, n) * n;
+    return true;
+  }
+  if (is("each_turned") && closing < 0) {
+    a.velocity -= 2 * dot(a.velocity, n) * n;
+    b.velocity -= 2 * dot(b.velocity, n) * n;
+    return true;
+  }
+  return false;
+}
+
+void StudentWorld::answer(Touch& touch) {
+  Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+  const Vec2d n = touch.normal;
+  const auto [arm_a, arm_b] = arms_of(touch);
+  const double closing = dot(relative_velocity(touch), n);
+  if (is("ignores_slow") && closing > -4 * length(scene_.gravity) * dt_) return;
+  if (answer_wrongly(touch, closing)) return;
+  double spin_a = cross(arm_a, n), spin_b = cross(arm_b, n);
+  const bool heavy_only = is("effective_mass_without_rotation") || is("no_rotation");
+  double k = a.inverse_mass + b.inverse_mass;
+  if (is("first_inverse_mass_only")) k = a.inverse_mass > 0 ? a.inverse_mass : k;
+  if (is("second_inverse_mass_only")) k = b.inverse_mass > 0 ? b.inverse_mass : k;
+  if (is("first_inverse_mass_for_both") && a.inverse_mass > 0) k = 2 * a.inverse_mass;
+  if (is("second_inverse_mass_for_both") && b.inverse_mass > 0) k = 2 * b.inverse_mass;
+  if (is("first_inverse_mass_twice")) k += a.inverse_mass;
+  if (is("second_inverse_mass_twice")) k += b.inverse_mass;
+  if (is("lever_not_squared"))
+    k += a.inverse_inertia * std::abs(spin_a) + b.inverse_inertia * std::abs(spin_b);
+  else if (is("effective_mass_with_lever_only"))
+    k += spin_a * spin_a + spin_b * spin_b;
+  else if (!heavy_only)
+    k += a.inverse_inertia * spin_a * spin_a + b.inverse_inertia * spin_b * spin_b;
+  if (is("masses_in_place_of_inverses_of_moving"))
+    k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
+  if (is("masses_in_place_of_inverses")) k = 1 / a.inverse_mass + 1 / b.inverse_mass;
+  if (is("effective_mass_forgotten")) k = 1;
+  if (is("masses_ignored")) k = (a.inverse_mass > 0) + (b.inverse_mass > 0);
+  double j = times("impulse of a contact") * (touch.bounce - closing) / k;
+  const auto new_sum = [&](double change) {
+    if (is("each_push_clamped")) return touch.sum + std::max(0.0, change);
+    return is("no_test_of_parting") ? touch.sum + change : std::max(0.0, touch.sum + change);
+  };
+  const double before = touch.sum, sum = new_sum(j);
+  j = sum - before;
+  double share_a = a.inverse_mass, share_b = b.inverse_mass;
+  if (is("inverse_mass_forgotten") || is("masses_ignored")) {
+    share_a = share_a > 0;
+    share_b = share_b > 0;
+  }
+  const bool both_move = share_a > 0 && share_b > 0;
+  if (is("masses_swapped") || (is("masses_swapped_of_moving") && both_move)) std::swap(share_a, share_b);
+  if (is("one_body_only")) share_b = 0;
+  if (is("other_body_only")) share_a = 0;
+  if (is("inverse_mass_of_the_first")) share_b = share_a > 0 && share_b > 0 ? share_a : share_b;
+  if (is("inverse_mass_of_the_second")) share_a = share_a > 0 && share_b > 0 ? share_b : share_a;
+  if (is("multiplied_by_mass")) {
+    share_a = share_a > 0 ? 1 / share_a : 0;
+    share_b = share_b > 0 ? 1 / share_b : 0;
+  }
+  if (is("same_direction_for_both")) share_a = -share_a;
+  if (is("no_rotation")) spin_a = spin_b = 0;
+  if (is("r_cross_n_flipped")) spin_a = -spin_a, spin_b = -spin_b;
+  if (is("first_never_spins") || is("spin_not_changed")) spin_a = 0;
+  if (is("second_never_spins") || is("spin_not_changed")) spin_b = 0;
+  if (is("second_arm_for_both") || is("arms_swapped")) spin_a = cross(arm_b, n);
+  if (is("first_arm_for_both") || is("arms_swapped")) spin_b = cross(arm_a, n);
+  if (is("second_sees_new_velocity") || is("first_sees_new_velocity")) {
+    const bool first_now = is("second_sees_new_velocity");
+    const auto apply_to_first = [&](double push) {
+      a.velocity -= a.inverse_mass * push * n;
+      a.spin -= a.inverse_inertia * spin_a * push;
+    };
+    const auto apply_to_second = [&](double push) {
+      b.velocity += b.inverse_mass * push * n;
+      b.spin += b.inverse_inertia * spin_b * push;
+    };
+    first_now ? apply_to_first(j) : apply_to_second(j);
+    const double again = new_sum((touch.bounce - dot(relative_velocity(touch), n)) / k) - before;
+    first_now ? apply_to_second(again) : apply_to_first(again);
+    touch.sum = sum;
+    return rub(touch);
+  }
+  touch.sum = sum;
+  touch.last = j;
+  Vec2d push = j * n;
+  if (is("along_wall_changed") && j > 0 && touch.sum == j) {
+    Rigid& moves = a.inverse_mass > 0 ? a : b;
+    const Vec2d along{-n.y, n.x};
+    moves.velocity -= (1 - restitution(touch)) * dot(moves.velocity, along) * along;
+  }
+  if (is("impulse_backwards")) push = -push;
+  if (is("whole_velocity") && j > 0)
+    push = length(a.velocity - b.velocity) / k * 2.0 / length(a.velocity - b.velocity) *
+           (a.velocity - b.velocity);
+  a.velocity -= share_a * push;
+  b.velocity += share_b * push;
+  const auto eases = [&](const Rigid& body) {
+    if (is("spin_by_inverse_mass")) return body.inverse_mass;
+    return is("spin_by_impulse_alone") && body.inverse_inertia > 0 ? 1 : body.inverse_inertia;
+  };
+  a.spin -= eases(a) * spin_a * j;
+  b.spin += eases(b) * spin_b * j;
+  rub(touch);
+}
+
+// Friction: along the tangent, at most mu times the sum of the impulses along the normal.
+void StudentWorld::rub(Touch& touch) {
+  const Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+  const double mu_a = a.body->shapes[0].friction, mu_b = b.body->shapes[0].friction;
+  double mu = times("friction") * std::sqrt(mu_a * mu_b);
+  if (is("friction_product")) mu = mu_a * mu_b;
+  if (is("friction_average")) mu = (mu_a + mu_b) / 2;
+  if (is("friction_sum")) mu = mu_a + mu_b;
+  if (is("friction_minimum")) mu = std::min(mu_a, mu_b);
+  if (is("friction_maximum")) mu = std::max(mu_a, mu_b);
+  if (mu == 0 || is("friction_ignored")) return;
+  const Vec2d t{-touch.normal.y, touch.normal.x};
+  const auto [arm_a, arm_b] = arms_of(touch);
+  const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
+  const double k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a * spin_a +
+                   b.inverse_inertia * spin_b * spin_b;
+  const double sliding = dot(b.velocity_at(arm_b) - a.velocity_at(arm_a), t);
+  double most = is("friction_unlimited") ? 1e9 : mu * touch.sum;
+  if (is("friction_without_normal")) most = mu;
+  if (is("friction_without_mu")) most = touch.sum;
+  if (is("friction_limit_times_dt")) most *= dt_;
+  if (is("friction_by_last_impulse")) most = mu * std::abs(touch.last);
+  const double against = is("friction_backwards") ? -sliding : sliding;
+  const double sum = std::clamp(touch.sum_across - against / k, -most, most);
+  const double j = sum - std::exchange(touch.sum_across, sum);
+  apply_impulse(touch.a, touch.b, is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a,
+                is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b, j * t);
+}
+
+void StudentWorld::push_out() {
+  if (is("correction_split_evenly")) {
+    for (const Touch& touch : touches()) {
+      const Vec2d push = manner_.share / 2 * std::max(0.0, touch.depth - kSlop) * touch.normal;
+      bodies_[touch.a].position -= push;
+      bodies_[touch.b].position += push;
+    }
+    return;
+  }
+  if (is("sinks") || is("turned_every_step") || is("ignores_slow")) return;
+  const double part = manner_.after_move ? 1 : manner_.share, left = manner_.after_move ? 0 : kSlop;
+  for (const Touch& touch : touches()) {
+    Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+    const Vec2d push =
+        part * std::max(0.0, touch.depth - left) / (a.inverse_mass + b.inverse_mass) * touch.normal;
+    if (quantity_ == "share of an overlap that becomes velocity") {
+      const double faster = factor_ / (part * dt_);
+      a.velocity -= faster * a.inverse_mass * push;
+      b.velocity += faster * b.inverse_mass * push;
+      continue;
+    }
+    double share_a = a.inverse_mass, share_b = b.inverse_mass;
+    const bool both = share_a > 0 && share_b > 0;
+    if (is("correction_shares_swapped") && both) std::swap(share_a, share_b);
+    if (is("correction_of_the_first_only") && both) share_b = 0;
+    if (is("correction_of_the_second_only") && both) share_a = 0;
+    if (is("correction_without_masses") && both) share_a = share_b = share_a + share_b;
+    const double f = times("correction of an overlap");
+    a.position -= f * share_a * push;
+    b.position += f * share_b * push;
+  }
+}
+
+}  // namespace plumb::course

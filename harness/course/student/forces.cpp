@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "harness/course/student/world.h"
+
+// Applies forces, and moves bodies.
+namespace plumb::course {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+double length(Vec2d a) { return std::hypot(a.x, a.y); }
+
+}  // namespace
+
+void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
+  const auto names = ends_of(law);
+  const auto index = find_body(scene_, names[1] == kWorld ? names[0] : names[1]);
+  Rigid& b = bodies_[index.value_or(bodies_.size() - 1)];
+  const auto add = [&](Vec2d force) {
+    if (is("last_force_only")) b.force = {};
+    if (is("first_force_lost") && first && !last) return;
+    if (is("last_force_lost") && last && !first) return;
+    if (is("first_force_only") && !first) return;
+    if (is("force_once") && steps_ > 0) return;
+    b.force += force;
+  };
+  const auto acts = [&](double start, double duration) {
+    if (is("push_never_ends")) return time() >= start - dt_ / 2;
+    if (is("push_always")) return true;
+    if (is("push_starts_at_once")) return time() < start + duration - 1e-9;
+    if (is("push_ends_at_duration")) return time() >= start - 1e-9 && time() < duration - 1e-9;
+    if (is("push_in_steps")) {
+      const double n = static_cast<double>(steps_);
+      return n >= start && n < start + duration;
+    }
+    if (is("push_for_one_step")) return time() >= start - 1e-9 && time() < start + dt_ - 1e-9;
+    if (is("push_a_step_late")) return time() >= start + dt_ / 2 && time() < start + duration - 1e-9;
+    if (is("push_from_zero")) return time() < duration - 1e-9;
+    return time() >= start - 1e-9 && time() < start + duration - 1e-9;
+  };
+  if (const auto* push = std::get_if<PointForce>(&law)) {
+    if (!acts(push->start, push->duration)) return;
+    add(times("force") * push->force +
+        (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
+    Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
+    if (is("lever_from_origin")) arm += b.position;
+    if (is("point_ignored")) arm = {};
+    if (is("point_turned_backwards"))
+      arm = Rotation<double>{std::cos(b.angle), -std::sin(b.angle)} * push->point;
+    arm *= times("arm of a force");
+    double turns = cross(arm, push->force);
+    if (is("dot_for_cross")) turns = dot(arm, push->force);
+    if (is("only_rx_fy")) turns = arm.x * push->force.y;
+    if (is("only_ry_fx")) turns = -arm.y * push->force.x;
+    if (is("sum_for_cross")) turns = arm.x * push->force.y + arm.y * push->force.x;
+    if (is("length_for_cross")) turns = length(arm) * length(push->force);
+    b.torque += turns * (is("torque_backwards") ? -1 : 1);
+  } else if (const auto* torque = std::get_if<Torque>(&law)) {
+    if (acts(torque->start, torque->duration)) b.torque += times("torque") * torque->torque;
+  } else if (const auto* drag = std::get_if<LinearDrag>(&law)) {
+    const double share = is("drag_not_divided") ? 1 / b.inverse_mass : 1;
+    const double speed = length(b.velocity), c = (is("drag_pushes") ? share : -share) * drag->coefficient;
+    if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
+    if (is("drag_quadratic")) return add(c * speed * b.velocity);
+    if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
+    if (is("drag_along_x_only")) return add({c * b.velocity.x, 0});
+    if (is("drag_along_x_always")) return add({c * speed, 0});
+    if (is("drag_along_y_always")) return add({0, c * speed});
+    add(times("drag") * c * b.velocity);
+  } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
+    const Vec2d way = b.position - spring->anchor_a;
+    const double rest = spring->rest_length * times("rest length of a spring"), stretch = length(way) - rest;
+    double tension = spring->stiffness * stretch * times("stiffness of a spring");
+    if (is("spring_always_pulls")) tension = std::abs(tension);
+    if (is("spring_always_pushes")) tension = -std::abs(tension);
+    if (is("spring_dt_twice")) tension *= dt_;
+    if (is("spring_only_pulls")) tension = std::max(tension, 0.0);
+    if (is("spring_only_pushes")) tension = std::min(tension, 0.0);
+    if (is("spring_by_sign")) tension = std::copysign(spring->stiffness, stretch);
+    if (is("spring_by_square")) tension = std::copysign(spring->stiffness * stretch * stretch, stretch);
+    if (is("spring_not_unit")) tension *= length(way);
+    if (is("spring_mass_not_divided")) tension /= b.inverse_mass;
+    if (is("spring_divided_by_mass_twice")) tension *= b.inverse_mass;
+    add(-tension / length(way) * way);
+  }
+}
+
+void StudentWorld::gather_forces() {
+  for (Rigid& b : bodies_) {
+    if (!is("force_not_cleared")) b.force = {};
+    b.torque = 0;
+  }
+  for (std::size_t i = 0; i < scene_.forces.size(); ++i)
+    apply(scene_.forces[i], i == 0, i + 1 == scene_.forces.size());
+}
+
+void StudentWorld::accelerate() {
+  Vec2d g = scene_.gravity;
+  if (is("no_gravity")) g = {};
+  g *= times("gravity");
+  if (is("gravity_of_10")) g = {0, -10};
+  if (is("gravity_of_9_80665")) g = {0, -9.80665};
+  if (is("gravity_components_swapped")) g = {g.y, g.x};
+  if (is("gravity_x_into_y")) g.y += g.x;
+  if (is("gravity_y_into_x")) g.x += g.y;
+  if (is("gravity_lost_on_contact") && touched_) g = {};
+  if (is("gravity_hard_coded")) g = {0, -9.81};
+  if (is("gravity_only_down")) g.x = 0;
+  if (is("gravity_of_9_8")) g = {0, -9.8};
+  double dt = dt_;
+  if (is("dt_twice")) dt *= dt_;
+  if (is("dt_missing")) dt = 1;
+  if (is("milliseconds")) dt *= 1000;
+  if (is("per_frame")) dt = 1.0 / 60;
+  for (Rigid& b : bodies_) {
+    if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
+    Vec2d fall = is("gravity_off_while_touching") && b.touched ? Vec2d{} : g;
+    b.touched = false;
+    if (is("gravity_divided_by_mass")) fall *= b.inverse_mass;
+    if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
+    double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
+    if (is("mass_multiplied")) inverse = 1 / b.inverse_mass;
+    if (is("mass_divided_twice")) inverse *= inverse;
+    if (is("root_of_mass")) inverse = std::sqrt(inverse);
+    double force_dt = dt;
+    if (is("force_without_dt")) force_dt = 1;
+    if (is("force_per_frame")) force_dt = 1.0 / 60;
+    if (is("force_dt_twice")) force_dt = dt_ * dt_;
+    const Vec2d gain = dt * fall + force_dt * inverse * b.force;
+    if (is("constant_speed")) b.velocity = b.body->velocity;
+    b.velocity += gain;
+    if (is("damping")) b.velocity *= 0.99;
+    if (quantity_ == "speed below which bodies stop" && length(b.velocity) < factor_) b.velocity = {};
+    const double torque_dt = is("torque_without_dt") ? 1 : is("torque_dt_twice") ? dt * dt : dt;
+    b.spin += torque_dt * b.inverse_inertia * b.torque;
+    if (is("spin_damping")) b.spin *= 0.99;
+  }
+}
+
+void StudentWorld::move() {
+  for (Rigid& b : bodies_) {
+    if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
+    if (is("moves_by_first_velocity")) {
+      b.position += dt_ * b.body->velocity;
+    } else {
+      const double dt = is("velocity_without_dt") ? 1 : is("velocity_with_dt_twice") ? dt_ * dt_ : dt_;
+      const Vec2d v =
+          scheme_ == reference::Scheme::VelocityVerlet ? 0.5 * (b.velocity + b.before) : b.velocity;
+      b.position += times("velocity in the position's change") * dt * v;
+    }
+    b.before = b.velocity;
+    if (is("half_a_step_twice")) b.position += dt_ * dt_ / 2 * scene_.gravity;
+    b.angle += dt_ * b.spin * times("spin in the angle's change") *
+               (is("spin_in_degrees")        ? kDegrees
+                : is("spin_read_as_degrees") ? 1 / kDegrees
+                                             : 1);
+  }
+}
+
+}  // namespace plumb::course

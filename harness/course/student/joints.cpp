@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "harness/course/student/world.h"
+
+// Holds joints: by impulses, and by correcting positions.
+namespace plumb::course {
+namespace {
+
+constexpr double kShare = 0.5;  // of a joint's error that a correction removes
+
+double length(Vec2d a) { return std::hypot(a.x, a.y); }
+
+}  // namespace
+
+StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
+  return std::visit(
+      [&](const auto& j) -> Ends {
+        Ends out{find_body(scene_, j.body_a).value_or(bodies_.size() - 1),
+                 find_body(scene_, j.body_b).value_or(bodies_.size() - 1),
+                 {},
+                 {},
+                 {}};
+        if constexpr (requires { j.anchor_a; }) {
+          const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
+          const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
+          const Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
+          out.arm_a = is("anchor_not_turned") ? anchor_a : a.to_world(anchor_a);
+          out.arm_b = is("anchor_not_turned") ? anchor_b : b.to_world(anchor_b);
+          out.gap = b.position + out.arm_b - a.position - out.arm_a;
+        }
+        return out;
+      },
+      joint);
+}
+
+// A stick as one row along it, a hinge as two, x and y, one after the other.
+void StudentWorld::solve(const Joint& joint) {
+  Ends e = ends(joint);
+  if (is("lever_forgotten")) e.arm_a = e.arm_b = {};
+  Rigid &a = bodies_[e.a], &b = bodies_[e.b];
+  const bool stick = std::holds_alternative<DistanceJoint>(joint);
+  const double gap = length(e.gap);
+  for (const Vec2d n : {stick ? 1 / gap * e.gap : Vec2d{1, 0}, Vec2d{0, 1}}) {
+    const double error = dot(e.gap, n) - (stick ? std::get<DistanceJoint>(joint).length : 0);
+    const double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
+    const double speed = dot(b.velocity_at(e.arm_b) - a.velocity_at(e.arm_a), n) + fed;
+    const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
+    double k = a.inverse_mass + b.inverse_mass;
+    if (!is("joint_without_rotation")) k += a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
+    if (is("joint_masses_in_place_of_inverses"))
+      k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
+    if (stick && is("stick_only_pulls") && (speed < 0 || gap < std::get<DistanceJoint>(joint).length)) break;
+    if (stick && is("stick_only_pushes") && (speed > 0 || gap > std::get<DistanceJoint>(joint).length)) break;
+    if (n.x == 0 && is("hinge_along_x_only") && !stick) break;
+    if (n.y == 0 && is("hinge_along_y_only") && !stick) continue;
+    if (is("joint_same_direction")) {
+      const Vec2d push = -speed / k * n;
+      a.velocity += a.inverse_mass * push;
+      a.spin += a.inverse_inertia * cross(e.arm_a, push);
+      b.velocity += b.inverse_mass * push;
+      b.spin += b.inverse_inertia * cross(e.arm_b, push);
+    } else if (is("stick_masses_ignored")) {
+      a.velocity += speed / 2 * n;
+      b.velocity -= speed / 2 * n;
+    } else if (is("stick_one_body_only")) {
+      b.velocity -= speed * n;
+    } else if (is("stick_other_body_only")) {
+      if (a.inverse_mass > 0) a.velocity += speed * n;
+    } else if (is("stick_pulls_the_second_only")) {
+      b.velocity -= b.inverse_mass * speed / k * n;
+      b.spin -= b.inverse_inertia * sb * speed / k;
+    } else if (is("stick_pulls_the_first_only")) {
+      a.velocity += a.inverse_mass * speed / k * n;
+      a.spin += a.inverse_inertia * sa * speed / k;
+    } else if (is("joint_never_spins")) {
+      a.velocity += a.inverse_mass * speed / k * n;
+      b.velocity -= b.inverse_mass * speed / k * n;
+    } else if (is("joint_spins_the_first_only") || is("joint_spins_the_second_only")) {
+      const bool first = is("joint_spins_the_first_only");
+      apply_impulse(e.a, e.b, first ? e.arm_a : Vec2d{}, first ? Vec2d{} : e.arm_b, -speed / k * n);
+    } else if (is("joint_arms_swapped") || is("joint_first_arm_for_both") ||
+               is("joint_second_arm_for_both")) {
+      apply_impulse(e.a, e.b, is("joint_first_arm_for_both") ? e.arm_a : e.arm_b,
+                    is("joint_second_arm_for_both") ? e.arm_b : e.arm_a, -speed / k * n);
+    } else {
+      apply_impulse(e.a, e.b, e.arm_a, e.arm_b, -times("impulse of a joint") * speed / k * n);
+    }
+    if (stick) break;
+  }
+}
+
+void StudentWorld::correct(const Joint& joint) {
+  const Ends e = ends(joint);
+  Rigid &a = bodies_[e.a], &b = bodies_[e.b];
+  Vec2d error = e.gap;
+  if (const auto* stick = std::get_if<DistanceJoint>(&joint))
+    error *= 1 - times("length of a stick") * stick->length / length(e.gap);
+  const double size = length(error);
+  if (size == 0) return;
+  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
+  if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
+  const Vec2d n = 1 / size * error;
+  const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
+  const double k =
+      a.inverse_mass + b.inverse_mass + a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
+  const double push = times("correction of a joint") * (manner_.by_positions ? 1 : kShare) * size / k;
+  const double turn = is("correction_turns_backwards") ? -push : is("correction_never_turns") ? 0 : push;
+  if (is("correction_moves_both_alike") && a.inverse_mass > 0 && b.inverse_mass > 0) {
+    const Vec2d half = push * k / 2 * n;
+    a.position += half;
+    b.position -= half;
+    return;
+  }
+  if (!is("correction_of_the_second_end_only")) {
+    a.position += a.inverse_mass * push * n;
+    a.angle += a.inverse_inertia * sa * turn;
+  }
+  if (is("correction_of_the_first_end_only")) return;
+  b.position -= b.inverse_mass * push * n;
+  b.angle -= b.inverse_inertia * sb * turn;
+}
+
+}  // namespace plumb::course
