@@ -101,7 +101,7 @@ template <class Real>
 void reach(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, ImpactScratch<Real>& room) {
   for (const int body : {c.body_a, c.body_b}) {
     const int group = group_of(room, body);
-    if (!has_mass(motion[body]) || room.reached[group]) continue;
+    if (!is_dynamic(motion[body]) || room.reached[group]) continue;
     room.reached[group] = 1;
     room.groups.push_back(group);
   }
@@ -215,7 +215,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     room.in_list[i] = 0;
     look_at(motion, bounces[i], least, h, room, room.coming[i]);
     for (const int body : {bounces[i].contact->body_a, bounces[i].contact->body_b})
-      if (has_mass(motion[body])) note(room.groups, room.marked, group_of(room, body));
+      if (is_dynamic(motion[body])) note(room.groups, room.marked, group_of(room, body));
   }
   room.looked.clear();
   for (const int group : room.groups) {
@@ -235,7 +235,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     const ContactConstraint<Real>& c = *bounces[i].contact;
     Real until = kNever<Real>;
     for (const int body : {c.body_a, c.body_b})
-      if (has_mass(motion[body])) until = std::min(until, room.earliest[group_of(room, body)]);
+      if (is_dynamic(motion[body])) until = std::min(until, room.earliest[group_of(room, body)]);
     until += Real(kAtOnce) * h;
     for (int k = 0; k < c.count; ++k) {
       if (coming.time[k] == kNever<Real> || coming.time[k] > until) continue;
