@@ -85,5 +85,21 @@ TYPED_TEST(LockedAxes, UnlockedABodyHasItsMassAgain) {
   EXPECT_NEAR(world.velocity(other).x, 3, 3 * rounding<TypeParam>());
 }
 
+// Discs meet with the line of centres at 45 degrees; the struck one moves along one axis only. Without
+// restitution their contact is not an impact but a row of the solver.
+TYPED_TEST(LockedAxes, AnObliqueBlowWithoutReboundMovesABodyAlongItsFreeAxis) {
+  for (const bool lock_x : {true, false}) {
+    BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+    const double side = std::sqrt(0.5) * 2 * kRadius;
+    add_disc(world, {-side, -side}, {1, 0}, 1, 0);
+    const BodyId struck = add_disc(world, {0, 0}, {}, 2, 0, {.x = lock_x, .y = !lock_x});
+    world.step(1.0 / 1000, 1);
+    const double along = std::sqrt(0.5), impulse = along / (1 + 0.5 * along * along);
+    const Vec2d exact = lock_x ? Vec2d{0, 0.5 * impulse * along} : Vec2d{0.5 * impulse * along, 0};
+    EXPECT_NEAR(world.velocity(struck).x, exact.x, rounding<TypeParam>()) << lock_x;
+    EXPECT_NEAR(world.velocity(struck).y, exact.y, rounding<TypeParam>()) << lock_x;
+  }
+}
+
 }  // namespace
 }  // namespace plumb
