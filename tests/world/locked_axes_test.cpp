@@ -101,5 +101,20 @@ TYPED_TEST(LockedAxes, AnObliqueBlowWithoutReboundMovesABodyAlongItsFreeAxis) {
   }
 }
 
+// The ground holds a block that keeps its x on a smooth slope: N cos(a) = m g, and it stays where it is.
+TYPED_TEST(LockedAxes, ABlockThatKeepsItsXRestsOnASmoothSlope) {
+  constexpr double kSlope = 0.4;
+  BasicWorld<TypeParam> world(without_sleep());
+  const ShapeDefinition ground{.geometry = Box{20, 1}, .material = {0, 0}};
+  const ShapeDefinition smooth{.geometry = Box{1, 1}, .material = {0, 0}};
+  world.create_body({.type = BodyType::Static, .angle = kSlope}, ground);
+  const Vec2d start{-std::sin(kSlope), std::cos(kSlope)};
+  const BodyId block =
+      world.create_body({.position = start, .angle = kSlope, .lock_x = true, .lock_rotation = true}, smooth);
+  run(world, 120);
+  EXPECT_NEAR(world.position(block).y, start.y, 2e-6);
+  EXPECT_NEAR(world.velocity(block).y, 0, rounding<TypeParam>());
+}
+
 }  // namespace
 }  // namespace plumb
