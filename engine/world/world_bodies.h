@@ -353,6 +353,7 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   record.lock_x = x, record.lock_y = y, record.lock_rotation = rotation;
   const bool dynamic = own_type(*data_, index) == BodyType::Dynamic;
   const bool turns = dynamic && !rotation && record.inertia > 0;
+  data_->motion[index].inverse_mass = dynamic ? inverse_mass_of(record, record.mass) : Real(0);
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
   // Locked axes do not move by rounding residues either.

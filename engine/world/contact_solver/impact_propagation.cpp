@@ -186,7 +186,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     note(room.all_seen, room.seen, i);
     look_at(motion, bounces[i], least, h, room, room.coming[i]);
     for (const int body : {bounces[i].contact->body_a, bounces[i].contact->body_b})
-      if (has_mass(motion[body])) note(room.groups, room.marked, group_of(room, body));
+      if (is_dynamic(motion[body])) note(room.groups, room.marked, group_of(room, body));
   }
   room.looked.clear();
   for (const int group : room.groups) {
@@ -206,7 +206,7 @@ void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<
     const ContactConstraint<Real>& c = *bounces[i].contact;
     Real until = kNever<Real>;
     for (const int body : {c.body_a, c.body_b})
-      if (has_mass(motion[body])) until = std::min(until, room.earliest[group_of(room, body)]);
+      if (is_dynamic(motion[body])) until = std::min(until, room.earliest[group_of(room, body)]);
     until += Real(kAtOnce) * h;
     for (int k = 0; k < c.count; ++k) {
       if (coming.time[k] == kNever<Real> || coming.time[k] > until) continue;

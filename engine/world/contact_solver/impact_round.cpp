@@ -181,7 +181,7 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
     shift(moving, rotation[body], (sign * moving.inverse_mass) * way,
           -sign * at.time * moving.inverse_inertia * angular);
     Real& last = room.last[group_of(room, body)];
-    if (has_mass(moving)) last = std::max(last, at.time);
+    if (is_dynamic(moving)) last = std::max(last, at.time);
   };
   move_back(c.body_a, -1, at.impulse * c.arm_a[at.point] + friction * c.arm_tangent_a);
   move_back(c.body_b, 1, at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
@@ -217,7 +217,7 @@ class JointedRound {
     exchange();
     for (const typename ImpactScratch<Real>::Link& link : room_.links) {
       BodyMotion<Real>& moving = motion_[link.body];
-      if (!has_mass(moving)) continue;
+      if (!is_dynamic(moving)) continue;
       const int group = group_of(room_, link.body);
       const Real time = room_.earliest[group];
       shift(moving, rotation_[link.body], -time * (moving.velocity - link.velocity),
@@ -232,7 +232,7 @@ class JointedRound {
   void add_joints(const StruckPoint<Real>& at) {
     for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b}) {
       const int group = group_of(room_, body);
-      if (!has_mass(motion_[body]) || room_.struck_now[group]) continue;
+      if (!is_dynamic(motion_[body]) || room_.struck_now[group]) continue;
       room_.struck_now[group] = 1;
       for (int i = room_.first_joint[group]; i != -1; i = room_.joints[i].next) {
         ImpactJoint& joint = room_.joints[i];
@@ -330,7 +330,7 @@ class JointedRound {
     system_.solve();
     for (std::size_t i = 0; i < room_.links.size(); ++i) {
       BodyMotion<Real>& to = motion_[room_.links[i].body];
-      if (!has_mass(to)) continue;
+      if (!is_dynamic(to)) continue;
       to.velocity = system_.bodies[i].velocity.template as<Real>();
       to.angular_velocity = static_cast<Real>(system_.bodies[i].spin);
     }

@@ -95,11 +95,6 @@ struct ImpactScratch {
   BoundedRows system;
 };
 
-template <class Real>
-bool has_mass(const BodyMotion<Real>& body) {
-  return body.inverse_mass > 0;
-}
-
 /// Returns the group of a body.
 template <class Real>
 int group_of(const ImpactScratch<Real>& room, int body) {

@@ -132,6 +132,18 @@ void choose_slender(WorldData<Real>& w) {
   }
 }
 
+// Chooses islands of contacts in which one axis of a body is locked: only the rows of jointed islands have a
+// mass along each axis. With both axes locked the inverse mass is 0 along all directions, which others know.
+template <class Real>
+void choose_locked(WorldData<Real>& w) {
+  for (const int body : w.awake) {
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (record.lock_x == record.lock_y || !w.is_dynamic(body)) continue;
+    int& size = w.scratch.island_size[w.scratch.island_of[body]];
+    if (size > 0 && size <= 2 * tuning::kJointedContacts) size = kJointed;
+  }
+}
+
 // Finds the islands, by their root body, and an upper bound of the rows of each in `w.scratch.island_size`.
 // Above tuning::kDirectRows an island is solved by iterations alone.
 template <class Real>
@@ -153,6 +165,7 @@ void find_islands(WorldData<Real>& w) {
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   choose_slender(w);
   if (swept_joints(w) > 0) choose_jointed(w);
+  choose_locked(w);
   w.scratch.islands_chosen = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
     return is_direct(w.scratch.island_size[body]) || is_jointed(w.scratch.island_size[body]);
   });

@@ -341,7 +341,7 @@ void begin_jointed_substep(WorldData<Real>& w) {
       const BodyMotion<Real>& motion = w.motion[link.body];
       link.before = motion.velocity.template as<double>();
       link.spin_before = motion.angular_velocity;
-      if (!is_dynamic(motion)) continue;
+      if (!w.is_dynamic(link.body)) continue;
       // A locked axis stands still from now on. Reflected at it, the others would follow what it had.
       const Vec2d mobility = island.system.bodies[k].inverse_mass;
       if (mobility.x == 0) link.before.x = 0;

@@ -73,7 +73,7 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass, Vec2<R
   w.topology_changed = true;
   record.mass = held<Real>(mass.mass), record.inertia = held<Real>(mass.inertia);
   const bool dynamic = own_type(w, body) == BodyType::Dynamic;
-  motion.inverse_mass = dynamic ? held<Real>(1 / mass.mass) : Real(0);
+  motion.inverse_mass = dynamic ? inverse_mass_of(record, mass.mass) : Real(0);
   motion.inverse_inertia =
       dynamic && !record.lock_rotation && mass.inertia > 0 ? held<Real>(1 / mass.inertia) : Real(0);
   update_extents(w, body);
@@ -106,6 +106,11 @@ void for_each_part(const WorldData<Real>& w, int body, const Visit& visit) {
 }
 
 }  // namespace
+
+template <class Real>
+Real inverse_mass_of(const BodyRecord<Real>& record, double mass) {
+  return record.lock_x && record.lock_y ? Real(0) : held<Real>(1 / mass);
+}
 
 // Shapes without mass make a body of 1 kg that does not rotate: it could not be moved otherwise.
 template <class Real>
@@ -214,6 +219,7 @@ void make_room_to_recentre(WorldData<Real>& w, std::span<const NewShape<Real>> s
   template void update_mass(WorldData<Real>&, int);                     \
   template void find_mass(WorldData<Real>&, int);                       \
   template void set_mass(WorldData<Real>&, int, const MassProperties&); \
+  template Real inverse_mass_of(const BodyRecord<Real>&, double);       \
   template void note_mass_change(WorldData<Real>&, int);                \
   template void grow_extents(WorldData<Real>&, int, int);               \
   template void settle(WorldData<Real>&);                               \

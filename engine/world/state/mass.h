@@ -23,6 +23,10 @@ void find_mass(WorldData<Real>& w, int body);
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
 
+/// Returns the inverse mass of a dynamic body, 1/kg: 0 with both its axes locked, along all directions then.
+template <class Real>
+Real inverse_mass_of(const BodyRecord<Real>& record, double mass);
+
 /// Notes that a shape is about to be added to the body or removed from it.
 template <class Real>
 void note_mass_change(WorldData<Real>& w, int body);

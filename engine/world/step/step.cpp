@@ -9,6 +9,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/lock.h"
+#include "engine/world/state/mass.h"
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/state/sleeping.h"
@@ -55,7 +56,7 @@ void make_good(WorldData<Real>& w) {
     // Direct islands may have increased the inertia of links.
     const BodyRecord<Real>& record = w.bodies[body];
     if (record.type == BodyType::Dynamic) {
-      w.motion[body].inverse_mass = 1 / record.mass;
+      w.motion[body].inverse_mass = inverse_mass_of(record, record.mass);
       w.motion[body].inverse_inertia =
           record.lock_rotation || !(record.inertia > 0) ? Real(0) : 1 / record.inertia;
     }
