@@ -217,7 +217,8 @@ void ElasticStep::find_step(double dt) {
 /// last residual.
 double ElasticStep::newton(double dt) {
   double residual = evaluate(dt);
-  for (int iteration = 0; iteration < kIterations && residual > bound(kFound); ++iteration) {
+  for (int iteration = 0; iteration < kIterations && std::isfinite(residual) && residual > bound(kFound);
+       ++iteration) {
     const double before = residual;
     find_step(dt);
     last_ = moved_;
@@ -265,9 +266,10 @@ void ElasticStep::solve(double dt) {
     moved_.clear();
     for (const Motion& free : free_) moved_.push_back({start * free.way, start * free.turn});
     const double residual = newton(dt);
-    if (residual <= bound(kEnough)) return refine(dt);
+    if (std::isfinite(residual) && residual <= bound(kEnough)) return refine(dt);
     if (residual < least) least = residual, best_ = moved_;
   }
+  if (!std::isfinite(least)) return;  // nor are the wrenches, which is for the caller to report
   moved_ = best_;
   evaluate(dt);
   hold_energy(dt);

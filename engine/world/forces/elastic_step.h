@@ -41,7 +41,7 @@ class ElasticStep {
 
   /// Sets a body's displacement (m) and turn (rad) over the step without the springs.
   void set_free_motion(int body, Vec2d way, double turn) { free_[body] = {way, turn}; }
-  /// Finds the springs' mean wrenches over a step of `dt` s.
+  /// Finds the springs' mean wrenches over a step of `dt` s. They are not finite where no motion is.
   void solve(double dt);
   const Wrench<double>& wrench(int body) const { return wrenches_[body]; }
 
