@@ -6,19 +6,20 @@
 #include <limits>
 
 #include "engine/linear_algebra/row_coupling.h"
+#include "engine/linear_algebra/small_matrix.h"
 
 namespace plumb {
 namespace {
 
-// Regularisation: added to the mobility of each row, as a fraction of it, so that redundant rows share their
-// load. Iterative refinement removes the error that it causes where rows are independent. As large as the
-// rounding of positions in float: rows that agree but for that must not stop what they guide (a parallelogram
-// of float that was flat in the middle of a substep lost 40 % of its speed at 1e-10, 0.4 % at 1e-7).
+// Regularisation of rows that depend on each other: added to the mobility of each, as a fraction of it, so
+// that they share their load. Iterative refinement removes the error that it causes elsewhere. As large as
+// the rounding of positions in float: rows that agree but for that must not stop what they guide (a
+// parallelogram of float that was flat in the middle of a substep lost 40 % of its speed at 1e-10, 0.4 % at
+// 1e-7).
 constexpr double kSharing = 1e-7;
 constexpr int kRefinements = 2;
-// Tolerated residual of a row, and tolerated violation of its inequality, relative to the row with the
-// largest energy v^2 / mobility: speeds of linear and of angular rows have different units.
-constexpr double kExact = 1e-11, kSlack = 1e-9;
+// Tolerated residual of a row, relative to the row with the largest energy v^2 / mobility.
+constexpr double kExact = 1e-11;
 // Rounds of descent if pivoting does not converge, iterations in each round, and the last iterations if the
 // rounds do not converge either.
 constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
@@ -51,6 +52,7 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* room)
       mobility_(room),
       block_first_(room),
       free_(room),
+      places_(room),
       block_place_(room),
       sequence_(room),
       rank_(room),
@@ -158,32 +160,57 @@ void BoundedRows::assemble() {
     couple_with(row.block);
     for (const int other : order_.neighbours(row.block)) couple_with(other);
     if (row.coupled_compliance != 0) all_.at(place, place - 1) += row.coupled_compliance;
-    all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * (kSharing + row.softening));
+    all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * row.softening);
   }
+  assembled_ = true, factorised_ = shares_ = false;
 }
 
+// Factorises the free rows: as they are, or if they depend on each other, with regularisation. Rows before
+// the first whose state has changed keep their factors.
 void BoundedRows::factorise() {
-  free_.clear(), first_.clear();
+  places_.clear(), first_.clear();
   const int count = static_cast<int>(sequence_.size());
   rank_.resize(count);
+  int kept = 0;
   for (int place = 0; place < count; ++place) {
-    rank_[place] = static_cast<int>(free_.size());
-    if (rows[sequence_[place]].state == BoundedRow::kFree) free_.push_back(place);
+    const int row = sequence_[place], k = static_cast<int>(places_.size());
+    rank_[place] = k;
+    if (rows[row].state != BoundedRow::kFree) continue;
+    if (factorised_ && kept == k && k < static_cast<int>(free_.size()) && free_[k] == row) ++kept;
+    places_.push_back(place);
+    first_.push_back(rank_[all_.first(place)]);
   }
-  for (const int place : free_) first_.push_back(rank_[all_.first(place)]);
+  const bool same = factorised_ && places_.size() == free_.size() && kept == static_cast<int>(free_.size());
+  if (same) return;
+  free_.clear();
+  for (const int place : places_) free_.push_back(sequence_[place]);
   matrix_.shape(first_);
-  const bool all_free = static_cast<int>(free_.size()) == count;
-  for (int k = 0; k < static_cast<int>(free_.size()); ++k) {
+  if (!shares_) {
+    gather_free(kept);
+    shares_ = !(matrix_.factorise(kept) > kLeastPivot);
+    if (shares_) kept = 0;
+  }
+  if (shares_) {
+    gather_free(kept);
+    for (int k = kept; k < static_cast<int>(free_.size()); ++k)
+      matrix_.at(k, k) += kSharing * mobility_[free_[k]];
+    matrix_.factorise(kept);
+  }
+  factorised_ = true;
+}
+
+// Copies the rows and columns of the free rows, from one of them on.
+void BoundedRows::gather_free(int from) {
+  const bool all_free = places_.size() == sequence_.size();
+  for (int k = from; k < static_cast<int>(places_.size()); ++k) {
     double* to = matrix_.row(k);
     if (all_free) {
       std::copy_n(all_.row(k), k + 1 - first_[k], to);
     } else {
-      const double* from = all_.row(free_[k]) - all_.first(free_[k]);
-      for (int j = first_[k]; j <= k; ++j) *to++ = from[free_[j]];
+      const double* row = all_.row(places_[k]) - all_.first(places_[k]);
+      for (int j = first_[k]; j <= k; ++j) *to++ = row[places_[j]];
     }
   }
-  for (int& place : free_) place = sequence_[place];
-  matrix_.factorise();
 }
 
 // Returns the residual of a row at the present velocities.
@@ -207,49 +234,57 @@ void BoundedRows::apply_all() {
   for (const BoundedRow& row : rows) push(row, row.impulse);
 }
 
-// Solves for the impulses of the free rows, given those of the others: the solution next to `guess_`.
+// Solves for the impulses of the free rows, given those of the others: of rows that depend on each other the
+// solution next to `guess_`, but for the error of the regularisation.
 void BoundedRows::find_free() {
+  if (shares_ && !guesses_) start_from_guess();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BoundedRow& row = rows[i];
     if (row.state == BoundedRow::kFree) {
-      row.impulse = guess_[i];
+      row.impulse = shares_ ? guess_[i] : 0;
     } else {
       row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
     }
   }
   apply_all();
-  x_.resize(free_.size());
-  for (int refinement = 0; refinement <= kRefinements; ++refinement) {
-    bool exact = true;
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      x_[k] = residual(free_[k]);
-      exact = exact && !matters(free_[k], x_[k], kExact);
-    }
-    if (exact) break;
-    matrix_.solve(x_.data());
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      rows[free_[k]].impulse += x_[k];
-      push(rows[free_[k]], x_[k]);
-    }
-  }
+  refine();
 }
 
-int BoundedRows::count_wrong() {
+// Solves for what the free rows lack. Returns false if they lack nothing.
+bool BoundedRows::refine() {
+  bool exact = true;
+  x_.resize(free_.size());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    x_[k] = residual(free_[k]);
+    exact = exact && !matters(free_[k], x_[k], kExact);
+  }
+  if (exact) return false;
+  matrix_.solve(x_.data());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    rows[free_[k]].impulse += x_[k];
+    push(rows[free_[k]], x_[k]);
+  }
+  return true;
+}
+
+// Counts the rows that are on the wrong side of their bounds by more than `slack`, and notes where they
+// belong.
+int BoundedRows::count_wrong(double slack) {
   int count = 0;
   wrong_.assign(rows.size(), 0);
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
     const BoundedRow& row = rows[i];
     int to = -1;
     if (row.state == BoundedRow::kFree) {
-      if (row.impulse < row.lower && matters(i, (row.lower - row.impulse) * mobility_[i], kSlack))
+      if (row.impulse < row.lower && matters(i, (row.lower - row.impulse) * mobility_[i], slack))
         to = BoundedRow::kLower;
-      if (row.impulse > row.upper && matters(i, (row.impulse - row.upper) * mobility_[i], kSlack))
+      if (row.impulse > row.upper && matters(i, (row.impulse - row.upper) * mobility_[i], slack))
         to = BoundedRow::kUpper;
     } else if (row.lower < row.upper) {
       const double missing = residual(i);
-      if (row.state == BoundedRow::kLower && missing > 0 && matters(i, missing, kSlack))
+      if (row.state == BoundedRow::kLower && missing > 0 && matters(i, missing, slack))
         to = BoundedRow::kFree;
-      if (row.state == BoundedRow::kUpper && missing < 0 && matters(i, missing, kSlack))
+      if (row.state == BoundedRow::kUpper && missing < 0 && matters(i, missing, slack))
         to = BoundedRow::kFree;
     }
     if (to < 0) continue;
@@ -360,18 +395,24 @@ void BoundedRows::descend() {
   for (int round = 0; round < kRounds; ++round) {
     sweep(kSweeps);
     minimise_free();
-    if (count_wrong() == 0) return;
+    if (count_wrong(kSlack) == 0) return;
   }
   sweep(kLastSweeps);
 }
 
 // Runs block pivots; returns true if they end in a solution.
 bool BoundedRows::pivot() {
+  guesses_ = false;
+  best_.resize(rows.size());
   int least = std::numeric_limits<int>::max();
   for (int pivots = 0; pivots < kPivots; ++pivots) {
     factorise();
     find_free();
-    const int wrong = count_wrong();
+    int wrong = count_wrong(shares_ ? kClear : kSlack);
+    if (wrong == 0 && shares_) {
+      for (int i = 0; i < kRefinements && refine(); ++i) continue;
+      wrong = count_wrong(kSlack);
+    }
     if (wrong == 0) return true;
     if (wrong < least) {
       least = wrong;
@@ -383,19 +424,19 @@ bool BoundedRows::pivot() {
   return false;
 }
 
-// Begins with the initial impulses, or with the fraction of them that gains no energy.
+// Takes of the initial impulses the fraction that gains no energy.
 void BoundedRows::start_from_guess() {
-  if (std::any_of(guess_.begin(), guess_.end(), [](double impulse) { return impulse != 0; })) {
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = guess_[i];
-    apply_all();
-    shrink();
-    for (std::size_t i = 0; i < rows.size(); ++i) guess_[i] = rows[i].impulse;
-  }
-  best_.assign(guess_.begin(), guess_.end());
+  guesses_ = true;
+  if (std::all_of(guess_.begin(), guess_.end(), [](double impulse) { return impulse == 0; })) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = guess_[i];
+  apply_all();
+  shrink();
+  for (std::size_t i = 0; i < rows.size(); ++i) guess_[i] = rows[i].impulse;
 }
 
 // Sets the states of rows that have nothing to solve: those that move nothing, or whose bounds leave no room.
 void BoundedRows::set_fixed() {
+  guess_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BoundedRow& row = rows[i];
     if (!(mobility_[i] > 0)) row.lower = row.upper = 0;
@@ -407,14 +448,24 @@ void BoundedRows::set_fixed() {
 void BoundedRows::solve() {
   start_.assign(bodies.begin(), bodies.end());
   find_mobility();
-  guess_.resize(rows.size());
+  assembled_ = false;
+  solve_from_start();
+}
+
+void BoundedRows::solve_again() {
+  std::copy(start_.begin(), start_.end(), bodies.begin());
+  solve_from_start();
+}
+
+void BoundedRows::solve_from_start() {
   set_fixed();
   if (solve_small()) return;
-  find_largest();
-  assemble();
-  start_from_guess();
-  if (!pivot()) descend();
-  shrink();
+  if (!assembled_) find_largest(), assemble();
+  const bool solved = pivot();
+  if (!solved) descend();
+  // Exact impulses of which each may be 0 gain no energy: x w <= 0 at every bound, and w is 0 between.
+  const auto pushes = [](const BoundedRow& row) { return row.lower > 0 || row.upper < 0; };
+  if (!solved || shares_ || std::any_of(rows.begin(), rows.end(), pushes)) shrink();
 }
 
 double BoundedRows::share_of_load(std::span<const double> impulses) {

@@ -51,8 +51,8 @@ struct BoundedRow {
 /// side change sides at once. If a few pivots do not suffice, by gradient projection with subspace
 /// minimisation (More and Toraldo, SIAM Journal on Optimization 1, 1991). Each step lowers the energy.
 /// Projected Gauss-Seidel identifies the rows at their bounds, and the others are solved together within
-/// their bounds. The free rows are factorised sparsely, with a little compliance, so that redundant rows
-/// share their load.
+/// their bounds. The free rows are factorised sparsely, with a little compliance if they depend on each
+/// other, so that redundant rows share their load.
 class BoundedRows {
  public:
   explicit BoundedRows(std::pmr::memory_resource* room = std::pmr::get_default_resource());
@@ -68,6 +68,9 @@ class BoundedRows {
 
   /// Solves for the impulses and applies them to the bodies' velocities.
   void solve();
+
+  /// Solves again for the velocities that `solve` was given, after bounds have changed and nothing else.
+  void solve_again();
 
   /// Returns the fraction, 0 to 1, of these impulses that leaves the bodies the least energy, given their
   /// velocities. Changes the velocities.
@@ -87,6 +90,10 @@ class BoundedRows {
  private:
   // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
   static constexpr int kPivots = 4;
+  // Tolerated violation of a row's inequality, relative to the row with the largest energy v^2 / mobility:
+  // speeds of linear and of angular rows have different units. One beyond kClear is a violation also before
+  // iterative refinement, which removes the error of the regularisation.
+  static constexpr double kSlack = 1e-9, kClear = 1e-5;
 
   double along(const BoundedRow& row) const;
   void push(const BoundedRow& row, double impulse);
@@ -95,14 +102,17 @@ class BoundedRows {
   void find_blocks();
   void assemble();
   void factorise();
+  void gather_free(int from);
   void find_free();
+  bool refine();
   void apply_all();
   double residual(int row) const;
   bool matters(int row, double speed, double share) const;
-  int count_wrong();
+  int count_wrong(double slack);
   bool pivot();
   void set_fixed();
   bool solve_small();
+  void solve_from_start();
   void descend();
   void sweep(int passes);
   void minimise_free();
@@ -120,7 +130,8 @@ class BoundedRows {
   std::pmr::vector<BoundedBody> start_;  // the bodies as given
   std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
   std::pmr::vector<int> block_first_;    // by block: index of its first row
-  std::pmr::vector<int> free_;           // free rows in elimination order
+  std::pmr::vector<int> free_;           // free rows in elimination order, which matrix_ has
+  std::pmr::vector<int> places_;         // the same as places in that order, while they are looked for
   std::pmr::vector<int> block_place_;    // by block: its first row's place in the elimination order
   std::pmr::vector<int> sequence_;       // rows in elimination order
   std::pmr::vector<int> rank_;           // by place in that order: number of free rows before it
@@ -128,6 +139,10 @@ class BoundedRows {
   std::pmr::vector<double> x_, guess_, best_;
   std::pmr::vector<std::int8_t> wrong_;  // 0, or 1 + the state to change to
   double largest_ = 0;                   // J, the largest v^2 / mobility of a row
+  bool assembled_ = false;               // all_ has these rows
+  bool factorised_ = false;              // matrix_ has the factors of the rows free_
+  bool shares_ = false;                  // free rows depend on each other: they are regularised
+  bool guesses_ = false;                 // guess_ is the fraction of the guess that gains no energy
 };
 
 }  // namespace plumb

@@ -83,7 +83,7 @@ bool BoundedRows::solve_small() {
         push(rows[which[k]], x[k]);
       }
       if (!bounded) return true;
-      if (count_wrong() == 0) {
+      if (count_wrong(kSlack) == 0) {
         if (held) shrink();
         return true;
       }

@@ -45,9 +45,10 @@ void EnvelopeMatrix::shape(std::span<const int> first) {
   pivots_.resize(first.size()), inverse_pivots_.resize(first.size());
 }
 
-void EnvelopeMatrix::factorise(int from) {
+double EnvelopeMatrix::factorise(int from) {
   // Fraction of the diagonal below which a row is dependent up to rounding.
   constexpr double kNothing = 1e-12;
+  double least = 1;
   for (int i = from; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
     const double diagonal = row[i];
@@ -67,7 +68,13 @@ void EnvelopeMatrix::factorise(int from) {
     const bool independent = pivot > kNothing * diagonal;
     pivots_[i] = independent ? pivot : 0;
     inverse_pivots_[i] = independent ? 1 / pivot : 0;
+    if (!independent) {
+      least = 0;
+    } else if (pivot < least * diagonal) {
+      least = pivot / diagonal;
+    }
   }
+  return least;
 }
 
 void EnvelopeMatrix::solve(double* x) const {

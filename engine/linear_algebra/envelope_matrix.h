@@ -29,8 +29,9 @@ class EnvelopeMatrix {
   double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
 
   /// Factorises in place. Dependent rows are left out: their unknown is 0. If rows before `from` have been
-  /// factorised already, and those from there on entered anew, only the latter are factorised.
-  void factorise(int from = 0);
+  /// factorised already, and those from there on entered anew, only the latter are factorised. Returns their
+  /// least pivot as a fraction of its diagonal: near 0 where rows depend on each other.
+  double factorise(int from = 0);
 
   /// Solves: x <- A^-1 x.
   void solve(double* x) const;

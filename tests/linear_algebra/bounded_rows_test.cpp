@@ -133,9 +133,9 @@ bool is_solved(const Problem& it, double tolerance) {
   return solved;
 }
 
-// Up to 16 rows are solved to ten times the violation of an inequality that is tolerated. Of more, up to 90,
-// the regularisation leaves up to 4e-6, and in 2 of 1,000 pivots do not end: these are scaled to gain no
-// energy.
+// Up to 16 rows are solved to ten times the violation of an inequality that is tolerated. So are more, up to
+// 90, but for 1 in 100 in which rows depend on each other nearly, or pivots do not end: these are scaled to
+// gain no energy.
 TEST(BoundedRows, SolvesChainsOfJointsLimitsBrakesAndSprings) {
   int many = 0, unsolved = 0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
@@ -146,10 +146,29 @@ TEST(BoundedRows, SolvesChainsOfJointsLimitsBrakesAndSprings) {
     if (it.system.rows.size() <= 16) {
       EXPECT_TRUE(is_solved(it, 1e-8)) << "seed " << seed;
     } else {
-      ++many, unsolved += is_solved(it, 1e-5) ? 0 : 1;
+      ++many, unsolved += is_solved(it, 1e-8) ? 0 : 1;
     }
   }
   EXPECT_LE(100 * unsolved, many);
+}
+
+// Bounds that follow other impulses, as friction's do, change between two solutions: brakes become weaker,
+// stronger, or hold nothing.
+TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
+  int solutions = 0, unsolved = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Draw of(seed);
+    Problem it;
+    draw(of, 1 + of.below(of.one_in(2) ? 30 : 8), of.one_in(2) ? 1 : 100, it);
+    it.system.solve();
+    for (int i = 0; i < 3; ++i) {
+      for (BoundedRow& row : it.system.rows)
+        if (std::isfinite(row.upper)) row.upper = of.one_in(3) ? 0 : of.in(0, 1), row.lower = -row.upper;
+      it.system.solve_again();
+      ++solutions, unsolved += is_solved(it, 1e-8) ? 0 : 1;
+    }
+  }
+  EXPECT_LE(100 * unsolved, solutions);
 }
 
 // A single row has x = (wanted - J v) / (J M^-1 J^T).

@@ -250,22 +250,17 @@ void solve(JointedIsland<Real>& island, bool hold) {
   // them.
   constexpr int kRenewals = 32;
   const bool rests = may_rest(island, hold);
-  const auto load = [&] {
-    for (std::size_t i = 0; i < island.links.size(); ++i) {
-      BoundedBody& body = island.system.bodies[i];
-      body.velocity = island.links[i].velocity, body.spin = island.links[i].spin;
-    }
-  };
-  load();
+  for (std::size_t i = 0; i < island.links.size(); ++i) {
+    BoundedBody& body = island.system.bodies[i];
+    body.velocity = island.links[i].velocity, body.spin = island.links[i].spin;
+  }
   island.system.solve();
   for (int i = 0; i < (rests ? kRenewals : 1) && renew_bounds(island, hold,
                                                               !rests  ? 1
                                                               : i < 8 ? 0.5
                                                                       : 0.2);
-       ++i) {
-    load();
-    island.system.solve();
-  }
+       ++i)
+    island.system.solve_again();
   for (std::size_t i = 0; i < island.ties.size(); ++i) {
     const double x = island.system.rows[i].impulse;
     island.impulses[i] = hold ? x : island.impulses[i] + x;
