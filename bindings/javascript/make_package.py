@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Puts the npm package together: make_package.py SOURCES PROGRAM.wasm TO VERSION
 
-The program is inlined as text, so that the package works from a file, a server or a bundle alike."""
+The program is inlined as text, so that the package works from a file, a server or a bundle alike. It is compressed
+by zopfli, whose gzip streams are 4 % smaller than gzip's own: npm's compression finds nothing in them to save."""
 
 import base64
-import gzip
 import pathlib
 import shutil
+import subprocess
 import sys
 
 
@@ -16,7 +17,8 @@ def main():
     for name in ("plumb.mjs", "plumb.definitions.mjs", "plumb.d.ts", "README.md"):
         shutil.copy(sources / name, to / name)
     (to / "package.json").write_text((sources / "package.json.in").read_text().replace("@VERSION@", sys.argv[4]))
-    packed = base64.b64encode(gzip.compress(program.read_bytes(), 9, mtime=0)).decode()
+    compressed = subprocess.run(["zopfli", "-c", program], check=True, stdout=subprocess.PIPE).stdout
+    packed = base64.b64encode(compressed).decode()
     (to / "plumb.wasm.mjs").write_text(f'// plumb, compiled for WebAssembly; gzip, base64.\nexport default "{packed}";\n')
 
 
