@@ -118,7 +118,6 @@ class EquationsOfMotion final : public Flow {
   /// in either direction, or inactive. Cleared by an empty list.
   enum class StopMode : signed char { Free, Held, Forward, Backward };
   void hold_stops(std::vector<StopMode> modes);
-  std::span<const StopMode> stop_modes() const { return stop_modes_; }
   bool has_forces() const { return has_forces_; }
   bool holds_anything() const { return !patches_.empty() || held_stops_ > 0; }
   /// Returns the stops' rows at the bodies' last poses, and at a state.

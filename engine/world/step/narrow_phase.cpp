@@ -112,7 +112,7 @@ bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
 }
 
 // Changes of a contact found by an update, as flags.
-enum ContactChange : std::uint8_t {
+enum : std::uint8_t {
   kTouchChange = 1,  // it begins or ends to touch
   kLost = 2,         // its fat AABBs have separated
   kEnded = 4,        // it has no points any more
