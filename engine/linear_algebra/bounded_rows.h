@@ -91,9 +91,12 @@ class BoundedRows {
   // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
   static constexpr int kPivots = 4;
   // Tolerated violation of a row's inequality, relative to the row with the largest energy v^2 / mobility:
-  // speeds of linear and of angular rows have different units. One beyond kClear is a violation also before
-  // iterative refinement, which removes the error of the regularisation.
+  // speeds of linear and of angular rows have different units. One beyond kClear, a hundred times the
+  // regularisation, is a violation also before iterative refinement: refining what changes sides anyway is in
+  // vain.
   static constexpr double kSlack = 1e-9, kClear = 1e-5;
+  // Steps of iterative refinement, which remove the error of the regularisation.
+  static constexpr int kRefinements = 2;
 
   double along(const BoundedRow& row) const;
   void push(const BoundedRow& row, double impulse);

@@ -82,6 +82,11 @@ void draw(Draw& of, int bodies, double ratio, Problem& out) {
   out.system.order(blocks, sizes);
 }
 
+// Chains of up to 8 bodies, a quarter of up to 30, of equal masses or up to 100 times apart.
+void draw(Draw& of, Problem& out) {
+  draw(of, 1 + of.below(of.one_in(4) ? 30 : 8), of.one_in(2) ? 1 : 100, out);
+}
+
 double along(const BoundedRow& row, const std::vector<BoundedBody>& bodies) {
   const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
   return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
@@ -141,7 +146,7 @@ TEST(BoundedRows, SolvesChainsOfJointsLimitsBrakesAndSprings) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Draw of(seed);
     Problem it;
-    draw(of, 1 + of.below(of.one_in(4) ? 30 : 8), of.one_in(2) ? 1 : 100, it);
+    draw(of, it);
     it.system.solve();
     if (it.system.rows.size() <= 16) {
       EXPECT_TRUE(is_solved(it, 1e-8)) << "seed " << seed;
@@ -159,7 +164,7 @@ TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     Draw of(seed);
     Problem it;
-    draw(of, 1 + of.below(of.one_in(2) ? 30 : 8), of.one_in(2) ? 1 : 100, it);
+    draw(of, it);
     it.system.solve();
     for (int i = 0; i < 3; ++i) {
       for (BoundedRow& row : it.system.rows)
