@@ -139,8 +139,8 @@ bool is_solved(const Problem& it, double tolerance) {
 }
 
 // Up to 16 rows are solved to ten times the violation of an inequality that is tolerated. So are more, up to
-// 90, but for 1 in 100 in which rows depend on each other nearly, or pivots do not end: these are scaled to
-// gain no energy.
+// 90, but for 1 in 100 (4 of these 517) in which rows depend on each other nearly, or pivots do not end:
+// these are scaled to gain no energy.
 TEST(BoundedRows, SolvesChainsOfJointsLimitsBrakesAndSprings) {
   int many = 0, unsolved = 0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
@@ -158,7 +158,7 @@ TEST(BoundedRows, SolvesChainsOfJointsLimitsBrakesAndSprings) {
 }
 
 // Bounds that follow other impulses, as friction's do, change between two solutions: brakes become weaker,
-// stronger, or hold nothing.
+// stronger, or hold nothing. Of 3,000 solutions 1 is inexact.
 TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
   int solutions = 0, unsolved = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
@@ -173,7 +173,7 @@ TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
       ++solutions, unsolved += is_solved(it, 1e-8) ? 0 : 1;
     }
   }
-  EXPECT_LE(100 * unsolved, solutions);
+  EXPECT_LE(1000 * unsolved, solutions);
 }
 
 // A single row has x = (wanted - J v) / (J M^-1 J^T).
