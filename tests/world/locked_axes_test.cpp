@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "tests/world/support.h"
 
@@ -85,19 +87,97 @@ TYPED_TEST(LockedAxes, UnlockedABodyHasItsMassAgain) {
   EXPECT_NEAR(world.velocity(other).x, 3, 3 * rounding<TypeParam>());
 }
 
-// Discs meet with the line of centres at 45 degrees; the struck one moves along one axis only. Without
-// restitution their contact is not an impact but a row of the solver.
-TYPED_TEST(LockedAxes, AnObliqueBlowWithoutReboundMovesABodyAlongItsFreeAxis) {
-  for (const bool lock_x : {true, false}) {
-    BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
-    const double side = std::sqrt(0.5) * 2 * kRadius;
-    add_disc(world, {-side, -side}, {1, 0}, 1, 0);
-    const BodyId struck = add_disc(world, {0, 0}, {}, 2, 0, {.x = lock_x, .y = !lock_x});
-    world.step(1.0 / 1000, 1);
-    const double along = std::sqrt(0.5), impulse = along / (1 + 0.5 * along * along);
-    const Vec2d exact = lock_x ? Vec2d{0, 0.5 * impulse * along} : Vec2d{0.5 * impulse * along, 0};
-    EXPECT_NEAR(world.velocity(struck).x, exact.x, rounding<TypeParam>()) << lock_x;
-    EXPECT_NEAR(world.velocity(struck).y, exact.y, rounding<TypeParam>()) << lock_x;
+// Discs meet with the line of centres at 45 degrees; the struck one moves along one axis only.
+TYPED_TEST(LockedAxes, AnObliqueBlowMovesABodyAlongItsFreeAxis) {
+  const double along = std::sqrt(0.5), side = along * 2 * kRadius;
+  for (const Solver solver : kRigidSolvers) {
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+      for (const bool lock_x : {true, false}) {
+        BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false, .solver = solver});
+        const BodyId ball = add_disc(world, {-side, -side}, {1, 0}, 1, restitution);
+        const BodyId struck = add_disc(world, {0, 0}, {}, 2, restitution, {.x = lock_x, .y = !lock_x});
+        world.step(1.0 / 1000, 1);
+        const double impulse = (1 + restitution) * along / (1 + 0.5 * along * along);
+        const Vec2d exact = lock_x ? Vec2d{0, 0.5 * impulse * along} : Vec2d{0.5 * impulse * along, 0};
+        const std::string which = std::to_string(static_cast<int>(solver)) + " " +
+                                  std::to_string(restitution) + (lock_x ? "x" : "y");
+        EXPECT_NEAR(world.velocity(struck).x, exact.x, rounding<TypeParam>()) << which;
+        EXPECT_NEAR(world.velocity(struck).y, exact.y, rounding<TypeParam>()) << which;
+        EXPECT_NEAR(world.velocity(ball).x, 1 - impulse * along, rounding<TypeParam>()) << which;
+        EXPECT_NEAR(world.velocity(ball).y, -impulse * along, rounding<TypeParam>()) << which;
+      }
+    }
+  }
+}
+
+// The same blow in flight, at speeds that continuous collision follows, and for which the normal must be that
+// at the time of the impact: the discs are two radii apart before it.
+TYPED_TEST(LockedAxes, AFastObliqueBlowMovesABodyAlongItsFreeAxis) {
+  const double along = std::sqrt(0.5), side = along * 2 * kRadius;
+  for (const double speed : {0.5, 5.0, 50.0}) {
+    for (const double restitution : {0.0, 1.0}) {
+      BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+      const BodyId ball = add_disc(world, {-side - 1, -side}, {speed, 0}, 1, restitution);
+      const BodyId struck = add_disc(world, {0, 0}, {}, 2, restitution, {.x = true});
+      run(world, static_cast<int>(60 * 2 / speed) + 2);
+      const double impulse = (1 + restitution) * speed * along / (1 + 0.5 * along * along);
+      EXPECT_NEAR(world.velocity(struck).y, 0.5 * impulse * along, speed * rounding<TypeParam>()) << speed;
+      EXPECT_NEAR(world.velocity(ball).x, speed - impulse * along, speed * rounding<TypeParam>()) << speed;
+      EXPECT_EQ(world.position(struck).x, 0);
+    }
+  }
+}
+
+// Nine discs in a room, smooth and elastic, six of which keep their x or their y: no energy is lost or
+// gained.
+TYPED_TEST(LockedAxes, BodiesWithALockedAxisKeepTheirEnergyInElasticImpacts) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+  const Material bouncy{0, 1};
+  const BodyId room = world.create_body({.type = BodyType::Static});
+  for (const Vec2d centre : {Vec2d{-6, 0}, Vec2d{6, 0}})
+    world.create_shape(room, {.geometry = Box{1, 12}, .position = centre, .material = bouncy});
+  for (const Vec2d centre : {Vec2d{0, -6}, Vec2d{0, 6}})
+    world.create_shape(room, {.geometry = Box{12, 1}, .position = centre, .material = bouncy});
+  const auto energy = [&] {
+    double sum = 0;
+    for (const BodyId body : world.bodies()) {
+      if (world.type(body) != BodyType::Dynamic) continue;
+      const double spin = world.angular_velocity(body);
+      sum += world.mass(body) * length_squared(world.velocity(body)) + world.inertia(body) * spin * spin;
+    }
+    return sum / 2;
+  };
+  for (int i = 0; i < 9; ++i) {
+    const Vec2d place{1.5 * (i % 3) - 1.5, 1.5 * (i / 3) - 1.5};
+    const Vec2d velocity{3 * std::cos(2.4 * i), 3 * std::sin(2.4 * i)};
+    const bool keeps_x = i % 3 == 0, keeps_y = i % 3 == 1;
+    add_disc(world, place, {keeps_x ? 0 : velocity.x, keeps_y ? 0 : velocity.y}, 1 + i, 1,
+             {.x = keeps_x, .y = keeps_y});
+  }
+  const double before = energy();
+  run(world, 600);
+  EXPECT_NEAR(energy() / before, 1, 60 * rounding<TypeParam>());
+}
+
+// A row of more blocks than an island solved as one may have, side by side on a smooth slope.
+TYPED_TEST(LockedAxes, ManyBlocksThatKeepTheirXRestOnASmoothSlope) {
+  constexpr double kSlope = 0.4;
+  constexpr int kBlocks = 700;
+  BasicWorld<TypeParam> world(without_sleep());
+  world.create_body({.type = BodyType::Static, .angle = kSlope},
+                    ShapeDefinition{.geometry = Box{2000, 1}, .material = {0, 0}});
+  const Vec2d up{-std::sin(kSlope), std::cos(kSlope)}, right{std::cos(kSlope), std::sin(kSlope)};
+  std::vector<BodyId> blocks;
+  for (int i = 0; i < kBlocks; ++i)
+    blocks.push_back(world.create_body({.position = up + (1.0 * (i - kBlocks / 2)) * right,
+                                        .angle = kSlope,
+                                        .lock_x = true,
+                                        .lock_rotation = true},
+                                       ShapeDefinition{.geometry = Box{1, 1}, .material = {0, 0}}));
+  run(world, 60);
+  for (int i = 0; i < kBlocks; i += 50) {
+    EXPECT_NEAR(world.velocity(blocks[i]).y, 0, rounding<TypeParam>()) << i;
+    EXPECT_EQ(world.velocity(blocks[i]).x, 0) << i;
   }
 }
 
@@ -112,7 +192,8 @@ TYPED_TEST(LockedAxes, ABlockThatKeepsItsXRestsOnASmoothSlope) {
   const BodyId block =
       world.create_body({.position = start, .angle = kSlope, .lock_x = true, .lock_rotation = true}, smooth);
   run(world, 120);
-  EXPECT_NEAR(world.position(block).y, start.y, 2e-6);
+  // Soft contacts give 1.5e-5 m under their first load, as on level ground.
+  EXPECT_NEAR(world.position(block).y, start.y, 2e-5);
   EXPECT_NEAR(world.velocity(block).y, 0, rounding<TypeParam>());
 }
 

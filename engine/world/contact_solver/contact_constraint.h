@@ -63,6 +63,7 @@ struct ContactConstraint {
   Real recycle_budget = 0;    ///< m, relative motion left until the manifold is rebuilt
   int contact = 0;            ///< index of its record
   std::uint16_t features[2] = {};
+  std::uint8_t locks = 0;  ///< locked axes of the bodies (locked_axes.h); 0 if a body has both locked
 };
 
 /// Returns true if a contact has pressed in the step, as far as the motion needs to know: one that neither

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/world/contact_solver/locked_axes.h"
+
 namespace plumb {
 namespace {
 
@@ -26,14 +28,13 @@ ImpactRows rows_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const C
                arm_b[3] = {double(c.arm_b[0]), double(c.arm_b[1]), double(c.arm_tangent_b)};
   const Vec2d between = b.velocity.template as<double>() - a.velocity.template as<double>(),
               n = c.normal.template as<double>();
-  const double along[3] = {dot(n, between), dot(n, between),
-                           dot(Vec2d{n.y, -n.x}, between) - double(c.surface_speed)};
-  const double mass = double(a.inverse_mass) + double(b.inverse_mass);
+  const Vec2d row[3] = {n, n, {n.y, -n.x}};
   ImpactRows rows;
   for (int i = 0; i < 3; ++i) {
-    rows.rate[i] = along[i] + arm_b[i] * double(b.angular_velocity) - arm_a[i] * double(a.angular_velocity);
+    rows.rate[i] = dot(row[i], between) - (i == 2 ? double(c.surface_speed) : 0) +
+                   arm_b[i] * double(b.angular_velocity) - arm_a[i] * double(a.angular_velocity);
     for (int j = 0; j < 3; ++j) {
-      rows.response[i][j] = ((i == 2) == (j == 2) ? mass : 0) +
+      rows.response[i][j] = linear_response(a, b, c.locks, row[i], row[j], (i == 2) == (j == 2)) +
                             double(a.inverse_inertia) * arm_a[i] * arm_a[j] +
                             double(b.inverse_inertia) * arm_b[i] * arm_b[j];
     }

@@ -6,16 +6,18 @@
 #include "engine/math/lanes.h"
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
+#include "engine/world/contact_solver/locked_axes.h"
 
 /// Building blocks of the passes over contacts: for one contact, or for several in SIMD lanes if `Number` has
 /// lanes. They are inlined into each pass, which costs little more than the latency of its few operations.
 namespace plumb {
 
 /// The two bodies of a constraint, held in registers through a pass. Their velocities are written back once.
-template <class Number, class Body>
+template <class Number, class Body, class Axes = AllAxes>
 struct Pair {
   Body a, b;
   Vec2<Number> n;
+  [[no_unique_address]] Axes free{};
   Vec2<Number> va = a.velocity, vb = b.velocity;
   Number wa = a.angular_velocity, wb = b.angular_velocity;
 
@@ -25,16 +27,16 @@ struct Pair {
     return dot(Vec2<Number>{n.y, -n.x}, vb - va) + (c.arm_tangent_b * wb - c.arm_tangent_a * wa);
   }
   [[gnu::always_inline]] void push(const Number& impulse, const Number& angular_a, const Number& angular_b) {
-    va -= (a.inverse_mass * impulse) * n;
-    vb += (b.inverse_mass * impulse) * n;
+    va -= free.of_a((a.inverse_mass * impulse) * n);
+    vb += free.of_b((b.inverse_mass * impulse) * n);
     wa -= a.inverse_inertia * angular_a;
     wb += b.inverse_inertia * angular_b;
   }
   template <class Contact>
   [[gnu::always_inline]] void rub(const Contact& c, const Number& impulse) {
     const Vec2<Number> t{n.y, -n.x};
-    va -= (a.inverse_mass * impulse) * t;
-    vb += (b.inverse_mass * impulse) * t;
+    va -= free.of_a((a.inverse_mass * impulse) * t);
+    vb += free.of_b((b.inverse_mass * impulse) * t);
     wa -= a.inverse_inertia * (impulse * c.arm_tangent_a);
     wb += b.inverse_inertia * (impulse * c.arm_tangent_b);
   }

@@ -168,8 +168,8 @@ template <class Number, class Pair, class Contact>
   const Number p = c.normal_impulse[0], q = c.normal_impulse[1], f = c.tangent_impulse;
   const Vec2<Number> n = pair.n;
   const Vec2<Number> impulse{(p + q) * n.x + f * n.y, (p + q) * n.y - f * n.x};
-  pair.va -= pair.a.inverse_mass * impulse;
-  pair.vb += pair.b.inverse_mass * impulse;
+  pair.va -= pair.free.of_a(pair.a.inverse_mass * impulse);
+  pair.vb += pair.free.of_b(pair.b.inverse_mass * impulse);
   pair.wa -= pair.a.inverse_inertia * (c.arm_a[0] * p + c.arm_a[1] * q + c.arm_tangent_a * f);
   pair.wb += pair.b.inverse_inertia * (c.arm_b[0] * p + c.arm_b[1] * q + c.arm_tangent_b * f);
   if (rolls(c)) pair.roll(c.rolling_impulse);

@@ -4,6 +4,7 @@
 
 #include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
+#include "engine/world/contact_solver/locked_axes.h"
 
 namespace plumb {
 
@@ -101,9 +102,9 @@ struct ContactPair {
  private:
   Vec2<Real> tangent() const { return {c.normal.y, -c.normal.x}; }
   void apply(Vec2<Real> impulse, Real angular_a, Real angular_b) {
-    a.velocity -= a.inverse_mass * impulse;
+    a.velocity -= a.inverse_mass * free_of_a(impulse, c.locks);
     a.angular_velocity -= a.inverse_inertia * angular_a;
-    b.velocity += b.inverse_mass * impulse;
+    b.velocity += b.inverse_mass * free_of_b(impulse, c.locks);
     b.angular_velocity += b.inverse_inertia * angular_b;
   }
 };

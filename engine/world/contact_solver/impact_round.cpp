@@ -6,7 +6,7 @@
 
 #include "engine/core/room.h"
 #include "engine/math/small_turn.h"
-#include "engine/world/contact_solver/contact_pair.h"
+#include "engine/world/contact_solver/locked_axes.h"
 
 namespace plumb {
 namespace {
@@ -21,8 +21,8 @@ constexpr double kJointsCost = 2e5;
 
 template <class Real>
 void push(BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
-  motion[c.body_a].apply(-impulse * c.normal, -impulse * c.arm_a[i]);
-  motion[c.body_b].apply(impulse * c.normal, impulse * c.arm_b[i]);
+  motion[c.body_a].apply(-impulse * free_of_a(c.normal, c.locks), -impulse * c.arm_a[i]);
+  motion[c.body_b].apply(impulse * free_of_b(c.normal, c.locks), impulse * c.arm_b[i]);
 }
 
 // Sorts the struck points by groups that share no dynamic body; within a group their order is kept.
@@ -70,8 +70,8 @@ Real sliding_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c
 template <class Real>
 void push_along(BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Real friction) {
   const Vec2<Real> t{c.normal.y, -c.normal.x};
-  motion[c.body_a].apply(-friction * t, -friction * c.arm_tangent_a);
-  motion[c.body_b].apply(friction * t, friction * c.arm_tangent_b);
+  motion[c.body_a].apply(-friction * free_of_a(t, c.locks), -friction * c.arm_tangent_a);
+  motion[c.body_b].apply(friction * free_of_b(t, c.locks), friction * c.arm_tangent_b);
 }
 
 // Returns the work that a round's impulses would do at the velocities before it, if these lasted.
@@ -176,15 +176,17 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
   const Real friction = at.friction;
   note_impact(at);
   const Vec2<Real> way = -at.time * (at.impulse * c.normal + friction * t);
-  const auto move_back = [&](int body, Real sign, Real angular) {
+  const auto move_back = [&](int body, Real sign, Vec2<Real> back, Real angular) {
     BodyMotion<Real>& moving = motion[body];
-    shift(moving, rotation[body], (sign * moving.inverse_mass) * way,
+    shift(moving, rotation[body], (sign * moving.inverse_mass) * back,
           -sign * at.time * moving.inverse_inertia * angular);
     Real& last = room.last[group_of(room, body)];
     if (is_dynamic(moving)) last = std::max(last, at.time);
   };
-  move_back(c.body_a, -1, at.impulse * c.arm_a[at.point] + friction * c.arm_tangent_a);
-  move_back(c.body_b, 1, at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
+  move_back(c.body_a, -1, free_of_a(way, c.locks),
+            at.impulse * c.arm_a[at.point] + friction * c.arm_tangent_a);
+  move_back(c.body_b, 1, free_of_b(way, c.locks),
+            at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
 }
 
 // The impacts of a group of struck points in a round, with the joints of their bodies.
@@ -298,13 +300,14 @@ class JointedRound {
       if (&c != last) ++block;
       last = &c;
       BoundedRow row{.a = room_.blocks[block].first, .b = room_.blocks[block].second};
-      row.linear_b = c.normal.template as<double>(), row.linear_a = -row.linear_b;
+      const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x};
+      row.linear_a = free_of_a(-n, c.locks), row.linear_b = free_of_b(n, c.locks);
       row.angular_a = -double(c.arm_a[at.point]), row.angular_b = c.arm_b[at.point];
       row.wanted = at.wanted, row.upper = std::numeric_limits<double>::infinity();
       row.block = block;
       system_.rows.push_back(row);
       if (!(c.friction > 0)) continue;
-      row.linear_b = Vec2d{row.linear_b.y, -row.linear_b.x}, row.linear_a = -row.linear_b;
+      row.linear_a = free_of_a(-t, c.locks), row.linear_b = free_of_b(t, c.locks);
       row.angular_a = -double(c.arm_tangent_a), row.angular_b = c.arm_tangent_b;
       row.wanted = c.surface_speed;
       row.lower = -c.friction * at.impulse, row.upper = -row.lower;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/world/contact_solver/locked_axes.h"
+
 namespace plumb {
 namespace {
 
@@ -26,6 +28,18 @@ void let_through(RestitutionContact<Real>& bounce) {
   swap_masses(bounce);
 }
 
+// Updates the effective masses of two discs, whose normal has turned: with a locked axis they depend on it.
+template <class Real>
+void update_masses(const BodyMotion<Real>& a, const BodyMotion<Real>& b, ContactConstraint<Real>& c) {
+  const auto mass = [&](Vec2<Real> row, Real arm_a, Real arm_b) {
+    const Real inverse = linear_response(a, b, c.locks, row, row, true) + a.inverse_inertia * arm_a * arm_a +
+                         b.inverse_inertia * arm_b * arm_b;
+    return inverse > 0 ? 1 / inverse : Real(0);
+  };
+  c.mass[0] = c.inverse_pp = mass(c.normal, c.arm_a[0], c.arm_b[0]);
+  c.tangent_mass = mass({c.normal.y, -c.normal.x}, c.arm_tangent_a, c.arm_tangent_b);
+}
+
 }  // namespace
 
 template <class Real>
@@ -44,6 +58,7 @@ void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real
   const Real length = std::sqrt(dot(there, there));
   if (!(length > 0)) return;
   c.normal = (1 / length) * there;
+  if (c.locks != 0) update_masses(a, b, c);
   c.separation[0] = dot(c.normal, bounce.between) - bounce.radii;
   c.now[0] = dot(c.normal, p) - bounce.radii;
 }

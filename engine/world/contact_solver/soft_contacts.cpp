@@ -59,14 +59,28 @@ template <class Narrow, class Wide, class Act>
 }
 
 // Non-dynamic bodies are only read: several contacts of a colour may share one.
-template <class Pass, class Real>
+template <class Pass, class Axes, class Real>
 [[gnu::always_inline]] inline void run_alone(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
-                                             const ContactStep<Real>& step) {
-  Pair<Real, BodyMotion<Real>&> pair{motion[c.body_a], motion[c.body_b], c.normal};
+                                             const ContactStep<Real>& step, Axes free) {
+  Pair<Real, BodyMotion<Real>&, Axes> pair{motion[c.body_a], motion[c.body_b], c.normal, free};
   Pass::template run<Real>(pair, c, step);
   const bool both = c.hardness == ContactHardness::Soft;
   if (both || is_dynamic(pair.a)) pair.a.velocity = pair.va, pair.a.angular_velocity = pair.wa;
   if (both || is_dynamic(pair.b)) pair.b.velocity = pair.vb, pair.b.angular_velocity = pair.wb;
+}
+
+template <class Pass, class Real>
+[[gnu::noinline]] void run_locked(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
+                                  const ContactStep<Real>& step) {
+  run_alone<Pass>(motion, c, step, FreeAxes{c.locks});
+}
+
+template <class Pass, class Real>
+[[gnu::always_inline]] inline void run_alone(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
+                                             const ContactStep<Real>& step) {
+  if (c.locks != 0) [[unlikely]]
+    return run_locked<Pass>(motion, c, step);
+  run_alone<Pass>(motion, c, step, AllAxes{});
 }
 
 template <class Pass, class Number, class Real>
@@ -122,8 +136,8 @@ template <class Real>
                                                               const BodyMotion<Real>* motion,
                                                               const std::vector<char>& apart) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
-  const bool stays_alone =
-      c.hardness == ContactHardness::Rigid || stopped_rolling || (!apart.empty() && apart[c.contact]);
+  const bool stays_alone = c.hardness == ContactHardness::Rigid || stopped_rolling || c.locks != 0 ||
+                           (!apart.empty() && apart[c.contact]);
   if (stays_alone) return kAlone;
   const int kind = (c.count == 2) + 2 * rolls(c);
   if (c.hardness == ContactHardness::Soft) return kind;

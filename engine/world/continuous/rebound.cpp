@@ -23,7 +23,7 @@ template <class Real>
 bool is_free(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
-  if (!record.awake || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
+  if (!record.awake || record.first_joint != kNone) return false;
   if (record.constraints == 0) return true;
   // Most contacts of what flies in a crowd are too far to hold it, whatever its velocity.
   if (w.scratch.loaded[body] != kMayHold) return w.scratch.loaded[body] == 0;

@@ -84,7 +84,7 @@ void choose_jointed(WorldData<Real>& w) {
     if (!w.is_dynamic(body)) continue;
     const int root = s.island_of[body];
     s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
-    // Along a locked axis a body has infinite mass, of which iterations know nothing.
+    // Along a locked axis a body has infinite mass, of which the iterations of joints know nothing.
     const BodyRecord<Real>& record = w.bodies[body];
     if (record.lock_x || record.lock_y) s.heaviest[root] = std::numeric_limits<Real>::infinity();
   }
@@ -132,18 +132,6 @@ void choose_slender(WorldData<Real>& w) {
   }
 }
 
-// Chooses islands of contacts in which one axis of a body is locked: only the rows of jointed islands have a
-// mass along each axis. With both axes locked the inverse mass is 0 along all directions, which others know.
-template <class Real>
-void choose_locked(WorldData<Real>& w) {
-  for (const int body : w.awake) {
-    const BodyRecord<Real>& record = w.bodies[body];
-    if (record.lock_x == record.lock_y || !w.is_dynamic(body)) continue;
-    int& size = w.scratch.island_size[w.scratch.island_of[body]];
-    if (size > 0 && size <= 2 * tuning::kJointedContacts) size = kJointed;
-  }
-}
-
 // Finds the islands, by their root body, and an upper bound of the rows of each in `w.scratch.island_size`.
 // Above tuning::kDirectRows an island is solved by iterations alone.
 template <class Real>
@@ -165,7 +153,6 @@ void find_islands(WorldData<Real>& w) {
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   choose_slender(w);
   if (swept_joints(w) > 0) choose_jointed(w);
-  choose_locked(w);
   w.scratch.islands_chosen = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
     return is_direct(w.scratch.island_size[body]) || is_jointed(w.scratch.island_size[body]);
   });
@@ -195,7 +182,7 @@ void add_rows(DirectIsland<Real>& island) {
       if (c->normal_impulse[i] == 0 && c->separation[i] > 0) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;
-      row.linear_a = -c->normal, row.linear_b = c->normal;
+      row.linear_a = -free_of_a(c->normal, c->locks), row.linear_b = free_of_b(c->normal, c->locks);
       row.angular_a = -c->arm_a[i], row.angular_b = c->arm_b[i];
       row.impulse = &c->normal_impulse[i];
       row.one_sided = true;

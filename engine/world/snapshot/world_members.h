@@ -65,7 +65,7 @@ PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent
                    separation, now, normal_impulse, load_estimate, tangent_impulse, mass, inverse_pp,
                    inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
                    hardness, count, touching, watched, restitution, rolling_arm, rolling_impulse,
-                   peak_impulse, step_impulse, approach, recycle_budget, contact, features)
+                   peak_impulse, step_impulse, approach, recycle_budget, contact, features, locks)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
               report_force, report_torque, user_data)
 

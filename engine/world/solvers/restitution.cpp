@@ -6,7 +6,9 @@
 
 #include "engine/core/union_find.h"
 #include "engine/world/contact_solver/impact_propagation.h"
+#include "engine/world/contact_solver/locked_axes.h"
 #include "engine/world/islands/hinge_trees.h"
+#include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 
 namespace plumb {
@@ -37,7 +39,8 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Restit
   // The future contact point, in the middle of the gap until then.
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   c.arm_tangent_a = -radius_a, c.arm_tangent_b = radius_b;
-  const Real inverse = a.inverse_mass + b.inverse_mass + a.inverse_inertia * radius_a * radius_a +
+  const Vec2<Real> t{c.normal.y, -c.normal.x};
+  const Real inverse = linear_response(a, b, c.locks, t, t, true) + a.inverse_inertia * radius_a * radius_a +
                        b.inverse_inertia * radius_b * radius_b;
   c.tangent_mass = inverse > 0 ? 1 / inverse : Real(0);
 }
@@ -72,13 +75,14 @@ void fill_joint_rows(void* world, ImpactJoint& joint) {
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
   joint.first_row = static_cast<int>(room.rows.size());
   rows.clear();
+  const unsigned locks = locks_of(w, joint.a, joint.b);
   w.joint_set.solver_rows(joint.slot, w.solver_bodies(), rows);
   for (const JointSolverRow<Real>& from : rows) {
     const bool limit = from.role == RowRole::Limit;
     if (from.role != RowRole::Rigid && !(limit && from.row.residual <= 0)) continue;
     BoundedRow row;
-    row.linear_a = from.row.linear_a.template as<double>();
-    row.linear_b = from.row.linear_b.template as<double>();
+    row.linear_a = free_of_a(from.row.linear_a.template as<double>(), locks);
+    row.linear_b = free_of_b(from.row.linear_b.template as<double>(), locks);
     row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
     row.upper = std::numeric_limits<double>::infinity();
     row.lower = limit ? 0 : -row.upper;

@@ -15,20 +15,21 @@ namespace {
 template <class Real>
 void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Vec2<Real>* arms_a,
                   Vec2<Real> between, ContactConstraint<Real>& c) {
-  const Vec2<Real> n = c.normal;
-  const Real inverse_mass = a.inverse_mass + b.inverse_mass;
-  const auto coupling = [&](Real la, Real lb, Real ma, Real mb) {
-    return inverse_mass + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
+  const Vec2<Real> n = c.normal, t{n.y, -n.x};
+  const Real along_n = linear_response(a, b, c.locks, n, n, true),
+             along_t = linear_response(a, b, c.locks, t, t, true);
+  const auto coupling = [&](Real linear, Real la, Real lb, Real ma, Real mb) {
+    return linear + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
   };
   const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
   Real k[2] = {};
   for (int i = 0; i < c.count; ++i) {
     c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - between, n);
-    k[i] = coupling(c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
+    k[i] = coupling(along_n, c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
     c.mass[i] = inverse(k[i]);
   }
   if (c.count == 2) {
-    c.between = coupling(c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
+    c.between = coupling(along_n, c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
     const Real determinant = k[0] * k[1] - c.between * c.between;
     // Points that nearly coincide share their load.
     const bool apart = determinant > Real(1e-3) * k[0] * k[1];
@@ -42,7 +43,8 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
   }
   const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
   c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - between, n);
-  c.tangent_mass = inverse(coupling(c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
+  c.tangent_mass =
+      inverse(coupling(along_t, c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
@@ -118,9 +120,11 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
     c.features[i] = from.feature;
   }
   if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
+  c.locks = static_cast<std::uint8_t>(locks_of(w, contact.body_a, contact.body_b));
   prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, between, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
-  c.recycle_budget = contact.pre_solve ? Real(-1) : Real(tuning::kRecycleDistance) * smaller;
+  // The masses of locked axes change as the normal turns.
+  c.recycle_budget = contact.pre_solve || c.locks != 0 ? Real(-1) : Real(tuning::kRecycleDistance) * smaller;
 }
 
 template <class Real>

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/contact_solver/locked_axes.h"
 #include "engine/world/world_data.h"
 
 /// Sets up contact constraints from the shapes' geometry, materials and bodies.
@@ -50,6 +51,17 @@ bool aabbs_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach)
 /// frame of body a.
 template <class Real>
 ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach);
+
+/// Returns the locked axes of two bodies, as bits of ContactLock.
+template <class Real>
+unsigned locks_of(const WorldData<Real>& w, int body_a, int body_b) {
+  const auto of = [&](int body) -> unsigned {
+    const BodyRecord<Real>& record = w.bodies[body];
+    if (!w.is_dynamic(body) || record.lock_x == record.lock_y) return 0;
+    return record.lock_x ? kLockAX : kLockAY;
+  };
+  return of(body_a) | of(body_b) * kLockBX;
+}
 
 /// Writes the manifold into the constraint, with lever arms and effective masses; points with a known feature
 /// keep their impulses. `q` is the rotation of a, `between` the vector from its centre of mass to that of b.

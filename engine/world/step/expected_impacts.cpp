@@ -49,7 +49,7 @@ template <class Real>
 bool flies_freely(const WorldData<Real>& w, int body, Real dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
-  if (w.scratch.pressed[body] || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
+  if (w.scratch.pressed[body] || record.first_joint != kNone) return false;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     return contact.home == ContactHome::Parked ||
            (contact.home == ContactHome::Graph && holds(w, w.graph.at({contact.colour, contact.index}), dt));

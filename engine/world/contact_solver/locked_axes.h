@@ -1,0 +1,60 @@
+#pragma once
+
+#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/contact_constraint.h"
+
+/// Contacts of bodies of which one axis is locked. Along it such a body has no velocity, and no impulse gives
+/// it one: in its rows of the Jacobian the component is 0. Bodies with both axes locked have no inverse mass,
+/// and need none of this.
+namespace plumb {
+
+/// Bits of ContactConstraint::locks.
+enum ContactLock : unsigned { kLockAX = 1, kLockAY = 2, kLockBX = 4, kLockBY = 8 };
+
+/// Returns a direction without the components along the locked axes of body a, or of body b.
+template <class Vec>
+Vec free_of_a(Vec direction, unsigned locks) {
+  if ((locks & kLockAX) != 0) direction.x = 0;
+  if ((locks & kLockAY) != 0) direction.y = 0;
+  return direction;
+}
+template <class Vec>
+Vec free_of_b(Vec direction, unsigned locks) {
+  return free_of_a(direction, locks / kLockBX);
+}
+
+/// Returns the velocity along `row`, 1/kg, that a unit impulse along `direction` gives two bodies relative to
+/// each other, if they do not turn. Both are unit vectors, either the same or perpendicular.
+template <class Number, class Real>
+Number linear_response(const BodyMotion<Real>& a, const BodyMotion<Real>& b, unsigned locks, Vec2<Number> row,
+                       Vec2<Number> direction, bool same) {
+  if (locks == 0) return same ? Number(a.inverse_mass) + Number(b.inverse_mass) : Number(0);
+  return Number(a.inverse_mass) * dot(free_of_a(row, locks), direction) +
+         Number(b.inverse_mass) * dot(free_of_b(row, locks), direction);
+}
+
+/// The free axes of the bodies of a constraint, where the constraint says so...
+struct AllAxes {
+  template <class Vec>
+  [[gnu::always_inline]] const Vec& of_a(const Vec& direction) const {
+    return direction;
+  }
+  template <class Vec>
+  [[gnu::always_inline]] const Vec& of_b(const Vec& direction) const {
+    return direction;
+  }
+};
+/// ... and where some are locked.
+struct FreeAxes {
+  unsigned locks = 0;
+  template <class Vec>
+  Vec of_a(const Vec& direction) const {
+    return free_of_a(direction, locks);
+  }
+  template <class Vec>
+  Vec of_b(const Vec& direction) const {
+    return free_of_b(direction, locks);
+  }
+};
+
+}  // namespace plumb
