@@ -164,6 +164,25 @@ TYPED_TEST(LockedAxes, BodiesWithALockedAxisKeepTheirEnergyInElasticImpacts) {
   EXPECT_NEAR(energy() / before, 1, rounding<TypeParam>());
 }
 
+// Out of an overlap with a steep slope, a disc that keeps its x moves along the normal as fast as a free one.
+TYPED_TEST(LockedAxes, AnOverlapIsLeftAlongTheFreeAxis) {
+  constexpr double kSlope = 1.2, kOverlap = 0.02;
+  const Vec2d normal{-std::sin(kSlope), std::cos(kSlope)};
+  std::vector<double> depths[2];
+  for (const bool lock_x : {false, true}) {
+    BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false, .solver = Solver::SequentialImpulses});
+    world.create_body({.type = BodyType::Static, .angle = kSlope},
+                      ShapeDefinition{.geometry = Box{20, 1}, .material = {0, 0}});
+    const BodyId disc = add_disc(world, (1 - kOverlap) * normal, {}, 1, 0, {.x = lock_x});
+    for (int i = 0; i < 10; ++i) {
+      world.step();
+      depths[lock_x].push_back(1 - dot(normal, world.position(disc)));
+    }
+    EXPECT_LT(depths[lock_x].back(), 0.8 * kOverlap);
+  }
+  for (int i = 0; i < 10; ++i) EXPECT_NEAR(depths[1][i], depths[0][i], rounding<TypeParam>()) << i;
+}
+
 // A row of more blocks than an island solved as one may have, side by side on a smooth slope.
 TYPED_TEST(LockedAxes, ManyBlocksThatKeepTheirXRestOnASmoothSlope) {
   constexpr double kSlope = 0.4;

@@ -4,6 +4,7 @@
 
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
 
 namespace plumb {
 namespace {
@@ -12,6 +13,9 @@ namespace {
 template <class Real>
 void add_row(WorldData<Real>& w, FeedbackRow<Real> row) {
   const BodyMotion<Real>&a = w.motion[row.body_a], &b = w.motion[row.body_b];
+  const unsigned locks = locks_of(w, row.body_a, row.body_b);
+  row.row.linear_a = free_of_a(row.row.linear_a, locks),
+  row.row.linear_b = free_of_b(row.row.linear_b, locks);
   const JointRow<Real>& j = row.row;
   const Real mobility =
       a.inverse_mass * length_squared(j.linear_a) + a.inverse_inertia * j.angular_a * j.angular_a +
