@@ -19,7 +19,8 @@ using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(LockedAxes, Precisions);
 
 constexpr double kRadius = 0.5;
-const Solver kRigidSolvers[] = {Solver::SoftSteps, Solver::Direct, Solver::SequentialImpulses};
+const Solver kSolvers[] = {Solver::SoftSteps, Solver::Direct, Solver::SequentialImpulses, Solver::Jakobsen,
+                           Solver::Xpbd};
 
 // Rounding of speeds of some m/s over the substeps of a test, and positions at which smooth bodies meet: some
 // 1e-5 of what they move in float.
@@ -41,7 +42,7 @@ BodyId add_disc(BasicWorld<Real>& world, Vec2d position, Vec2d velocity, double 
 }
 
 TYPED_TEST(LockedAxes, ABodyWithBothLockedThrowsBackAllThatStrikesIt) {
-  for (const Solver solver : kRigidSolvers) {
+  for (const Solver solver : kSolvers) {
     for (const double restitution : {1.0, 0.5, 0.0}) {
       BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false, .solver = solver});
       const BodyId ball = add_disc(world, {-2, 0}, {3, 0}, 1, restitution);
@@ -58,7 +59,7 @@ TYPED_TEST(LockedAxes, ABodyWithBothLockedThrowsBackAllThatStrikesIt) {
 // A rod that turns about its locked centre is struck at the arm r: the ball finds the mass I / r^2.
 TYPED_TEST(LockedAxes, ARodThatTurnsAboutItsLockedCentreIsStruckAsAnInertia) {
   constexpr double kMass = 2, kArm = 0.75, kSpeed = 3;
-  for (const Solver solver : kRigidSolvers) {
+  for (const Solver solver : kSolvers) {
     for (const double restitution : {1.0, 0.5}) {
       BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false, .solver = solver});
       const BodyId rod =
@@ -87,10 +88,25 @@ TYPED_TEST(LockedAxes, UnlockedABodyHasItsMassAgain) {
   EXPECT_NEAR(world.velocity(other).x, 3, 3 * rounding<TypeParam>());
 }
 
+// A kinematic body turns as told, whatever is locked. Once dynamic it keeps its angle.
+TYPED_TEST(LockedAxes, AKinematicBodyThatBecomesDynamicLosesItsSpinToALock) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+  const BodyId bat = world.create_body({.type = BodyType::Kinematic, .angular_velocity = 4},
+                                       ShapeDefinition{.geometry = Box{2, 0.2}});
+  world.set_locks(bat, false, false, true);
+  world.step();
+  EXPECT_NEAR(world.angle(bat), 4.0 / 60, rounding<TypeParam>());
+  world.set_type(bat, BodyType::Dynamic);
+  EXPECT_EQ(world.angular_velocity(bat), 0);
+  const double angle = world.angle(bat);
+  run(world, 10);
+  EXPECT_EQ(world.angle(bat), angle);
+}
+
 // Discs meet with the line of centres at 45 degrees; the struck one moves along one axis only.
 TYPED_TEST(LockedAxes, AnObliqueBlowMovesABodyAlongItsFreeAxis) {
   const double along = std::sqrt(0.5), side = along * 2 * kRadius;
-  for (const Solver solver : kRigidSolvers) {
+  for (const Solver solver : kSolvers) {
     for (const double restitution : {0.0, 0.5, 1.0}) {
       for (const bool lock_x : {true, false}) {
         BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false, .solver = solver});

@@ -14,6 +14,7 @@ enum ContactLock : unsigned { kLockAX = 1, kLockAY = 2, kLockBX = 4, kLockBY = 8
 /// Returns a direction without the components along the locked axes of body a, or of body b.
 template <class Vec>
 Vec free_of_a(Vec direction, unsigned locks) {
+  if (locks == 0) return direction;
   if ((locks & kLockAX) != 0) direction.x = 0;
   if ((locks & kLockAY) != 0) direction.y = 0;
   return direction;
@@ -33,7 +34,7 @@ Number linear_response(const BodyMotion<Real>& a, const BodyMotion<Real>& b, uns
          Number(b.inverse_mass) * dot(free_of_b(row, locks), direction);
 }
 
-/// The free axes of the bodies of a constraint, where the constraint says so...
+/// The axes of the bodies of a contact without locks: all are free.
 struct AllAxes {
   template <class Vec>
   [[gnu::always_inline]] const Vec& of_a(const Vec& direction) const {
@@ -44,7 +45,7 @@ struct AllAxes {
     return direction;
   }
 };
-/// ... and where some are locked.
+/// The axes of the bodies of a contact with locks.
 struct FreeAxes {
   unsigned locks = 0;
   template <class Vec>

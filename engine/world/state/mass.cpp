@@ -76,6 +76,8 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass, Vec2<R
   motion.inverse_mass = dynamic ? inverse_mass_of(record, mass.mass) : Real(0);
   motion.inverse_inertia =
       dynamic && !record.lock_rotation && mass.inertia > 0 ? held<Real>(1 / mass.inertia) : Real(0);
+  if (dynamic && record.lock_rotation)
+    motion.angular_velocity = 0;  // of a kinematic body that became dynamic
   update_extents(w, body);
   invalidate_manifolds(w, body);
 }
