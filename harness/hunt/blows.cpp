@@ -142,7 +142,8 @@ std::string blown(Random& random, const Accuracy& accuracy) {
     double normal = (wanted * tt + slip * nt) / determinant,
            tangent = -(wanted * nt + slip * nn) / determinant;
     if (std::abs(tangent) > mu * normal) {
-      const double share = slip < 0 ? mu : -mu;
+      // Friction opposes the slip, or where there is none the one that it cannot stop.
+      const double share = (slip != 0 ? slip < 0 : tangent > 0) ? mu : -mu;
       normal = wanted / (nn + share * nt), tangent = share * normal;
       right.push(normal, tangent);
       if (normal < 0 || right.along() * slip < 0) return {};  // turned round: another branch
