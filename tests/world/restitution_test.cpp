@@ -127,5 +127,33 @@ TEST(Restitution, ThrownLongBodiesGainNoEnergy) {
   }
 }
 
+// A heavy disc strikes a light one, which touches a third and has no restitution with it. The light one is
+// struck once, at whatever time in the step: it takes 2 m_1 v / (m_1 + m_2), and shares it with the third.
+TEST(Restitution, ALightBallBetweenTwoIsStruckOnce) {
+  const double mass[3] = {1, 0.0018, 0.0011}, radius[3] = {0.03, 0.024, 0.019}, speed = 0.8;
+  const double driven = 2 * mass[0] * speed / (mass[0] + mass[1]);
+  const double shared = driven * mass[1] / (mass[1] + mass[2]);
+  const double left = speed * (mass[0] - mass[1]) / (mass[0] + mass[1]);
+  for (const int substeps : {1, 4, 16}) {
+    for (int start = 1; start <= 60; ++start) {
+      World world({.gravity = {0, 0}, .sleeping = false});
+      BodyId discs[3];
+      double place = -0.0005 * start;
+      for (int i = 0; i < 3; ++i) {
+        discs[i] = world.create_body(
+            {.position = {place, 0},
+             .velocity = {i == 0 ? speed : 0, 0},
+             .mass = MassProperties{.mass = mass[i], .inertia = 0.5 * mass[i] * radius[i] * radius[i]}},
+            ShapeDefinition{.geometry = Circle{radius[i]}, .material = {0, i == 0 ? 1.0 : 0.0}});
+        if (i < 2) place = (i == 0 ? 0 : place) + radius[i] + radius[i + 1];
+      }
+      run(world, 8, 1.0 / 60, substeps);
+      EXPECT_NEAR(world.velocity(discs[0]).x, left, 1e-4 * speed) << substeps << " " << start;
+      EXPECT_NEAR(world.velocity(discs[1]).x, shared, 1e-4 * speed) << substeps << " " << start;
+      EXPECT_NEAR(world.velocity(discs[2]).x, shared, 1e-4 * speed) << substeps << " " << start;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb

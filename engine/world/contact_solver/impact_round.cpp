@@ -5,7 +5,6 @@
 #include <span>
 
 #include "engine/core/room.h"
-#include "engine/math/small_turn.h"
 #include "engine/world/contact_solver/locked_axes.h"
 
 namespace plumb {
@@ -161,12 +160,6 @@ void note_impact(const StruckPoint<Real>& at) {
   at.bounce->strikes[at.point] = false;
 }
 
-template <class Real>
-void shift(BodyMotion<Real>& moving, Rotation<Real>& rotation, Vec2<Real> way, Real turn) {
-  moving.moved += way;
-  if (turn != 0) moving.turned += turn, rotation = turned_by(rotation, turn);
-}
-
 // Corrects the displacement: impulses act only from the time of impact on, not over the whole substep.
 template <class Real>
 void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
@@ -178,8 +171,8 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
   const Vec2<Real> way = -at.time * (at.impulse * c.normal + friction * t);
   const auto move_back = [&](int body, Real sign, Vec2<Real> back, Real angular) {
     BodyMotion<Real>& moving = motion[body];
-    shift(moving, rotation[body], (sign * moving.inverse_mass) * back,
-          -sign * at.time * moving.inverse_inertia * angular);
+    displace(room, moving, rotation[body], body, (sign * moving.inverse_mass) * back,
+             -sign * at.time * moving.inverse_inertia * angular);
     Real& last = room.last[group_of(room, body)];
     if (is_dynamic(moving)) last = std::max(last, at.time);
   };
@@ -222,8 +215,8 @@ class JointedRound {
       if (!is_dynamic(moving)) continue;
       const int group = group_of(room_, link.body);
       const Real time = room_.earliest[group];
-      shift(moving, rotation_[link.body], -time * (moving.velocity - link.velocity),
-            -time * (moving.angular_velocity - link.spin));
+      displace(room_, moving, rotation_[link.body], link.body, -time * (moving.velocity - link.velocity),
+               -time * (moving.angular_velocity - link.spin));
       room_.last[group] = std::max(room_.last[group], time);
     }
     for (const StruckPoint<Real>& at : struck_) note_impact(at);

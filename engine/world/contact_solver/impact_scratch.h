@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/room.h"
 #include "engine/linear_algebra/bounded_rows.h"
+#include "engine/math/small_turn.h"
 #include "engine/world/contact_solver/restitution_contacts.h"
 
 namespace plumb {
@@ -81,6 +83,12 @@ struct ImpactScratch {
   std::vector<StruckPoint<Real>> struck, grouped;
   std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
 
+  // Bodies that impacts have displaced in the substep, and by how much.
+  bool unplaced = false;  ///< there are contacts without restitution, which impacts leave to the solver
+  std::vector<int> displaced;
+  std::vector<Vec2<Real>> way;  ///< m, by body; 0 for others
+  std::vector<Real> turn;       ///< rad
+
   // The joints and bodies of struck points in a round, and their rows.
   struct Link {
     int body = 0;
@@ -94,6 +102,17 @@ struct ImpactScratch {
   std::vector<int> sizes;
   BoundedRows system;
 };
+
+/// Moves and turns a body, and adds that up.
+template <class Real>
+void displace(ImpactScratch<Real>& room, BodyMotion<Real>& moving, Rotation<Real>& rotation, int body,
+              Vec2<Real> way, Real turn) {
+  if (!is_dynamic(moving)) return;
+  if (room.way[body] == Vec2<Real>{} && room.turn[body] == 0) append(room.displaced, body);
+  room.way[body] += way, room.turn[body] += turn;
+  moving.moved += way;
+  if (turn != 0) moving.turned += turn, rotation = turned_by(rotation, turn);
+}
 
 /// Returns the group of a body.
 template <class Real>

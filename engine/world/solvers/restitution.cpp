@@ -1,10 +1,13 @@
 #include "engine/world/solvers/restitution.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/room.h"
 #include "engine/core/union_find.h"
+#include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/contact_solver/locked_axes.h"
 #include "engine/world/islands/hinge_trees.h"
@@ -91,6 +94,53 @@ void fill_joint_rows(void* world, ImpactJoint& joint) {
   joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
 }
 
+// Returns true if a contact without restitution touches: its bodies are not free after an impact.
+template <class Real>
+bool any_without_restitution(WorldData<Real>& w) {
+  bool any = false;
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { any = any || !(c.restitution > 0); });
+  return any;
+}
+
+// Moves a struck body such that contacts which it presses in this substep are as closed as without its
+// impact. The solver stops what presses for the whole substep, also before the time of the impact: displaced
+// by the change of velocity from then on, a light ball that a heavy one drives against a third would leave
+// that one, and be struck again. What the impact changes along the contact stays.
+template <class Real>
+void keep_closed(WorldData<Real>& w, int body, Real h) {
+  ImpactScratch<Real>& room = w.scratch.impacts;
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& record) {
+    if (record.home != ContactHome::Graph) return;
+    ContactConstraint<Real>& c = constraint_of(w, record);
+    if (c.restitution > 0) return;
+    const ContactPair<Real> pair(w.motion.data(), c);
+    const auto way = [&](int of) { return w.is_dynamic(of) ? room.way[of] : Vec2<Real>{}; };
+    const auto turn = [&](int of) { return w.is_dynamic(of) ? room.turn[of] : Real(0); };
+    Real opened = 0;
+    for (int i = 0; i < c.count; ++i) {
+      const Real opens = dot(c.normal, way(c.body_b) - way(c.body_a)) + c.arm_b[i] * turn(c.body_b) -
+                         c.arm_a[i] * turn(c.body_a);
+      const bool presses = pair.separation(i) - opens + h * pair.normal_rate(i) < 0;
+      if (presses) opened = std::max(opened, opens);
+    }
+    if (!(opened > 0)) return;
+    const Vec2<Real> back =
+        body == c.body_a ? opened * free_of_a(c.normal, c.locks) : -opened * free_of_b(c.normal, c.locks);
+    displace(room, w.motion[body], w.rotation[body], body, back, Real(0));
+  });
+}
+
+// Keeps the contacts of displaced bodies closed, other than those with joints, whose islands do so.
+template <class Real>
+void keep_closed(WorldData<Real>& w, Real h) {
+  ImpactScratch<Real>& room = w.scratch.impacts;
+  const std::size_t count = room.unplaced ? room.displaced.size() : 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (w.bodies[room.displaced[i]].first_joint == kNone) keep_closed(w, room.displaced[i], h);
+  for (const int body : room.displaced) room.way[body] = {}, room.turn[body] = 0;
+  room.displaced.clear();
+}
+
 // Begins the impacts of a substep: what has not changed since the last one of the step is kept.
 template <class Real>
 void begin_impacts(WorldData<Real>& w) {
@@ -98,6 +148,12 @@ void begin_impacts(WorldData<Real>& w) {
   if (!room.linked) {
     collect_joints(w);
     link_contacts(w.motion.data(), w.scratch.bounces, room);
+    room.unplaced = any_without_restitution(w);
+    if (static_cast<int>(room.way.size()) < w.bodies.size()) {
+      make_room(room.way, w.bodies.size()), make_room(room.turn, w.bodies.size());
+      ensure_room(room.displaced, room.way.size());
+    }
+    assert(room.displaced.empty());
     room.linked = true;
   }
   room.rows.clear();
@@ -114,6 +170,7 @@ bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
   if (!find_impacts(bodies.motion, w.scratch.bounces, room)) return false;
   begin_impacts(w);
   propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.bounces, step, room);
+  keep_closed(w, step.h);
   return true;
 }
 
