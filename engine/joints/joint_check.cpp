@@ -1,9 +1,9 @@
 #include "engine/joints/joint_check.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "engine/core/text.h"
 #include "engine/scene/error.h"
@@ -34,21 +34,15 @@ class Check {
     if (rule.limits == Limits::NotZero && value == Vec2d{})
       refuse(field, 0, "must not be zero: a direction is wanted");
   }
-  void operator()(const std::string& field, const Spring& spring, const FieldRule&) const {
-    (*this)(field + ".hertz", spring.hertz, FieldRule{Limits::Positive});
-    (*this)(field + ".damping_ratio", spring.damping_ratio, FieldRule{Limits::NonNegative});
-  }
-  void operator()(const std::string& field, const Motor& motor, const FieldRule&) const {
-    (*this)(field + ".speed", motor.speed, FieldRule{});
-    (*this)(field + ".max_force", motor.max_force, FieldRule{Limits::NonNegative});
-  }
-  /// Bounds may be infinite, for no bound.
-  void operator()(const std::string& field, const Range& range, const FieldRule&) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    if (range.lower != -kInfinity) (*this)(field + ".lower", range.lower, FieldRule{});
-    if (range.upper != kInfinity) (*this)(field + ".upper", range.upper, FieldRule{});
-    if (range.lower > range.upper)
-      refuse(field + ".lower", range.lower, "must not be above the upper bound, " + shortest(range.upper));
+  template <class T>
+  void operator()(const std::string& field, const T& value, const FieldRule&) const {
+    inner_fields(value, FieldRule{}, [&](const char* name, double number, const FieldRule& rule) {
+      if (number != rule.none) (*this)(field + "." + name, number, rule);
+    });
+    if constexpr (std::is_same_v<T, Range>) {
+      if (value.lower > value.upper)
+        refuse(field + ".lower", value.lower, "must not be above the upper bound, " + shortest(value.upper));
+    }
   }
   template <class T>
   void operator()(const std::string& field, const std::optional<T>& value, const FieldRule& rule) const {

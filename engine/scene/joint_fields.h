@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "engine/scene/joint.h"
@@ -10,18 +11,42 @@
 /// field in order.
 namespace plumb {
 
+/// Rule of a number, or of each component of a vector.
 struct FieldRule {
   Limits limits = Limits::Any;
   const char* unit = "";
   bool required = false;
+  /// Value that stands for none and that JSON leaves out, allowed beside those within the limits; NaN: there
+  /// is no such value.
+  double none = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A joint of this kind, or the definition of one.
+/// A part of a scene of this kind, or the definition of such a joint.
 template <class J, class Kind>
 concept Is = std::is_same_v<std::remove_cvref_t<J>, Kind> ||
     std::is_same_v<typename std::remove_cvref_t<J>::SceneJoint, Kind>;
 
-/// Visits the anchors, if the joint has any.
+/// Visits the numbers of a spring, a motor or a range. `rule` is that of the joint's field.
+template <Is<Spring> S, class Visit>
+void inner_fields(S& s, const FieldRule&, Visit&& visit) {
+  visit("hertz", s.hertz, FieldRule{Limits::Positive, "1/s", true});
+  visit("damping_ratio", s.damping_ratio, FieldRule{Limits::NonNegative, ""});
+}
+
+template <Is<Motor> M, class Visit>
+void inner_fields(M& m, const FieldRule& rule, Visit&& visit) {
+  visit("speed", m.speed, FieldRule{Limits::Any, rule.unit});
+  visit("max_force", m.max_force, FieldRule{Limits::NonNegative, "N or N m", true});
+}
+
+template <Is<Range> R, class Visit>
+void inner_fields(R& r, const FieldRule& rule, Visit&& visit) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  visit("lower", r.lower, FieldRule{rule.limits, rule.unit, false, -kInfinity});
+  visit("upper", r.upper, FieldRule{rule.limits, rule.unit, false, kInfinity});
+}
+
+/// Visits the anchors, if there are any.
 template <class J, class Visit>
 void anchor_fields(J& j, Visit&& visit) {
   constexpr FieldRule kPlace{Limits::Any, "m"};

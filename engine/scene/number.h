@@ -13,8 +13,8 @@ namespace plumb {
 /// "contact_rules.yield_speed", "bodies.ball.mass", "bodies.ball.position.x", "bodies.ball.shapes[0].radius",
 /// "joints.hinge.length", "joints.hinge.spring.hertz", "forces[0].stiffness". Bodies, joints and forces are
 /// named (of names that fit, the longest is meant) or counted from 0; `shapes` without a number means that of
-/// every shape of the body, which change together. Throws `Error` (Name) if there is no such number. The
-/// pointers are valid until `scene` changes.
+/// every shape of the body, which change together. The start and the duration of a force are not named.
+/// Throws `Error` (Name) if there is no such number. The pointers are valid until `scene` changes.
 std::vector<double*> numbers_at(Scene& scene, std::string_view path);
 
 /// The meaning of a number for the choice of a difference in it.
@@ -23,7 +23,8 @@ enum class NumberKind {
   Angle,    ///< rad
   Relative  ///< anything else, to be compared with itself
 };
-NumberKind kind_of_number(std::string_view path);
+/// Returns the kind of what `path` names in `scene`, by its unit; Relative if there is no such number.
+NumberKind kind_of_number(Scene& scene, std::string_view path);
 
 /// Returns the body of which `path` names a number of the state at the start; nothing for any other number.
 std::optional<std::size_t> body_of_start(const Scene& scene, std::string_view path);

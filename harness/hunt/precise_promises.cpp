@@ -165,7 +165,7 @@ std::string derived(const Case& one) {
   if (numbers.empty()) return {};
   std::vector<double> usual;
   for (const double* each : numbers) usual.push_back(*each);
-  if (usual.front() == 0 && kind_of_number(name) == NumberKind::Relative &&
+  if (usual.front() == 0 && kind_of_number(changed, name) == NumberKind::Relative &&
       name.find("velocity") == std::string::npos)
     return {};
   const double scale = std::max(std::abs(usual.front()), 1.0), step = 1e-5 * scale;

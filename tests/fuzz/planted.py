@@ -26,8 +26,8 @@ from mutate import Mutation, mismatches  # noqa: E402
 
 # The suite of a bug is the fuzz target that is to find it.
 BUGS = [
-    Mutation("a force's phase is not written", "engine/scene/json/json_writer.cpp", 'write("phase", force.phase);', "",
-             suite="scene"),
+    Mutation("a phase is not written", "engine/scene/json/json_writer.cpp",
+             "if (value != rule.none) out_.key", 'if (value != rule.none && key != "phase") out_.key', suite="scene"),
     Mutation("awake bodies of a snapshot are not checked", "engine/world/snapshot/snapshot_check.cpp",
              'require(has_body(body) && listed.mark(body), "awake bodies", "are not there");', "listed.mark(body);",
              suite="snapshot"),

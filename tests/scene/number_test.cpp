@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,30 @@ TEST(NumbersOfAScene, TheLongestNameThatFitsIsMeant) {
     EXPECT_EQ(body_of_start(scene, "bodies.a.angle"), 1 - longer);
     EXPECT_THROW(numbers_at(scene, "bodies.a.c.mass"), Error);
   }
+}
+
+TEST(NumbersOfAScene, AreComparedByTheirUnits) {
+  Scene scene;
+  scene.bodies = {{.name = "a"}};
+  PrismaticJoint slider;
+  slider.name = "slider", slider.limits = Range{.lower = 0};
+  RatchetJoint ratchet;
+  ratchet.name = "ratchet";
+  scene.joints = {slider, ratchet};
+  scene.forces = {PointForce{.body = "a", .duration = 1}};
+  const std::map<std::string, NumberKind> kinds{
+      {"bodies.a.position.x", NumberKind::Length},    {"bodies.a.angle", NumberKind::Angle},
+      {"bodies.a.velocity.x", NumberKind::Relative},  {"joints.slider.limits.lower", NumberKind::Length},
+      {"joints.slider.axis.x", NumberKind::Relative}, {"joints.ratchet.phase", NumberKind::Angle},
+      {"joints.ratchet.tooth", NumberKind::Relative}, {"forces[0].point.x", NumberKind::Length},
+      {"forces[0].force.x", NumberKind::Relative}};
+  for (const auto& [path, kind] : kinds) {
+    EXPECT_EQ(numbers_at(scene, path).size(), 1u) << path;
+    EXPECT_EQ(kind_of_number(scene, path), kind) << path;
+  }
+  for (const char* none : {"joints.slider.limits.upper", "forces[0].start", "forces[0].duration",
+                           "forces[0].frame", "bodies.a.name", "bodies.a.inertia"})
+    EXPECT_THROW(numbers_at(scene, none), Error) << none;
 }
 
 TEST(NumbersOfAScene, JointsAreFoundByTheirLongestName) {

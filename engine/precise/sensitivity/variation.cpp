@@ -42,7 +42,8 @@ std::vector<Variation> variations_of(const Scene& scene, const std::vector<std::
     Variation& variation = variations.emplace_back();
     variation.name = name;
     Scene copy = scene;
-    variation.step = Variation::kStep * scale_of(kind_of_number(name), *numbers_at(copy, name)[0], length);
+    variation.step =
+        Variation::kStep * scale_of(kind_of_number(copy, name), *numbers_at(copy, name)[0], length);
     const auto body = body_of_start(scene, name);
     variation.of_start = body && !is_joined(scene, scene.bodies[*body].name) &&
                          std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);

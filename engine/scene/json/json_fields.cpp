@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/suggest.h"
 #include "engine/core/text.h"
@@ -71,8 +70,19 @@ double integer(const View& view, double lowest, double highest) {
             "must be a whole number from " + shortest(lowest) + " to " + shortest(highest));
 }
 
-std::size_t choice(const View& view, const std::string_view* names, std::size_t count) {
-  const std::vector<std::string> known(names, names + count);
+std::uint64_t bits(const View& view) {
+  const double value = number(view);
+  if (value == 0 || view.node().bits != 0) return view.node().bits;
+  // Written with a fraction or an exponent, as 4.0 or 1e3.
+  constexpr double kLowest = -9223372036854775808.0, kEnd = 18446744073709551616.0;
+  if (!(value >= kLowest && value < kEnd) || value != std::floor(value))
+    view.fail(Error::Kind::Value, "must be a whole number from -2^63 to 2^64 - 1");
+  return value < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value))
+                   : static_cast<std::uint64_t>(value);
+}
+
+std::size_t choice(const View& view, std::span<const std::string_view> names) {
+  const std::vector<std::string> known(names.begin(), names.end());
   const auto found = std::find(known.begin(), known.end(), string(view));
   if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
   view.fail(Error::Kind::Name, "must be " + alternatives(known) + did_you_mean(view.node().text, known));
@@ -95,44 +105,6 @@ View Fields::required(std::string_view key) const {
   const std::string field = naming.field.empty() ? std::string(key) : naming.field + "." + std::string(key);
   throw Error(Error::Kind::Syntax, naming.subject, field, "absent", "must be given for " + std::string(what_),
               view_.node().line);
-}
-
-void Fields::read(std::string_view key, double& out) const {
-  if (has(key)) out = number(required(key));
-}
-
-void Fields::read(std::string_view key, bool& out) const {
-  if (has(key)) out = boolean(required(key));
-}
-
-void Fields::read(std::string_view key, std::string& out) const {
-  if (has(key)) out = string(required(key));
-}
-
-void Fields::read(std::string_view key, Vec2d& out) const {
-  if (has(key)) out = vector(required(key));
-}
-
-void Fields::read(std::string_view key, std::uint64_t& out) const {
-  if (!has(key)) return;
-  const View view = required(key);
-  const double value = number(view);
-  if (value == 0 || view.node().bits != 0) {
-    out = view.node().bits;
-    return;
-  }
-  // Written with a fraction or an exponent, as 4.0 or 1e3.
-  constexpr double kLowest = -9223372036854775808.0, kEnd = 18446744073709551616.0;
-  if (!(value >= kLowest && value < kEnd) || value != std::floor(value))
-    view.fail(Error::Kind::Value, "must be a whole number from -2^63 to 2^64 - 1");
-  out = value < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value))
-                  : static_cast<std::uint64_t>(value);
-}
-
-void Fields::read(std::string_view key, std::int32_t& out) const {
-  constexpr double kLowest = std::numeric_limits<std::int32_t>::min();
-  constexpr double kHighest = std::numeric_limits<std::int32_t>::max();
-  if (has(key)) out = static_cast<std::int32_t>(integer(required(key), kLowest, kHighest));
 }
 
 }  // namespace plumb::json

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,15 +42,20 @@ Vec2d vector(const View& view);
 /// Reads a whole number from `lowest` to `highest`.
 double integer(const View& view, double lowest, double highest);
 
-/// Returns the index in `names` of the string here; throws `Error` (Name) that suggests the nearest.
-std::size_t choice(const View& view, const std::string_view* names, std::size_t count);
+/// Reads 64 bits as a whole number; a negative one stands for its two's complement.
+std::uint64_t bits(const View& view);
 
-template <std::size_t kCount>
-std::size_t choice(const View& view, const std::array<std::string_view, kCount>& names) {
-  return choice(view, names.data(), kCount);
+/// Returns the index in `names` of the string here; throws `Error` (Name) that suggests the nearest.
+std::size_t choice(const View& view, std::span<const std::string_view> names);
+
+/// Calls `visit` with a view of each entry of the list here; `problem` is the message if it is none.
+template <class Visit>
+void each(const View& view, const char* problem, const Visit& visit) {
+  if (view.node().kind != Kind::Array) view.fail(Error::Kind::Syntax, problem);
+  for (const Node& item : view.node().items) visit(View(item, view));
 }
 
-/// An object whose keys are all known. Reading an absent optional member leaves `out` unchanged.
+/// An object whose keys are all known.
 class Fields {
  public:
   using Keys = std::vector<std::string_view>;
@@ -62,28 +67,6 @@ class Fields {
 
   /// Returns the member `key`; throws if it is absent.
   View required(std::string_view key) const;
-
-  void read(std::string_view key, double& out) const;
-  void read(std::string_view key, bool& out) const;
-  void read(std::string_view key, std::string& out) const;
-  void read(std::string_view key, Vec2d& out) const;
-  /// Reads 64 bits as a whole number; a negative one stands for its two's complement.
-  void read(std::string_view key, std::uint64_t& out) const;
-  void read(std::string_view key, std::int32_t& out) const;
-
-  template <class Enum, std::size_t kCount>
-  void read(std::string_view key, Enum& out, const std::array<std::string_view, kCount>& names) const {
-    if (has(key)) out = static_cast<Enum>(choice(required(key), names));
-  }
-
-  /// Calls `visit` with a view of each entry of the list `key`, if present.
-  template <class Visit>
-  void each(std::string_view key, Visit visit) const {
-    if (!has(key)) return;
-    const View list = required(key);
-    if (list.node().kind != Kind::Array) list.fail(Error::Kind::Syntax, "must be a list [...]");
-    for (const Node& item : list.node().items) visit(View(item, list));
-  }
 
  private:
   const View& view_;

@@ -1,7 +1,15 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "engine/core/text.h"
 #include "engine/scene/check.h"
@@ -9,9 +17,8 @@
 #include "engine/scene/json.h"
 #include "engine/scene/json/json_document.h"
 #include "engine/scene/json/json_fields.h"
-#include "engine/scene/json/json_joints.h"
 #include "engine/scene/json/json_place.h"
-#include "engine/scene/names.h"
+#include "engine/scene/scene_fields.h"
 
 namespace plumb {
 namespace {
@@ -19,125 +26,38 @@ namespace {
 using json::Fields;
 using json::View;
 
-Fields::Keys operator+(Fields::Keys keys, const Fields::Keys& more) {
-  keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
-}
+/// Names of the things that have fields, for messages.
+template <class T>
+constexpr std::string_view kThing = "";
+template <>
+constexpr std::string_view kThing<Spring> = "a spring";
+template <>
+constexpr std::string_view kThing<Motor> = "a motor";
+template <>
+constexpr std::string_view kThing<Range> = "a range";
+template <>
+constexpr std::string_view kThing<Filter> = "a filter";
+template <>
+constexpr std::string_view kThing<PrescribedMotion> = "a motion";
+template <>
+constexpr std::string_view kThing<ContactRules> = "contact_rules";
+template <>
+constexpr std::string_view kThing<Body> = "a body";
+template <>
+constexpr std::string_view kThing<Drive> = "a drive";
 
-/// Returns the index in `names` of the object's "type". `keys` are those of all types, so that a mistyped
-/// "type" is reported as such.
-template <std::size_t kCount>
-std::size_t type_of(const View& view, std::string_view what, const Fields::Keys& keys,
-                    const std::array<std::string_view, kCount>& names) {
-  return choice(Fields(view, what, keys).required("type"), names);
-}
+/// Adds the name of each field that it visits to a list.
+class AddKeys {
+ public:
+  explicit AddKeys(Fields::Keys& keys) : keys_(keys) {}
+  void operator()(std::string_view key, const auto&, const auto&) const { keys_.push_back(key); }
 
-void read_version(const Fields& fields) {
-  if (!fields.has("plumb_scene")) return;
-  const View version = fields.required("plumb_scene");
-  if (json::number(version) != 1) {
-    version.fail(Error::Kind::Unsupported,
-                 "must be 1, the version of the scene format that this plumb reads");
-  }
-}
-
-ContactRules read_contact_rules(const View& view) {
-  const Fields fields(
-      view, "contact_rules",
-      {"friction", "restitution", "restitution_threshold", "simultaneous", "impact", "yield_speed",
-       "tangential_restitution", "friction_after_stop", "friction_while_sliding"});
-  ContactRules rules;
-  fields.read("friction", rules.friction, kCombineNames);
-  fields.read("restitution", rules.restitution, kCombineNames);
-  fields.read("restitution_threshold", rules.restitution_threshold);
-  fields.read("simultaneous", rules.simultaneous, kSimultaneousNames);
-  fields.read("impact", rules.impact, kImpactNames);
-  fields.read("yield_speed", rules.yield_speed);
-  fields.read("tangential_restitution", rules.tangential_restitution);
-  fields.read("friction_after_stop", rules.friction_after_stop);
-  fields.read("friction_while_sliding", rules.friction_while_sliding);
-  return rules;
-}
-
-Filter read_filter(const View& view) {
-  const Fields fields(view, "a filter", {"category", "mask", "group"});
-  Filter filter;
-  fields.read("category", filter.category);
-  fields.read("mask", filter.mask);
-  fields.read("group", filter.group);
-  return filter;
-}
-
-Fields::Keys shape_keys() {
-  return {"type",          "position", "angle", "friction", "restitution", "rolling_resistance",
-          "surface_speed", "density",  "filter"};
-}
-
-std::vector<Vec2d> read_points(const View& view) {
-  if (view.node().kind != json::Kind::Array)
-    view.fail(Error::Kind::Syntax, "must be a list of points [[x, y], ...]");
-  std::vector<Vec2d> points;
-  for (const json::Node& item : view.node().items) points.push_back(json::vector(View(item, view)));
-  return points;
-}
-
-Geometry read_geometry(const View& view) {
-  const Fields::Keys any =
-      shape_keys() + Fields::Keys{"radius", "width", "height", "start", "end", "points", "closed"};
-  const auto of = [&](std::string_view what, const Fields::Keys& keys) {
-    return Fields(view, what, shape_keys() + keys);
-  };
-  switch (type_of(view, "a shape", any, kGeometryNames)) {
-    case 0: {
-      const Fields fields = of("a circle", {"radius"});
-      return Circle{json::number(fields.required("radius"))};
-    }
-    case 1: {
-      const Fields fields = of("a box", {"width", "height"});
-      return Box{json::number(fields.required("width")), json::number(fields.required("height"))};
-    }
-    case 2: {
-      const Fields fields = of("a capsule", {"start", "end", "radius"});
-      return Capsule{json::vector(fields.required("start")), json::vector(fields.required("end")),
-                     json::number(fields.required("radius"))};
-    }
-    case 3: {
-      const Fields fields = of("a polygon", {"points", "radius"});
-      Polygon polygon{.points = read_points(fields.required("points"))};
-      fields.read("radius", polygon.radius);
-      return polygon;
-    }
-    case 4: {
-      const Fields fields = of("a segment", {"start", "end"});
-      return Segment{json::vector(fields.required("start")), json::vector(fields.required("end"))};
-    }
-    default: {
-      const Fields fields = of("a chain", {"points", "closed"});
-      Chain chain{.points = read_points(fields.required("points"))};
-      fields.read("closed", chain.closed);
-      return chain;
-    }
-  }
-}
-
-Shape read_shape(const View& view) {
-  Shape shape{.geometry = read_geometry(view)};
-  const Fields fields(
-      view, "a shape",
-      shape_keys() + Fields::Keys{"radius", "width", "height", "start", "end", "points", "closed"});
-  fields.read("position", shape.position);
-  fields.read("angle", shape.angle);
-  fields.read("friction", shape.friction);
-  fields.read("restitution", shape.restitution);
-  fields.read("rolling_resistance", shape.rolling_resistance);
-  fields.read("surface_speed", shape.surface_speed);
-  if (fields.has("density")) shape.density = json::number(fields.required("density"));
-  if (fields.has("filter")) shape.filter = read_filter(fields.required("filter"));
-  return shape;
-}
+ private:
+  Fields::Keys& keys_;
+};
 
 /// Reads a formula: text, or a number in its place.
-std::string read_formula(const View& view) {
+std::string formula(const View& view) {
   if (view.node().kind == json::Kind::Number) {
     const double value = json::number(view);
     if (!(std::abs(value) <= kLargest))
@@ -149,176 +69,126 @@ std::string read_formula(const View& view) {
   return text;
 }
 
-PrescribedMotion read_motion(const View& view) {
-  const Fields fields(view, "a motion", {"x", "y", "angle"});
-  PrescribedMotion motion;
-  if (fields.has("x")) motion.x = read_formula(fields.required("x"));
-  if (fields.has("y")) motion.y = read_formula(fields.required("y"));
-  if (fields.has("angle")) motion.angle = read_formula(fields.required("angle"));
-  return motion;
-}
+/// Reads each field that it visits, if it is there or required.
+class Reader {
+ public:
+  explicit Reader(const Fields& fields) : fields_(fields) {}
 
-Drive read_drive(const View& view) {
-  const Fields fields(view, "a drive", {"joint", "speed"});
-  return {json::string(fields.required("joint")), read_formula(fields.required("speed"))};
-}
-
-Body read_body(const View& view) {
-  const Fields fields(view, "a body",
-                      {"name", "type", "position", "angle", "velocity", "angular_velocity", "mass", "inertia",
-                       "fixed_rotation", "lock_x", "lock_y", "gravity_scale", "linear_damping",
-                       "angular_damping", "motion", "shapes"});
-  Body body{.name = json::string(fields.required("name"))};
-  fields.read("type", body.type, kBodyTypeNames);
-  fields.read("position", body.position);
-  fields.read("angle", body.angle);
-  fields.read("velocity", body.velocity);
-  fields.read("angular_velocity", body.angular_velocity);
-  fields.read("mass", body.mass);
-  if (fields.has("inertia")) body.inertia = json::number(fields.required("inertia"));
-  fields.read("fixed_rotation", body.fixed_rotation);
-  fields.read("lock_x", body.lock_x);
-  fields.read("lock_y", body.lock_y);
-  fields.read("gravity_scale", body.gravity_scale);
-  fields.read("linear_damping", body.linear_damping);
-  fields.read("angular_damping", body.angular_damping);
-  if (fields.has("motion")) body.motion = read_motion(fields.required("motion"));
-  fields.each("shapes", [&](const View& shape) { body.shapes.push_back(read_shape(shape)); });
-  if (body.type == BodyType::Dynamic && !fields.has("mass"))
-    body.mass = mass_by_density(body).value_or(body.mass);
-  return body;
-}
-
-LinearDrag read_linear_drag(const Fields& fields) {
-  LinearDrag law{json::string(fields.required("body")), json::number(fields.required("coefficient"))};
-  fields.read("angular_coefficient", law.angular_coefficient);
-  return law;
-}
-
-QuadraticDrag read_quadratic_drag(const Fields& fields) {
-  return {json::string(fields.required("body")), json::number(fields.required("coefficient"))};
-}
-
-PointForce read_point_force(const Fields& fields) {
-  PointForce law{.body = json::string(fields.required("body")),
-                 .force = json::vector(fields.required("force"))};
-  fields.read("point", law.point);
-  fields.read("frame", law.frame, kFrameNames);
-  fields.read("start", law.start);
-  fields.read("duration", law.duration);
-  return law;
-}
-
-Torque read_torque(const Fields& fields) {
-  Torque law{.body = json::string(fields.required("body")),
-             .torque = json::number(fields.required("torque"))};
-  fields.read("start", law.start);
-  fields.read("duration", law.duration);
-  return law;
-}
-
-SpringForce read_spring(const Fields& fields) {
-  SpringForce law{.body_a = json::string(fields.required("body_a")),
-                  .body_b = json::string(fields.required("body_b"))};
-  fields.read("anchor_a", law.anchor_a);
-  fields.read("anchor_b", law.anchor_b);
-  fields.read("rest_length", law.rest_length);
-  law.stiffness = json::number(fields.required("stiffness"));
-  fields.read("damping", law.damping);
-  return law;
-}
-
-AttractionForce read_attraction(const Fields& fields) {
-  AttractionForce law{.body = json::string(fields.required("body"))};
-  fields.read("centre_body", law.centre_body);
-  fields.read("centre", law.centre);
-  law.strength = json::number(fields.required("strength"));
-  if (fields.has("exponent")) {
-    law.exponent =
-        static_cast<int>(json::integer(fields.required("exponent"), -kLargestExponent, kLargestExponent));
+  template <class T, class Rule>
+  void operator()(std::string_view key, T&& out, const Rule& rule) const {
+    if (rule.required || fields_.has(key)) read(fields_.required(key), out, rule);
   }
-  return law;
-}
 
-SinusoidalForce read_sinusoidal_force(const Fields& fields) {
-  SinusoidalForce law{.body = json::string(fields.required("body")),
-                      .amplitude = json::vector(fields.required("amplitude"))};
-  fields.read("point", law.point);
-  law.angular_frequency = json::number(fields.required("angular_frequency"));
-  fields.read("phase", law.phase);
-  return law;
-}
-
-FormulaForce read_formula_force(const Fields& fields) {
-  FormulaForce law{.body = json::string(fields.required("body"))};
-  if (fields.has("force")) {
-    const View force = fields.required("force");
-    if (force.node().kind != json::Kind::Array || force.node().items.size() != 2)
-      force.fail(Error::Kind::Syntax, "must be two formulas [x, y]");
-    law.x = read_formula(View(force.node().items[0], force));
-    law.y = read_formula(View(force.node().items[1], force));
+ private:
+  static void read(const View& view, double& out, const FieldRule&) { out = json::number(view); }
+  static void read(const View& view, bool& out, const FieldRule&) { out = json::boolean(view); }
+  static void read(const View& view, Vec2d& out, const FieldRule&) { out = json::vector(view); }
+  static void read(const View& view, std::uint64_t& out, const FieldRule&) { out = json::bits(view); }
+  static void read(const View& view, std::int32_t& out, const WholeRule& rule) {
+    out = static_cast<std::int32_t>(json::integer(view, rule.lowest, rule.highest));
   }
-  if (fields.has("torque")) law.torque = read_formula(fields.required("torque"));
-  fields.read("point", law.point);
-  return law;
-}
+  template <class Enum>
+  static void read(const View& view, Enum& out, const ChoiceRule& rule) {
+    out = static_cast<Enum>(json::choice(view, rule.names));
+  }
+  template <class Rule>
+  static void read(const View& view, std::string& out, const Rule&) {
+    out = std::is_same_v<Rule, FormulaRule> ? formula(view) : json::string(view);
+  }
+  static void read(const View& view, const std::tuple<std::string&, std::string&>& out, const FormulaRule&) {
+    if (view.node().kind != json::Kind::Array || view.node().items.size() != 2)
+      view.fail(Error::Kind::Syntax, "must be two formulas [x, y]");
+    std::get<0>(out) = formula(View(view.node().items[0], view));
+    std::get<1>(out) = formula(View(view.node().items[1], view));
+  }
+  static void read(const View& view, std::vector<Vec2d>& out, const FieldRule&) {
+    json::each(view, "must be a list of points [[x, y], ...]",
+               [&](const View& point) { out.push_back(json::vector(point)); });
+  }
+  template <class T>
+  static void read(const View& view, std::optional<T>& out, const FieldRule& rule) {
+    read(view, out.emplace(), rule);
+  }
 
-FormulaSpring read_formula_spring(const Fields& fields) {
-  FormulaSpring law{.body_a = json::string(fields.required("body_a")),
-                    .body_b = json::string(fields.required("body_b"))};
-  fields.read("anchor_a", law.anchor_a);
-  fields.read("anchor_b", law.anchor_b);
-  law.tension = read_formula(fields.required("tension"));
-  return law;
-}
+  template <class T>
+  static void read(const View& view, T& out, const FieldRule& rule) {
+    Fields::Keys keys;
+    inner_fields(out, rule, AddKeys(keys));
+    inner_fields(out, rule, Reader(Fields(view, kThing<T>, keys)));
+  }
 
-ForceLaw read_force(const View& view) {
-  const Fields::Keys common{"type", "body"}, drag{"coefficient"}, turning{"angular_coefficient"},
-      timed{"start", "duration"};
-  const Fields::Keys point{"force", "point", "frame"}, torque{"torque"};
-  const Fields::Keys ends{"body_a", "body_b", "anchor_a", "anchor_b"};
-  const Fields::Keys spring{"rest_length", "stiffness", "damping"};
-  const Fields::Keys attraction{"centre_body", "centre", "strength", "exponent"};
-  const Fields::Keys wave{"amplitude", "angular_frequency", "phase"};
-  const Fields::Keys tension{"tension"};
-  const Fields::Keys any =
-      common + drag + turning + timed + point + torque + ends + spring + attraction + wave + tension;
-  switch (type_of(view, "a force", any, kForceNames)) {
-    case 0:
-      return read_linear_drag(Fields(view, "a linear_drag", common + drag + turning));
-    case 1:
-      return read_quadratic_drag(Fields(view, "a quadratic_drag", common + drag));
-    case 2:
-      return read_point_force(Fields(view, "a point_force", common + point + timed));
-    case 3:
-      return read_torque(Fields(view, "a torque", common + torque + timed));
-    case 4:
-      return read_spring(Fields(view, "a spring", Fields::Keys{"type"} + ends + spring));
-    case 5:
-      return read_attraction(Fields(view, "an attraction", common + attraction));
-    case 6:
-      return read_sinusoidal_force(Fields(view, "a sinusoidal_force", common + wave + Fields::Keys{"point"}));
-    case 7:
-      return read_formula_force(
-          Fields(view, "a formula_force", common + torque + Fields::Keys{"force", "point"}));
-    default:
-      return read_formula_spring(Fields(view, "a formula_spring", Fields::Keys{"type"} + ends + tension));
+  template <class T>
+  static void read(const View& view, std::vector<T>& out, const ListRule&) {
+    json::each(view, "must be a list [...]", [&](const View& item) { read_part(item, out.emplace_back()); });
+  }
+
+  template <class T>
+  static void read_part(const View& view, T& out) {
+    Fields::Keys keys;
+    all_fields(out, AddKeys(keys));
+    const Fields fields(view, kThing<T>, keys);
+    all_fields(out, Reader(fields));
+    if constexpr (std::is_same_v<T, Body>) {
+      if (out.type == BodyType::Dynamic && !fields.has("mass"))
+        out.mass = mass_by_density(out).value_or(out.mass);
+    }
+  }
+  static void read_part(const View& view, Shape& out) {
+    read_kind(view, out, out.geometry, "shape", "", kGeometryNames);
+  }
+  static void read_part(const View& view, Joint& out) {
+    read_kind(view, out, out, "joint", " joint", kJointNames);
+  }
+  static void read_part(const View& view, ForceLaw& out) {
+    read_kind(view, out, out, "force", "", kForceNames);
+  }
+
+  /// Reads a part whose "type" names the alternative of `kind`, which is the part or in it.
+  template <class Part, class... Kinds>
+  static void read_kind(const View& view, Part& out, std::variant<Kinds...>& kind, const std::string& noun,
+                        const std::string& ending, std::span<const std::string_view> names) {
+    const auto keys_of = [&](const std::variant<Kinds...>& of) {
+      Fields::Keys keys{"type"};
+      kind = of;
+      all_fields(out, AddKeys(keys));
+      return keys;
+    };
+    // The keys of all kinds are allowed at first, so that a mistyped "type" is reported as such.
+    static const std::vector<std::variant<Kinds...>> kKinds{Kinds{}...};
+    static const Fields::Keys kAny = [&] {
+      Fields::Keys any;
+      for (const auto& each : kKinds) {
+        for (const std::string_view key : keys_of(each))
+          if (std::find(any.begin(), any.end(), key) == any.end()) any.push_back(key);
+      }
+      return any;
+    }();
+    const std::size_t type = json::choice(Fields(view, "a " + noun, kAny).required("type"), names);
+    const std::string thing =
+        (names[type].starts_with('a') ? "an " : "a ") + std::string(names[type]) + ending;
+    const Fields fields(view, thing, keys_of(kKinds[type]));
+    all_fields(out, Reader(fields));
+  }
+
+  const Fields& fields_;
+};
+
+void read_version(const Fields& fields) {
+  if (!fields.has("plumb_scene")) return;
+  const View version = fields.required("plumb_scene");
+  if (json::number(version) != 1) {
+    version.fail(Error::Kind::Unsupported,
+                 "must be 1, the version of the scene format that this plumb reads");
   }
 }
 
 Scene read_scene(const View& view) {
-  const Fields fields(
-      view, "a scene",
-      {"plumb_scene", "name", "gravity", "contact_rules", "bodies", "joints", "forces", "drives"});
-  read_version(fields);
   Scene scene;
-  fields.read("name", scene.name);
-  fields.read("gravity", scene.gravity);
-  if (fields.has("contact_rules")) scene.contact_rules = read_contact_rules(fields.required("contact_rules"));
-  fields.each("bodies", [&](const View& body) { scene.bodies.push_back(read_body(body)); });
-  fields.each("joints", [&](const View& joint) { scene.joints.push_back(json::read_joint(joint)); });
-  fields.each("forces", [&](const View& force) { scene.forces.push_back(read_force(force)); });
-  fields.each("drives", [&](const View& drive) { scene.drives.push_back(read_drive(drive)); });
+  Fields::Keys keys{"plumb_scene"};
+  all_fields(scene, AddKeys(keys));
+  const Fields fields(view, "a scene", keys);
+  read_version(fields);
+  all_fields(scene, Reader(fields));
   return scene;
 }
 

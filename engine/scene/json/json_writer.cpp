@@ -1,20 +1,22 @@
-#include <limits>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
 
 #include "engine/scene/error.h"
-#include "engine/scene/joint_fields.h"
 #include "engine/scene/json.h"
 #include "engine/scene/json/json_emitter.h"
-#include "engine/scene/names.h"
+#include "engine/scene/scene_fields.h"
 #include "engine/scene/subject.h"
 #include "engine/scene/validate.h"
 
 namespace plumb {
 namespace {
 
-using json::Emitter;
-
-/// Writes a scene's parts in a fixed order of keys.
+/// Writes the fields that it visits.
 class Writer {
  public:
   explicit Writer(int indent) : out_(indent) {}
@@ -22,269 +24,89 @@ class Writer {
   void scene(const Scene& scene) {
     out_.begin('{');
     out_.key("plumb_scene"), out_.integer(1);
-    write("name", scene.name);
-    write("gravity", scene.gravity);
-    contact_rules(scene.contact_rules);
-    list("bodies", scene.bodies, [this](const Body& body) { this->body(body); });
-    list("joints", scene.joints, [this](const Joint& joint) { this->joint(joint); });
-    list("forces", scene.forces, [this](const ForceLaw& force) { this->force(force); });
-    // Left out where there is none, as `motion` of a body is: scenes from before them keep their hashes.
-    if (!scene.drives.empty())
-      list("drives", scene.drives, [this](const Drive& drive) { this->drive(drive); });
+    all_fields(scene, *this);
     out_.end('}');
   }
 
   bool failed() const { return failed_ || out_.failed(); }
   std::string take() { return out_.take(); }
 
- private:
-  void write(std::string_view key, double value) { out_.key(key), out_.number(value); }
-  void write(std::string_view key, bool value) { out_.key(key), out_.boolean(value); }
-  void write(std::string_view key, std::string_view value) { out_.key(key), out_.string(value); }
-  void write(std::string_view key, const std::string& value) { write(key, std::string_view(value)); }
-  void write(std::string_view key, Vec2d value) { out_.key(key), out_.vector(value); }
-
-  template <class Enum, std::size_t kCount>
-  void write(std::string_view key, Enum value, const std::array<std::string_view, kCount>& names) {
-    const auto index = static_cast<std::size_t>(value);
-    failed_ = failed_ || index >= kCount;
-    write(key, index < kCount ? names[index] : std::string_view("?"));
+  void operator()(std::string_view key, double value, const FieldRule& rule) {
+    if (value != rule.none) out_.key(key), out_.number(value);
   }
-
-  template <class Items, class WriteItem>
-  void list(std::string_view key, const Items& items, WriteItem write_item) {
+  void operator()(std::string_view key, bool value, const FieldRule&) { out_.key(key), out_.boolean(value); }
+  void operator()(std::string_view key, Vec2d value, const FieldRule&) { out_.key(key), out_.vector(value); }
+  /// Writes bits as a signed number, so that all of them are -1: readers with doubles would round 2^64 - 1.
+  void operator()(std::string_view key, std::uint64_t bits, const FieldRule&) {
+    out_.key(key), out_.integer(static_cast<std::int64_t>(bits));
+  }
+  void operator()(std::string_view key, std::int32_t value, const WholeRule&) {
+    out_.key(key), out_.integer(value);
+  }
+  template <class Enum>
+  void operator()(std::string_view key, Enum value, const ChoiceRule& rule) {
+    const auto index = static_cast<std::size_t>(value);
+    if (rule.first_is_none && index == 0) return;
+    failed_ = failed_ || index >= rule.names.size();
+    text(key, index < rule.names.size() ? rule.names[index] : std::string_view("?"));
+  }
+  void operator()(std::string_view key, const std::string& name, const auto&) { text(key, name); }
+  void operator()(std::string_view key, const std::string& formula, const FormulaRule& rule) {
+    if (!rule.or_none || !formula.empty()) text(key, formula);
+  }
+  void operator()(std::string_view key, std::tuple<const std::string&, const std::string&> formulas,
+                  const FormulaRule&) {
     out_.key(key);
-    out_.begin('[');
-    for (const auto& item : items) write_item(item);
+    out_.begin('[', Layout::Inline);
+    out_.string(std::get<0>(formulas));
+    out_.string(std::get<1>(formulas));
     out_.end(']');
   }
-
-  void contact_rules(const ContactRules& rules) {
-    out_.key("contact_rules");
-    out_.begin('{');
-    write("friction", rules.friction, kCombineNames);
-    write("restitution", rules.restitution, kCombineNames);
-    write("restitution_threshold", rules.restitution_threshold);
-    // Omitted when default, so that the hashes of scenes from before these options stay the same.
-    if (rules.simultaneous != Simultaneous::Sequence)
-      write("simultaneous", rules.simultaneous, kSimultaneousNames);
-    if (rules.impact != ImpactRule::Newton) write("impact", rules.impact, kImpactNames);
-    if (rules.yield_speed != 0) write("yield_speed", rules.yield_speed);
-    if (rules.tangential_restitution != 0) write("tangential_restitution", rules.tangential_restitution);
-    if (rules.friction_after_stop != 1) write("friction_after_stop", rules.friction_after_stop);
-    if (rules.friction_while_sliding != 1) write("friction_while_sliding", rules.friction_while_sliding);
-    out_.end('}');
-  }
-
-  void body(const Body& body) {
-    out_.begin('{');
-    write("name", body.name);
-    write("type", body.type, kBodyTypeNames);
-    write("position", body.position);
-    write("angle", body.angle);
-    write("velocity", body.velocity);
-    write("angular_velocity", body.angular_velocity);
-    write("mass", body.mass);
-    if (body.inertia) write("inertia", *body.inertia);
-    write("fixed_rotation", body.fixed_rotation);
-    write("lock_x", body.lock_x);
-    write("lock_y", body.lock_y);
-    write("gravity_scale", body.gravity_scale);
-    write("linear_damping", body.linear_damping);
-    write("angular_damping", body.angular_damping);
-    if (!body.motion.empty()) motion(body.motion);
-    list("shapes", body.shapes, [this](const Shape& shape) { this->shape(shape); });
-    out_.end('}');
-  }
-
-  void motion(const PrescribedMotion& motion) {
-    out_.key("motion");
-    out_.begin('{', Emitter::Layout::Inline);
-    if (!motion.x.empty()) write("x", motion.x);
-    if (!motion.y.empty()) write("y", motion.y);
-    if (!motion.angle.empty()) write("angle", motion.angle);
-    out_.end('}');
-  }
-
-  void drive(const Drive& drive) {
-    out_.begin('{');
-    write("joint", drive.joint);
-    write("speed", drive.speed);
-    out_.end('}');
-  }
-
-  void shape(const Shape& shape) {
-    out_.begin('{');
-    write("type", kGeometryNames[shape.geometry.index()]);
-    std::visit([this](const auto& geometry) { this->geometry(geometry); }, shape.geometry);
-    write("position", shape.position);
-    write("angle", shape.angle);
-    write("friction", shape.friction);
-    write("restitution", shape.restitution);
-    write("rolling_resistance", shape.rolling_resistance);
-    write("surface_speed", shape.surface_speed);
-    if (shape.density) write("density", *shape.density);
-    out_.key("filter");
-    out_.begin('{', Emitter::Layout::Inline);
-    // Signed, so that all bits are -1: readers with doubles would round 2^64 - 1.
-    out_.key("category"), out_.integer(static_cast<std::int64_t>(shape.filter.category));
-    out_.key("mask"), out_.integer(static_cast<std::int64_t>(shape.filter.mask));
-    out_.key("group"), out_.integer(shape.filter.group);
-    out_.end('}');
-    out_.end('}');
-  }
-
-  void geometry(const Circle& circle) { write("radius", circle.radius); }
-  void geometry(const Box& box) {
-    write("width", box.width);
-    write("height", box.height);
-  }
-
-  void geometry(const Capsule& capsule) {
-    write("start", capsule.start);
-    write("end", capsule.end);
-    write("radius", capsule.radius);
-  }
-  void geometry(const Polygon& polygon) {
-    points(polygon.points);
-    write("radius", polygon.radius);
-  }
-  void geometry(const Segment& segment) {
-    write("start", segment.start);
-    write("end", segment.end);
-  }
-  void geometry(const Chain& chain) {
-    points(chain.points);
-    write("closed", chain.closed);
-  }
-  void points(const std::vector<Vec2d>& points) {
-    out_.key("points");
-    out_.begin('[', Emitter::Layout::Inline);
+  void operator()(std::string_view key, const std::vector<Vec2d>& points, const FieldRule&) {
+    out_.key(key);
+    out_.begin('[', Layout::Inline);
     for (const Vec2d point : points) out_.vector(point);
     out_.end(']');
   }
-
-  void write(std::string_view key, const Spring& spring) {
-    out_.key(key);
-    out_.begin('{', Emitter::Layout::Inline);
-    write("hertz", spring.hertz);
-    write("damping_ratio", spring.damping_ratio);
-    out_.end('}');
-  }
-  void write(std::string_view key, const Motor& motor) {
-    out_.key(key);
-    out_.begin('{', Emitter::Layout::Inline);
-    write("speed", motor.speed);
-    write("max_force", motor.max_force);
-    out_.end('}');
-  }
-  /// JSON has no infinity: an infinite end of a range is left out.
-  void write(std::string_view key, const Range& range) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    out_.key(key);
-    out_.begin('{', Emitter::Layout::Inline);
-    if (range.lower != -kInfinity) write("lower", range.lower);
-    if (range.upper != kInfinity) write("upper", range.upper);
-    out_.end('}');
-  }
   template <class T>
-  void write(std::string_view key, const std::optional<T>& value) {
-    if (value) write(key, *value);
+  void operator()(std::string_view key, const std::optional<T>& value, const FieldRule& rule) {
+    if (value) (*this)(key, *value, rule);
   }
 
-  void joint(const Joint& joint) {
-    out_.begin('{');
-    write("type", kJointNames[joint.index()]);
-    std::visit(
-        [this](const auto& any) {
-          write("name", any.name);
-          write("body_a", any.body_a);
-          write("body_b", any.body_b);
-          const auto field = [&](std::string_view key, const auto& value, const FieldRule&) {
-            write(key, value);
-          };
-          anchor_fields(any, field);
-          own_fields(any, field);
-          last_fields(any, field);
-        },
-        joint);
+  template <class T>
+  void operator()(std::string_view key, const T& value, const FieldRule& rule) {
+    if constexpr (std::is_same_v<T, PrescribedMotion>)
+      if (value.empty()) return;
+    out_.key(key);
+    out_.begin('{', std::is_same_v<T, ContactRules> ? Layout::Block : Layout::Inline);
+    inner_fields(value, rule, *this);
     out_.end('}');
   }
 
-  void force(const ForceLaw& force) {
-    out_.begin('{');
-    write("type", kForceNames[force.index()]);
-    std::visit(
-        [this](const auto& law) {
-          if constexpr (requires { law.body; }) write("body", law.body);
-          this->law(law);
-        },
-        force);
-    out_.end('}');
-  }
-
-  void law(const LinearDrag& drag) {
-    write("coefficient", drag.coefficient);
-    write("angular_coefficient", drag.angular_coefficient);
-  }
-  void law(const QuadraticDrag& drag) { write("coefficient", drag.coefficient); }
-  void law(const PointForce& force) {
-    write("force", force.force);
-    write("point", force.point);
-    write("frame", force.frame, kFrameNames);
-    times(force.start, force.duration);
-  }
-  void law(const Torque& torque) {
-    write("torque", torque.torque);
-    times(torque.start, torque.duration);
-  }
-
-  void law(const SpringForce& spring) {
-    write("body_a", spring.body_a);
-    write("body_b", spring.body_b);
-    write("anchor_a", spring.anchor_a);
-    write("anchor_b", spring.anchor_b);
-    write("rest_length", spring.rest_length);
-    write("stiffness", spring.stiffness);
-    write("damping", spring.damping);
-  }
-  void law(const AttractionForce& attraction) {
-    write("centre_body", attraction.centre_body);
-    write("centre", attraction.centre);
-    write("strength", attraction.strength);
-    out_.key("exponent"), out_.integer(attraction.exponent);
-  }
-  void law(const SinusoidalForce& force) {
-    write("amplitude", force.amplitude);
-    write("point", force.point);
-    write("angular_frequency", force.angular_frequency);
-    write("phase", force.phase);
-  }
-
-  void law(const FormulaForce& force) {
-    out_.key("force");
-    out_.begin('[', Emitter::Layout::Inline);
-    out_.string(force.x);
-    out_.string(force.y);
+  template <class T>
+  void operator()(std::string_view key, const std::vector<T>& parts, const ListRule& rule) {
+    if (rule.empty_is_none && parts.empty()) return;
+    out_.key(key);
+    out_.begin('[');
+    for (const T& part : parts) {
+      out_.begin('{');
+      type(part);
+      all_fields(part, *this);
+      out_.end('}');
+    }
     out_.end(']');
-    write("torque", force.torque);
-    write("point", force.point);
-  }
-  void law(const FormulaSpring& spring) {
-    write("body_a", spring.body_a);
-    write("body_b", spring.body_b);
-    write("anchor_a", spring.anchor_a);
-    write("anchor_b", spring.anchor_b);
-    write("tension", spring.tension);
   }
 
-  /// JSON has no infinity: an infinite duration is left out.
-  void times(double start, double duration) {
-    write("start", start);
-    if (duration != std::numeric_limits<double>::infinity()) write("duration", duration);
-  }
+ private:
+  using Layout = json::Emitter::Layout;
 
-  Emitter out_;
+  void text(std::string_view key, std::string_view value) { out_.key(key), out_.string(value); }
+  void type(const Shape& shape) { text("type", kGeometryNames[shape.geometry.index()]); }
+  void type(const Joint& joint) { text("type", kJointNames[joint.index()]); }
+  void type(const ForceLaw& law) { text("type", kForceNames[law.index()]); }
+  void type(const auto&) {}
+
+  json::Emitter out_;
   bool failed_ = false;
 };
 
