@@ -107,6 +107,7 @@ class RecordedWorld {
  private:
   template <WorldCall kCall, class... Arguments>
   auto call(const Arguments&... arguments);
+  void record_step(double dt, int substeps);
   void record_state();
   void record_hash();
 

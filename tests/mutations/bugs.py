@@ -304,8 +304,12 @@ MUTATIONS = [
              "wind.velocity - velocity - cross(spin, at)", "wind.velocity - velocity - 0 * cross(spin, at)", "world",
              ("world/near_the_edge",)),
     Mutation("recorder: damping of nothing is no call", "engine/world/recording/recorder.cpp",
-             "call<WorldCall::SetDamping>(body, linear, angular);",
-             "if (linear != 0 || angular != 0) call<WorldCall::SetDamping>(body, linear, angular);", "world",
+             "if constexpr (kCall == WorldCall::Step) {",
+             "if constexpr (kCall == WorldCall::SetDamping) {\n"
+             "  const auto& [body, linear, angular] = std::tie(arguments...);\n"
+             "  if (linear == 0 && angular == 0) return;\n"
+             "}\n"
+             "if constexpr (kCall == WorldCall::Step) {", "world",
              ("world/near_the_edge",)),
     Mutation("hashes without spin", "engine/world/world.cpp",
              "mix(w.motion[body].velocity), mix(w.motion[body].angular_velocity);",
@@ -371,12 +375,20 @@ MUTATIONS = [
              "radius = radius_a + static_cast<double>(b.radius);",
              "radius = radius_a + static_cast<double>(b.radius) + 0.02;", "world", ("world/touch_near_the_edge",)),
     Mutation("recorder: a change to a joint's defaults is no call", "engine/world/recording/recorder.cpp",
-             "call<WorldCall::Change>(joint, kind);",
-             "if (kind.index() == 0) world_.change(joint, kind); else call<WorldCall::Change>(joint, kind);", "world",
+             "if constexpr (kCall == WorldCall::Step) {",
+             "if constexpr (kCall == WorldCall::Change) {\n"
+             "  const auto& [joint, kind] = std::tie(arguments...);\n"
+             "  if (kind.index() == 0) return world_.change(joint, kind);\n"
+             "}\n"
+             "if constexpr (kCall == WorldCall::Step) {", "world",
              ("world/touch_near_the_edge",)),
     Mutation("recorder: the usual gravity is no call", "engine/world/recording/recorder.cpp",
-             "call<WorldCall::SetGravity>(gravity);",
-             "if (gravity.x == 0) world_.set_gravity(gravity); else call<WorldCall::SetGravity>(gravity);", "world",
+             "if constexpr (kCall == WorldCall::Step) {",
+             "if constexpr (kCall == WorldCall::SetGravity) {\n"
+             "  const auto& [gravity] = std::tie(arguments...);\n"
+             "  if (gravity.x == 0) return world_.set_gravity(gravity);\n"
+             "}\n"
+             "if constexpr (kCall == WorldCall::Step) {", "world",
              ("world/touch_near_the_edge",)),
     Mutation("hashes of single bodies without spin", "engine/world/snapshot/body_hash.h",
              "add(motion.velocity.y), add(motion.angular_velocity);", "add(motion.velocity.y), add(Real(0));", "world",
