@@ -9,30 +9,28 @@
 namespace plumb {
 
 /// x^n for whole n, by repeated multiplication: the same bits on every platform.
-template <class Real>
-constexpr Real whole_power(Real x, int n) {
-  Real power = 1;
+constexpr double whole_power(double x, int n) {
+  double power = 1;
   for (int i = 0; i < (n < 0 ? -n : n); ++i) power *= x;
   return n < 0 ? 1 / power : power;
 }
 
 /// A central force on a's centre of mass towards a point of b: F = mu m / r^n.
-template <class Real>
 struct AttractionForceLaw {
   int a = kFixedFrame, b = kFixedFrame;
-  Vec2<Real> centre{};  ///< m, in b's frame
-  Real strength = 0;    ///< mu m, N m^n
+  Vec2d centre{};       ///< m, in b's frame
+  double strength = 0;  ///< mu m, N m^n
   int exponent = 2;     ///< n
 
   /// Returns the wrenches on a and on b.
-  std::pair<Wrench<Real>, Wrench<Real>> wrenches(const Pose<Real>& pose_a, const Twist<Real>&,
-                                                 const Pose<Real>& pose_b, const Twist<Real>&) const {
-    const Vec2<Real> arm = pose_b.rotation * centre;
-    const Vec2<Real> way = (pose_b.position + arm) - pose_a.position;
-    const Real distance = std::sqrt(length_squared(way));
+  std::pair<Wrench<double>, Wrench<double>> wrenches(const Pose<double>& pose_a, const Twist<double>&,
+                                                     const Pose<double>& pose_b, const Twist<double>&) const {
+    const Vec2d arm = pose_b.rotation * centre;
+    const Vec2d way = (pose_b.position + arm) - pose_a.position;
+    const double distance = std::sqrt(length_squared(way));
     if (distance == 0) return {};  // no direction to pull in
     // F r^ = mu m r / r^(n + 1)
-    const Vec2<Real> pull = (strength * whole_power(distance, -exponent - 1)) * way;
+    const Vec2d pull = (strength * whole_power(distance, -exponent - 1)) * way;
     return {{pull, 0}, {-pull, -cross(arm, pull)}};
   }
 

@@ -18,7 +18,6 @@
 namespace plumb {
 
 /// Converts a scene's laws to the evaluated laws, with the bodies' names resolved. The scene is valid.
-template <class Real>
 class LawCompiler {
  public:
   explicit LawCompiler(const Scene& scene) : scene_(scene) {
@@ -30,37 +29,26 @@ class LawCompiler {
     return name == kWorld ? kFixedFrame : static_cast<int>(index_.at(name));
   }
 
-  LinearDragLaw<Real> compile(const LinearDrag& law) const {
-    return {index_.at(law.body), static_cast<Real>(law.coefficient),
-            static_cast<Real>(law.angular_coefficient)};
+  LinearDragLaw compile(const LinearDrag& law) const {
+    return {index_.at(law.body), law.coefficient, law.angular_coefficient};
   }
-  QuadraticDragLaw<Real> compile(const QuadraticDrag& law) const {
-    return {index_.at(law.body), static_cast<Real>(law.coefficient)};
+  QuadraticDragLaw compile(const QuadraticDrag& law) const { return {index_.at(law.body), law.coefficient}; }
+  PointForceLaw compile(const PointForce& law) const {
+    return {index_.at(law.body), law.force, law.point, law.frame, law.start, law.duration};
   }
-  PointForceLaw<Real> compile(const PointForce& law) const {
-    return {index_.at(law.body), law.force.as<Real>(), law.point.as<Real>(), law.frame,
-            law.start,           law.duration};
+  TorqueLaw compile(const Torque& law) const {
+    return {index_.at(law.body), law.torque, law.start, law.duration};
   }
-  TorqueLaw<Real> compile(const Torque& law) const {
-    return {index_.at(law.body), static_cast<Real>(law.torque), law.start, law.duration};
+  SpringForceLaw compile(const SpringForce& law) const {
+    return {end(law.body_a), end(law.body_b), law.anchor_a, law.anchor_b,
+            law.rest_length, law.stiffness,   law.damping};
   }
-  SpringForceLaw<Real> compile(const SpringForce& law) const {
-    return {end(law.body_a),
-            end(law.body_b),
-            law.anchor_a.as<Real>(),
-            law.anchor_b.as<Real>(),
-            static_cast<Real>(law.rest_length),
-            static_cast<Real>(law.stiffness),
-            static_cast<Real>(law.damping)};
-  }
-  AttractionForceLaw<Real> compile(const AttractionForce& law) const {
+  AttractionForceLaw compile(const AttractionForce& law) const {
     const double mass = scene_.bodies[index_.at(law.body)].mass;
-    return {end(law.body), end(law.centre_body), law.centre.as<Real>(),
-            static_cast<Real>(law.strength * mass), law.exponent};
+    return {end(law.body), end(law.centre_body), law.centre, law.strength * mass, law.exponent};
   }
-  SinusoidalForceLaw<Real> compile(const SinusoidalForce& law) const {
-    return {index_.at(law.body), law.amplitude.as<Real>(), law.point.as<Real>(), law.angular_frequency,
-            law.phase};
+  SinusoidalForceLaw compile(const SinusoidalForce& law) const {
+    return {index_.at(law.body), law.amplitude, law.point, law.angular_frequency, law.phase};
   }
   FormulaForceLaw compile(const FormulaForce& law) const {
     const std::size_t body = index_.at(law.body);

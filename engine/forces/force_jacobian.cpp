@@ -205,7 +205,7 @@ ForceJacobian::ForceJacobian(const Scene& scene) {
       if (const auto body = find_body(scene, names[end])) entry.bodies[end] = static_cast<int>(*body);
     }
     if (entry.bodies[0] != kFixedFrame) entry.mass = scene.bodies[entry.bodies[0]].mass;
-    const LawCompiler<double> compiler(scene);
+    const LawCompiler compiler(scene);
     if (const auto* force = std::get_if<FormulaForce>(&law)) entry.force = compiler.compile(*force);
     if (const auto* spring = std::get_if<FormulaSpring>(&law)) entry.spring = compiler.compile(*spring);
     laws_.push_back(entry);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "engine/forces/attraction_force.h"
@@ -23,7 +24,6 @@ namespace plumb {
 double active_share(double start, double duration, double t0, double t1);
 
 /// A scene's force laws by body index, one array per law. Each law's formula is in a file of its own.
-template <class Real>
 class Forces {
  public:
   /// The scene is valid: every law's bodies exist.
@@ -36,30 +36,32 @@ class Forces {
   /// Adds every law's wrench to `out`: averaged over [t0, t1] where a law depends on time, at the given
   /// motion otherwise; formulas at the middle of [t0, t1]. Arrays are indexed by body. Gravity is not among
   /// the laws.
-  void add(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
+  void add(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
+           Wrench<double>* out) const;
 
   /// Does the same at the instant `time` inside [t0, t1]: laws that change smoothly with time are evaluated
   /// there. Switched laws keep their fraction of [t0, t1], which the caller ends at the times of switching.
-  void add_at(double time, double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
-              Wrench<Real>* out) const;
+  void add_at(double time, double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
+              Wrench<double>* out) const;
 
  private:
-  void add_steady(const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
-  void add_switched(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
-                    Wrench<Real>* out) const;
-  void add_swinging(double t0, double t1, const Pose<Real>* poses, const Twist<Real>* twists,
-                    Wrench<Real>* out) const;
-  void add_formulas(double time, const Pose<Real>* poses, const Twist<Real>* twists, Wrench<Real>* out) const;
+  void add_steady(const Pose<double>* poses, const Twist<double>* twists, Wrench<double>* out) const;
+  void add_switched(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
+                    Wrench<double>* out) const;
+  void add_swinging(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
+                    Wrench<double>* out) const;
+  void add_formulas(double time, const Pose<double>* poses, const Twist<double>* twists,
+                    Wrench<double>* out) const;
 
-  std::vector<LinearDragLaw<Real>> linear_drags_;
-  std::vector<QuadraticDragLaw<Real>> quadratic_drags_;
-  std::vector<PointForceLaw<Real>> point_forces_;
-  std::vector<TorqueLaw<Real>> torques_;
-  std::vector<SpringForceLaw<Real>> springs_;
-  std::vector<AttractionForceLaw<Real>> attractions_;
-  std::vector<SinusoidalForceLaw<Real>> sinusoidal_forces_;
-  std::vector<FormulaForceLaw> formula_forces_;
-  std::vector<FormulaSpringLaw> formula_springs_;
+  template <class Law>
+  const std::vector<Law>& all() const {
+    return std::get<std::vector<Law>>(laws_);
+  }
+
+  std::tuple<std::vector<LinearDragLaw>, std::vector<QuadraticDragLaw>, std::vector<PointForceLaw>,
+             std::vector<TorqueLaw>, std::vector<SpringForceLaw>, std::vector<AttractionForceLaw>,
+             std::vector<SinusoidalForceLaw>, std::vector<FormulaForceLaw>, std::vector<FormulaSpringLaw>>
+      laws_;
   std::vector<char> acts_on_;  // by body
 };
 

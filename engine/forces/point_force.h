@@ -9,16 +9,15 @@
 namespace plumb {
 
 /// A force at a point of the body: torque = r x F about the centre of mass, r and F in the world's axes.
-template <class Real>
 struct PointForceLaw {
   std::size_t body = 0;
-  Vec2<Real> force{};  ///< N, in `frame`
-  Vec2<Real> point{};  ///< m, in the body's frame
+  Vec2d force{};  ///< N, in `frame`
+  Vec2d point{};  ///< m, in the body's frame
   Frame frame = Frame::World;
   double start = 0, duration = 0;  ///< s
 
-  constexpr Wrench<Real> wrench(const Pose<Real>& pose, const Twist<Real>&) const {
-    const Vec2<Real> acting = frame == Frame::Body ? pose.rotation * force : force;
+  constexpr Wrench<double> wrench(const Pose<double>& pose, const Twist<double>&) const {
+    const Vec2d acting = frame == Frame::Body ? pose.rotation * force : force;
     return {acting, cross(pose.rotation * point, acting)};
   }
 };

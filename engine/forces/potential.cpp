@@ -9,7 +9,7 @@ namespace plumb {
 
 double potential_energy(const Scene& scene, std::span<const BodyState> states) {
   if (scene.forces.empty()) return 0;
-  const LawCompiler<double> compiler(scene);
+  const LawCompiler compiler(scene);
   const auto pose = [&](int body) -> Pose<double> {
     if (body == kFixedFrame) return {};
     const BodyState& state = states[static_cast<std::size_t>(body)];

@@ -9,11 +9,10 @@
 namespace plumb {
 
 /// A sinusoidal force at a point of the body: F = A sin(w t + phase).
-template <class Real>
 struct SinusoidalForceLaw {
   std::size_t body = 0;
-  Vec2<Real> amplitude{};        ///< N, in the world's axes
-  Vec2<Real> point{};            ///< m, in the body's frame
+  Vec2d amplitude{};             ///< N, in the world's axes
+  Vec2d point{};                 ///< m, in the body's frame
   double angular_frequency = 0;  ///< rad/s
   double phase = 0;              ///< rad
 
@@ -26,7 +25,7 @@ struct SinusoidalForceLaw {
   }
 
   /// Returns the wrench with the amplitude as the force.
-  constexpr Wrench<Real> wrench(const Pose<Real>& pose, const Twist<Real>&) const {
+  constexpr Wrench<double> wrench(const Pose<double>& pose, const Twist<double>&) const {
     return {amplitude, cross(pose.rotation * point, amplitude)};
   }
 };

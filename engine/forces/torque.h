@@ -8,13 +8,12 @@
 namespace plumb {
 
 /// A pure torque.
-template <class Real>
 struct TorqueLaw {
   std::size_t body = 0;
-  Real torque = 0;                 ///< N m
+  double torque = 0;               ///< N m
   double start = 0, duration = 0;  ///< s
 
-  constexpr Wrench<Real> wrench(const Pose<Real>&, const Twist<Real>&) const { return {{}, torque}; }
+  constexpr Wrench<double> wrench(const Pose<double>&, const Twist<double>&) const { return {{}, torque}; }
 };
 
 }  // namespace plumb

@@ -22,7 +22,7 @@ std::vector<Wrench<double>> wrenches(const Scene& scene, const std::vector<BodyS
     twists.push_back({s.velocity, s.angular_velocity});
   }
   std::vector<Wrench<double>> out(states.size());
-  Forces<double>(scene).add(0, 0, poses.data(), twists.data(), out.data());
+  Forces(scene).add(0, 0, poses.data(), twists.data(), out.data());
   return out;
 }
 

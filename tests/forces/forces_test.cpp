@@ -54,22 +54,18 @@ Scene scene_with(const ForceLaw& law) {
   return scene;
 }
 
-template <class Real = double>
 Pair evaluate(const ForceLaw& law, double t0, double t1, const BodyState& b = kState,
               const BodyState& c = kOther) {
-  const Forces<Real> forces(scene_with(law));
-  std::vector<Pose<Real>> poses;
-  std::vector<Twist<Real>> twists;
+  const Forces forces(scene_with(law));
+  std::vector<Pose<double>> poses;
+  std::vector<Twist<double>> twists;
   for (const BodyState& state : {b, c}) {
-    poses.push_back({state.position.as<Real>(), rotation_of(static_cast<Real>(state.angle))});
-    twists.push_back({state.velocity.as<Real>(), static_cast<Real>(state.angular_velocity)});
+    poses.push_back({state.position, rotation_of(state.angle)});
+    twists.push_back({state.velocity, state.angular_velocity});
   }
-  std::vector<Wrench<Real>> out(2);
+  std::vector<Wrench<double>> out(2);
   forces.add(t0, t1, poses.data(), twists.data(), out.data());
-  const auto wide = [](const Wrench<Real>& w) {
-    return Wrench<double>{w.force.template as<double>(), static_cast<double>(w.torque)};
-  };
-  return {wide(out[0]), wide(out[1])};
+  return {out[0], out[1]};
 }
 
 TEST(Law, LinearDragOpposesTheVelocity) {
@@ -167,18 +163,6 @@ TEST(Law, SinusoidalForceHasItsValueAtAnInstantAndItsMeanOverASpan) {
   EXPECT_NEAR(evaluate(law, 0.2, 1.9).b.force.x, 2 * mean, 1e-15);
 }
 
-TEST(Law, FloatAndDoubleAgree) {
-  const ForceLaw laws[] = {SpringForce{"b", "c", {0.3, 0.1}, {-0.2, 0.7}, 2, 10, 0.5},
-                           AttractionForce{"b", "c", {0.4, -0.6}, 2, 3},
-                           SinusoidalForce{"c", {2, -4}, {0.5, -1}, 3, 0.4}};
-  for (const ForceLaw& law : laws) {
-    const auto wide = evaluate<double>(law, 0, 0.1), narrow = evaluate<float>(law, 0, 0.1);
-    EXPECT_NEAR(wide.b.force.x, narrow.b.force.x, 2e-5);
-    EXPECT_NEAR(wide.c.force.y, narrow.c.force.y, 2e-5);
-    EXPECT_NEAR(wide.c.torque, narrow.c.torque, 2e-5);
-  }
-}
-
 /// The forces are the slopes of the energy, by central differences of 1e-5 (error 1e-10 times third
 /// derivatives, of up to 30 here).
 TEST(PotentialEnergy, ItsSlopeIsTheForce) {
@@ -220,35 +204,29 @@ Scene scene_of_all_laws() {
   return scene;
 }
 
-template <class Real>
-void check_sum(Real tolerance) {
+TEST(Forces, AddsEveryLawToItsBody) {
   const Scene scene = scene_of_all_laws();
-  const Forces<Real> forces(scene);
+  const Forces forces(scene);
   EXPECT_FALSE(forces.empty());
   EXPECT_TRUE(forces.acts_on(0));
   EXPECT_FALSE(forces.acts_on(1));
   EXPECT_TRUE(forces.acts_on(2));
-  const std::vector<Pose<Real>> poses(3, {{1, 2}, rotation_of(Real(0.7))});
-  const std::vector<Twist<Real>> twists(3, {{3, -4}, 5});
-  std::vector<Wrench<Real>> sum(3, {{100, 200}, 300});
+  const std::vector<Pose<double>> poses(3, {{1, 2}, rotation_of(0.7)});
+  const std::vector<Twist<double>> twists(3, {{3, -4}, 5});
+  std::vector<Wrench<double>> sum(3, {{100, 200}, 300});
   forces.add(0, 1, poses.data(), twists.data(), sum.data());
-  std::vector<Wrench<Real>> expected(3, {{100, 200}, 300});
+  std::vector<Wrench<double>> expected(3, {{100, 200}, 300});
   for (const ForceLaw& law : scene.forces) {
     Scene one = scene;
     one.forces = {law};
-    Forces<Real>(one).add(0, 1, poses.data(), twists.data(), expected.data());
+    Forces(one).add(0, 1, poses.data(), twists.data(), expected.data());
   }
   for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(sum[i].force.x, expected[i].force.x, tolerance);
-    EXPECT_NEAR(sum[i].force.y, expected[i].force.y, tolerance);
-    EXPECT_NEAR(sum[i].torque, expected[i].torque, tolerance);
+    EXPECT_NEAR(sum[i].force.x, expected[i].force.x, 1e-12);
+    EXPECT_NEAR(sum[i].force.y, expected[i].force.y, 1e-12);
+    EXPECT_NEAR(sum[i].torque, expected[i].torque, 1e-12);
   }
   EXPECT_EQ(sum[1].torque, 300);
-}
-
-TEST(Forces, AddsEveryLawToItsBody) {
-  check_sum<double>(1e-12);
-  check_sum<float>(1e-4f);
 }
 
 TEST(Forces, AtAnInstantOfASpanOnlySwitchesAreAveraged) {
@@ -258,7 +236,7 @@ TEST(Forces, AtAnInstantOfASpanOnlySwitchesAreAveraged) {
   const Pose<double> pose{};
   const Twist<double> twist{};
   Wrench<double> sum{};
-  Forces<double>(scene).add_at(0.5, 0, 4, &pose, &twist, &sum);
+  Forces(scene).add_at(0.5, 0, 4, &pose, &twist, &sum);
   EXPECT_EQ(sum.force.x, 2);
   EXPECT_NEAR(sum.force.y, 2 * std::sin(1.5), 1e-15);
 }
@@ -266,7 +244,7 @@ TEST(Forces, AtAnInstantOfASpanOnlySwitchesAreAveraged) {
 TEST(Forces, Empty) {
   Scene scene;
   scene.bodies = {{.name = "p"}};
-  EXPECT_TRUE(Forces<double>(scene).empty());
+  EXPECT_TRUE(Forces(scene).empty());
 }
 
 }  // namespace

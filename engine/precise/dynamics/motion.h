@@ -226,7 +226,7 @@ class EquationsOfMotion final : public Flow {
   std::vector<std::size_t> guides_;  // prescribed bodies: not integrated, but with joints, laws or contacts
   const Flight& flight_;
   Vec2d gravity_;
-  Forces<double> forces_;
+  Forces forces_;
   Joints joints_;
   GeneralJoints kind_joints_;
   std::vector<std::string> joint_of_row_, names_;

@@ -136,7 +136,7 @@ class LawScales {
   }
   LawScale operator()(const FormulaForce& law) const {
     const Body& body = scene_.bodies[index_.at(law.body)];
-    const FormulaForceLaw compiled = LawCompiler<double>(scene_).compile(law);
+    const FormulaForceLaw compiled = LawCompiler(scene_).compile(law);
     const Wrench<double> start =
         compiled.wrench(0, {body.position, rotation_of(body.angle)}, {body.velocity, body.angular_velocity});
     return {length(law.point), finite(length(start.force) / mass(law.body))};
@@ -144,8 +144,7 @@ class LawScales {
   LawScale operator()(const FormulaSpring& law) const {
     const double span = length(place(law.body_b, law.anchor_b) - place(law.body_a, law.anchor_a));
     const double now[] = {0, span, 0};
-    const double pull =
-        std::abs(LawCompiler<double>(scene_).compile(law).tension.at(std::span<const double>(now)));
+    const double pull = std::abs(LawCompiler(scene_).compile(law).tension.at(std::span<const double>(now)));
     return {span, finite(pull / std::min(mass(law.body_a), mass(law.body_b)))};
   }
 

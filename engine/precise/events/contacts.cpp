@@ -51,7 +51,7 @@ double swing_of(const Formula& formula, std::array<Jet, kCount> variables) {
 }
 
 double swing_of(const Scene& scene, const ForceLaw& law) {
-  const LawCompiler<double> compiler(scene);
+  const LawCompiler compiler(scene);
   if (const auto* force = std::get_if<FormulaForce>(&law)) {
     const FormulaForceLaw compiled = compiler.compile(*force);
     const BodyState start = initial_state(scene.bodies[compiled.body]);

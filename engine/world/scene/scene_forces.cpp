@@ -48,7 +48,7 @@ SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
       poses_(scene.bodies.size()),
       twists_(scene.bodies.size()),
       wrenches_(scene.bodies.size()) {
-  const LawCompiler<double> compiler(scene);
+  const LawCompiler compiler(scene);
   std::vector<char> pulled(scene.bodies.size(), 0);
   for (const ForceLaw& law : scene.forces) {
     if (const auto* linear = std::get_if<LinearDrag>(&law)) {
@@ -137,7 +137,7 @@ void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) 
     return body == kFixedFrame ? std::pair(frame, anchor)
                                : std::pair(ends_[body].body, ends_[body].rotation * anchor);
   };
-  for (const SpringForceLaw<double>& law : springs_) {
+  for (const SpringForceLaw& law : springs_) {
     const auto [a, arm_a] = end_of(law.a, law.anchor_a);
     const auto [b, arm_b] = end_of(law.b, law.anchor_b);
     elastic_.add({a, b, arm_a, arm_b, law.rest_length, law.stiffness, law.damping});
@@ -167,7 +167,7 @@ template <class Real>
 void SceneForces<Real>::add_springs_at_start() {
   const Pose<double> fixed_pose{};
   const Twist<double> no_motion{};
-  for (const SpringForceLaw<double>& law : springs_) {
+  for (const SpringForceLaw& law : springs_) {
     const bool has_a = law.a != kFixedFrame, has_b = law.b != kFixedFrame;
     const auto [on_a, on_b] =
         law.wrenches(has_a ? poses_[law.a] : fixed_pose, has_a ? twists_[law.a] : no_motion,

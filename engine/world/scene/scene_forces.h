@@ -49,9 +49,9 @@ class SceneForces {
   void add_springs(double dt);
   void add_springs_at_start();
 
-  Forces<double> laws_;      // all but springs and drag
+  Forces laws_;              // all but springs and drag
   std::vector<Drag> drags_;  // by body
-  std::vector<SpringForceLaw<double>> springs_;
+  std::vector<SpringForceLaw> springs_;
   ElasticStep elastic_;
   std::vector<Elastic> ends_;  // by body
   bool predicts_ = false;      // there are laws that depend on the motion at the middle of a step
