@@ -146,15 +146,4 @@ Corners translated(std::span<const Corner<double>> corners, Vec2d by) {
   return out;
 }
 
-template <class Real>
-std::vector<Corner<Real>> rounded_to(std::span<const Corner<double>> corners) {
-  std::vector<Corner<Real>> out;
-  for (const Corner<double>& corner : corners)
-    out.push_back({corner.point.as<Real>(), corner.normal.as<Real>()});
-  return out;
-}
-
-template std::vector<Corner<float>> rounded_to(std::span<const Corner<double>>);
-template std::vector<Corner<double>> rounded_to(std::span<const Corner<double>>);
-
 }  // namespace plumb

@@ -34,8 +34,4 @@ Corners transformed(std::span<const Corner<double>> corners, const Pose<double>&
 /// Translates the corners by `by`.
 Corners translated(std::span<const Corner<double>> corners, Vec2d by);
 
-/// Rounds the corners to the world's precision. Exists for float and double.
-template <class Real>
-std::vector<Corner<Real>> rounded_to(std::span<const Corner<double>> corners);
-
 }  // namespace plumb

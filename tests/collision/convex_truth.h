@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/collision/manifold/contact_manifold.h"
-#include "engine/geometry/convex_hull.h"
 #include "engine/math/trigonometry.h"
+#include "tests/geometry/rounded_corners.h"
 
 /// Computes how two convex shapes lie to each other in another way than the engine: by the hull of all
 /// differences of their corners (the Minkowski difference), in long double.

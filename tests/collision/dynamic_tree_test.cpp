@@ -86,10 +86,6 @@ class DynamicTreeTest : public testing::Test {
     box = {box.lower + by, box.upper + by};
     tree_.enlarge(proxy, box);
   }
-  void recategorize() {
-    const int proxy = some_leaf();
-    tree_.set_category(proxy, list_[proxy].category = static_cast<std::uint32_t>(below(32)));
-  }
   void do_something(int most) {
     const int choice = below(20);
     const int size = tree_.size();
@@ -97,8 +93,7 @@ class DynamicTreeTest : public testing::Test {
     if (choice < 7) return size > most / 4 ? remove() : insert();
     if (choice < 10) return move();
     if (choice < 14) return enlarge();
-    if (choice < 18) return shift();
-    if (choice < 19) return recategorize();
+    if (choice < 19) return shift();
     below(4) > 0 ? tree_.rebuild() : tree_.rebuild_all();
   }
 
@@ -186,8 +181,6 @@ TYPED_TEST(DynamicTreeTest, EmptyAndSingle) {
   tree.enlarge(proxy, {{0, 0}, {1, 2}});
   EXPECT_EQ(tree.rebuild() + tree.rebuild_all(), 0);
   EXPECT_EQ(tree.bounds().upper.y, 2);
-  tree.set_category(proxy, 2);
-  EXPECT_EQ(look(), 0);
   tree.move(proxy, {{8, 8}, {9, 9}});
   EXPECT_TRUE(tree.valid());
   tree.remove(proxy);

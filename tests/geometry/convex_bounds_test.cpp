@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "engine/geometry/convex_hull.h"
+#include "tests/geometry/rounded_corners.h"
 
 namespace plumb {
 namespace {

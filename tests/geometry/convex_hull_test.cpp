@@ -152,8 +152,6 @@ TEST(Corners, MoveAndTurn) {
   EXPECT_EQ(turned[0].normal, (Vec2d{1, 0}));
   EXPECT_EQ(translated(box, {1, 2})[0].point, (Vec2d{-1, 1}));
   EXPECT_EQ(translated(box, {1, 2})[0].normal, box[0].normal);
-  const auto rounded = rounded_to<float>(box_corners(0.1, 0.1));
-  EXPECT_EQ(rounded[2].point, (Vec2<float>{0.1f, 0.1f}));
 }
 
 }  // namespace

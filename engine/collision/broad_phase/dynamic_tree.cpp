@@ -80,19 +80,6 @@ void DynamicTree<Real>::enlarge(int proxy, const Aabb<Real>& box) {
 }
 
 template <class Real>
-void DynamicTree<Real>::set_category(int proxy, std::uint32_t category) {
-  Node& leaf = node(slots_[proxy]);
-  leaf.category = category;
-  for (int slot = leaf.parent; slot != kNone; slot = node(slot).parent) {
-    Node& above = node(slot);
-    const Pair& below = pairs_[above.link];
-    const std::uint32_t all = below.children[0].category | below.children[1].category;
-    if (above.category == all) return;
-    above.category = all;
-  }
-}
-
-template <class Real>
 void DynamicTree<Real>::clear() {
   pairs_.clear();
   slots_.clear();

@@ -34,7 +34,6 @@ class DynamicTree {
   /// rebuild(). Cheaper than move() by an order of magnitude for small moves. A box that does not overlap the
   /// leaf's old one is moved.
   void enlarge(int proxy, const Aabb<Real>& box);
-  void set_category(int proxy, std::uint32_t category);
   /// Prefetches a leaf and (once that is loaded) the node above it.
   void ask_for(int proxy) const { __builtin_prefetch(&node(slots_[proxy])); }
   void ask_for_above(int proxy) const {
