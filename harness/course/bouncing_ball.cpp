@@ -209,12 +209,17 @@ Finding bounces(const Lab& lab) {
   const double r = 0.4, tolerance = 0.002;
   const Trace trace = bounce(lab, r);
   const BodyState& end = trace.last(0);
+  // At e = 1 the powers of e, and 2 e and 1 + e, are the same.
+  const double e = 0.6;
+  const BodyState slower = bounce(lab, r, e).last(0);
   double lowest = trace.first(0).position.y - r;
   for (const auto& states : trace.states) lowest = std::min(lowest, states[0].position.y - r);
   Judgement judgement;
   judgement.read("vx after the bounce", "m/s", end.velocity.x, 1, tolerance)
       .read("vy after the bounce", "m/s", end.velocity.y, 2, 2 * tolerance)
-      .read("lowest point of the ball", "m", lowest, kFloor, 4 * lab.dt() + 0.05 * r);
+      .read("lowest point of the ball", "m", lowest, kFloor, 4 * lab.dt() + 0.05 * r)
+      .read("vx after a bounce of restitution 0.6", "m/s", slower.velocity.x, 1, tolerance)
+      .read("vy after a bounce of restitution 0.6", "m/s", slower.velocity.y, 2 * e, 2 * tolerance);
   if (judgement.good()) return judgement.finding();
   // With a radius of 1 m the vector from the wall to the centre is 1 m long, less the overlap of a step.
   const double off_at_1 = std::abs(bounce(lab, 1).last(0).velocity.y - 2);
@@ -227,20 +232,23 @@ Finding bounces(const Lab& lab) {
   return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
       .proven_if(bounces_fast, "threshold_too_high", kThreshold)
       .proven_if(
+          pushed_too_far(trace, lab.dt(), [&](const auto& s) { return s[0].position.y - (kFloor + r); }),
+          "pushed_too_far", kPushedTooFar)
+      .proven_if(
           std::abs(end.velocity.y - 2) <= 2 * tolerance && along > 0.05 && std::abs(along - 1) > tolerance,
           "along_wall_changed",
           "The bounce changes the speed along the wall as well: only the part along the normal "
           "changes.")
-      .mistake("whole_sizes", {1, 2, kFloor + 0.5},
+      .mistake("whole_sizes", {1, 2, kFloor + 0.5, 1, 2 * e},
                "It turns half a metre above the floor, which is 1 m high: a box reaches half of its width "
                "and half of its height from its centre.")
-      .mistake("quarter_sizes", {1, 2, kFloor - 0.25},
+      .mistake("quarter_sizes", {1, 2, kFloor - 0.25, 1, 2 * e},
                "It sinks into the floor before it turns: a box reaches half of its width and half of its "
                "height from its centre, not a quarter.")
-      .mistake("diameters", {1, 2, kFloor + r},
+      .mistake("diameters", {1, 2, kFloor + r, 1, 2 * e},
                "It turns a radius too early: compare the distance with the "
                "radius, not with the diameter.")
-      .mistake("radius_ignored", {1, 2, kFloor - r},
+      .mistake("radius_ignored", {1, 2, kFloor - r, 1, 2 * e},
                "It turns when its centre reaches the floor: it touches when the nearest point is a radius "
                "away.")
       .mistake_if(
@@ -250,16 +258,24 @@ Finding bounces(const Lab& lab) {
       .mistake_if(right_at_1, "normal_not_unit", kNormalNotUnit)
       .mistake_if(keeps_rest(bounce(lab, r, 0.7), 0.7), "one_plus_forgotten", kOnePlus)
       .mistake(
-          "falls_through", {1, -2},
+          "falls_through", {1, -2, kAny, 1, -2},
           "The ball goes through the floor: no contact is found, the velocity is not changed, or the normal "
           "points into the wall, so that coming looks like leaving.")
       .mistake("both_turned", {-1, 2},
                "The whole velocity is reversed: reverse only its part along the wall's normal.")
       .mistake("wrong_axis", {-1, -2}, "The floor reverses vx: its normal points up, so reverse vy.")
       .mistake(
-          "restitution_ignored", {1, 0},
+          "restitution_ignored", {1, 0, kAny, 1, 0},
           "The ball stops at the floor: with restitution 1 it should leave as fast as it came, at -e vy.")
-      .mistake("stops_dead", {0, 0},
+      .mistake("restitution_squared", {1, 2, kAny, 1, 2 * e * e},
+               "Restitution is applied twice: multiply the speed by e once.")
+      .mistake("restitution_root", {1, 2, kAny, 1, 2 * std::sqrt(e)},
+               "The energy is multiplied by e: restitution multiplies the speed.")
+      .mistake("restitution_ignored", {1, 2, kAny, 1, 2},
+               "All of the speed comes back, at restitution 0.6 as well: multiply it by the restitution.")
+      .mistake("restitution_of_one_less", {1, 0, kAny, 1, 2 * (1 - e)},
+               "The speed is multiplied by 1 - e: it should be e.")
+      .mistake("stops_dead", {0, 0, kAny, 0, 0},
                "The ball stops dead: only the normal part of the velocity changes, by -e.")
       .finding();
 }

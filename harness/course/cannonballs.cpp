@@ -230,6 +230,38 @@ std::optional<Acting> acting(const Trace& trace, double mass, double rest) {
   return Acting{-slope, rest - constant / slope, -damping};
 }
 
+// Two balls at rest on a spring, whose distance is `first`, m. With the masses 1.6 and 0.8 kg it swings as a
+// reduced mass of 1.6/3 kg.
+constexpr double kFirstMass = 1.6, kSecondMass = 0.8, kReduced = 1.6 / 3, kApart = 2;  // kg; m at rest
+
+Scene two_on_a_spring(double first, double stiffness, double damping) {
+  const Vec2d along{0.8, 0.6}, at{-1, 0.5};
+  Scene scene = scene_of("two on a spring", {},
+                         {make(Ball{.name = "first", .position = at, .mass = kFirstMass}),
+                          make(Ball{.name = "second", .position = at + first * along, .mass = kSecondMass})});
+  SpringForce law;
+  law.body_a = "first";
+  law.body_b = "second";
+  law.rest_length = kApart;
+  law.stiffness = stiffness;
+  law.damping = damping;
+  scene.forces.emplace_back(law);
+  return scene;
+}
+
+// The distance of the two, and how far their centre of mass has moved, m.
+struct Pair {
+  double apart, moved;
+};
+
+Pair pair_at(const Trace& trace, std::size_t k) {
+  const auto centre = [&](std::size_t at) {
+    const auto& s = trace.states[at];
+    return 1 / (kFirstMass + kSecondMass) * (kFirstMass * s[0].position + kSecondMass * s[1].position);
+  };
+  return {length(trace.states[k][1].position - trace.states[k][0].position), length(centre(k) - centre(0))};
+}
+
 Finding spring(const Lab& lab) {
   const double mass = 1.6, k = 14.4, amplitude = 0.2, rest = 1, w = std::sqrt(k / mass);
   Scene scene = scene_of("spring", {}, {make(Ball{.position = {rest + amplitude, 0}, .mass = mass})});
@@ -245,6 +277,11 @@ Finding spring(const Lab& lab) {
   shortened.bodies.front().position.x = rest - amplitude;
   const double quarter = 0.2;  // s; the period is 2.1 s
   const Trace pushed = lab.run(shortened, quarter);
+  // The same with a ball at each end.
+  const double swings = 3, time = 0.8, apart = 0.3;  // rad/s, s, m
+  const Trace two = lab.run(two_on_a_spring(kApart + apart, swings * swings * kReduced, 0), time);
+  const Pair pair = pair_at(two, two.states.size() - 1);
+  const double pair_due = kApart + apart * std::cos(swings * two.duration());
   const auto energy = [&](const BodyState& s) {
     const double stretch = std::hypot(s.position.x, s.position.y) - rest;
     return mass * dot(s.velocity, s.velocity) / 2 + k * stretch * stretch / 2;
@@ -265,6 +302,9 @@ Finding spring(const Lab& lab) {
       .read("x after 0.2 s of a ball that begins too near", "m", pushed.last(0).position.x,
             rest - amplitude * std::cos(w * pushed.duration()),
             amplitude * w * quarter * lab.method_error(w, 1e-3) + 1e-3)
+      .read("distance after 0.8 s of two balls on a spring", "m", pair.apart, pair_due,
+            apart * swings * time * lab.method_error(swings, 1e-3) + 1e-3)
+      .read("shift of the centre of mass of the two", "m", pair.moved, 0, lab.rounding(10, time) + 1e-6)
       .mistake(
           "explicit_euler", {1 + w * w * h * h, kAny},
           fmt::format("Your energy grows by 1 + w^2 h^2 = {:.6f} a step: that is explicit Euler. Update the "
@@ -279,13 +319,13 @@ Finding spring(const Lab& lab) {
           "The spring pushes where it should pull: the force on the ball points back to its rest length.")
       .mistake("rest_length_ignored", {kAny, (rest + amplitude) * std::cos(w * te)},
                "The spring pulls to its anchor: take \"rest_length\" off the length.")
-      .mistake("spring_ignored", {1, rest + amplitude}, "The spring does nothing.")
+      .mistake("spring_ignored", {1, rest + amplitude, kAny, kApart + apart, 0}, "The spring does nothing.")
       .proven_if(
           acts && acts->seems(acts->stiffness, k) && !acts->seems(acts->rest, rest) && !acts->damped(k),
-          "rest_length_wrong",
+          acts && std::abs(acts->rest) < 0.02 * rest ? "rest_length_ignored" : "rest_length_wrong",
           fmt::format("The spring acts as if it were {:.3g} m long at rest, and its \"rest_length\" is "
                       "{:.3g}: its force is stiffness (length - rest_length).",
-                      acts ? acts->rest : 0, rest))
+                      acts ? std::round(1000 * acts->rest) / 1000 + 0.0 : 0, rest))
       .proven_if(
           acts && acts->seems(acts->rest, rest) && !acts->seems(acts->stiffness, k) && !acts->damped(k),
           "stiffness_wrong",
@@ -297,6 +337,32 @@ Finding spring(const Lab& lab) {
                  fmt::format("A force of {:.3g} N s/m times the velocity acts beside the spring: its "
                              "\"damping\" is 0 here, and nothing else acts.",
                              acts ? acts->damping : 0))
+      .finding();
+}
+
+// Two balls on a damped spring: their distance decays as exp(-c t/(2 m)), m the reduced mass, and swings.
+Finding damped_spring(const Lab& lab) {
+  const double k = 4.8, c = 0.8, stretch = 0.5, decay = c / (2 * kReduced),
+               undamped = std::sqrt(k / kReduced);
+  const double w = std::sqrt(undamped * undamped - decay * decay);
+  const Trace trace = lab.run(two_on_a_spring(kApart + stretch, k, c), 2);
+  const auto due = [&](double t) {
+    return kApart + stretch * std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
+  };
+  const std::size_t end = trace.states.size() - 1, middle = end / 2;
+  const double tolerance = stretch * undamped * lab.method_error(undamped, 1e-3) + 1e-3;
+  const Pair half = pair_at(trace, middle), whole = pair_at(trace, end);
+  const double t = trace.duration();
+  return Judgement()
+      .read("distance after 1 s", "m", half.apart, due(trace.times[middle]), tolerance)
+      .read("distance after 2 s", "m", whole.apart, due(t), tolerance)
+      .read("shift of the centre of mass", "m", whole.moved, 0, lab.rounding(10, t) + 1e-6)
+      .mistake("damping_ignored",
+               {kApart + stretch * std::cos(undamped * trace.times[middle]),
+                kApart + stretch * std::cos(undamped * t), 0},
+               "The spring's damping is left out: its force is stiffness (length - rest_length) + damping "
+               "(speed at which the ends part).")
+      .mistake("spring_ignored", {kApart + stretch, kApart + stretch, 0}, "The spring does nothing.")
       .finding();
 }
 
@@ -314,7 +380,9 @@ Chapter cannonballs() {
                  {"forces_add", "wind, thrust and gravity add up", kPush, forces_add},
                  {"push_ends", "a push has a start and an end", kPush, push_ends},
                  {"drag", "drag slows by exp(-c t/m)", "\"forces\":[\"linear_drag\"]", drag},
-                 {"spring", "a spring keeps its energy and its period", "\"forces\":[\"spring\"]", spring}}};
+                 {"spring", "a spring keeps its energy and its period", "\"forces\":[\"spring\"]", spring},
+                 {"damped_spring", "a damped spring between two balls comes to rest",
+                  "\"forces\":[\"spring\"]", damped_spring}}};
 }
 
 }  // namespace plumb::course

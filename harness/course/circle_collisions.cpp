@@ -2,6 +2,7 @@
 // forms.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -118,18 +119,23 @@ Finding parting_is_left_alone(const Lab& lab) try {
 
 Finding equal_masses_swap(const Lab& lab) {
   const double u = 2, w = -1, closing = u - w, r = 0.3, reach = 2 * r;
-  const auto meet = [&](double radius) {
-    return head_on(lab, {.position = {-2, 0}, .velocity = {u, 0}, .radius = radius},
-                   {.position = {1, 0}, .velocity = {w, 0}, .radius = radius}, 2);
+  const auto meet = [&](double radius, double along = 0) {
+    return head_on(lab, {.position = {-2, 0}, .velocity = {u, along}, .radius = radius},
+                   {.position = {1, 0}, .velocity = {w, along}, .radius = radius}, 2);
   };
-  const Trace trace = meet(r);
+  // A velocity that both have changes nothing.
+  const double drift = 0.7;
+  const Trace trace = meet(r), drifting = meet(r, drift);
   const double mean = (u + w) / 2;
   double nearest = distance(trace, 0);
   for (std::size_t k = 0; k < trace.states.size(); ++k) nearest = std::min(nearest, distance(trace, k));
   const bool caught = distance(trace, trace.states.size() - 1) < 0.9 * reach && nearest < reach / 4;
   Judgement judgement;
   judgement.read("vx of the first", "m/s", trace.last(0).velocity.x, w, kShare * closing)
-      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing);
+      .read("vx of the second", "m/s", trace.last(1).velocity.x, u, kShare * closing)
+      .read("vx of the first if both drift along y", "m/s", drifting.last(0).velocity.x, w, kShare * closing)
+      .read("vy of the first if both drift along y", "m/s", drifting.last(0).velocity.y, drift,
+            kShare * closing);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) {
     return std::abs(t.last(0).velocity.x - w) + std::abs(t.last(1).velocity.x - u);
@@ -246,22 +252,34 @@ Finding restitution(const Lab& lab) {
 
 Finding oblique(const Lab& lab) {
   const double r = 0.4, v = 2, offset = r, d = 2 * r;  // line of centres at contact: 30 degrees
-  const Trace trace = head_on(lab, {.position = {-2, offset}, .velocity = {v, 0}, .radius = r},
-                              {.position = {0, 0}, .radius = r}, 2);
+  // Turned by -25 degrees, the approach, the line of centres and the axes are far from each other.
+  const double turn = -25 * std::numbers::pi / 180;
+  const auto meet = [&](Rotation<double> q) {
+    return head_on(lab, {.position = q * Vec2d{-2, offset}, .velocity = q * Vec2d{v, 0}, .radius = r},
+                   {.position = {0, 0}, .radius = r}, 2);
+  };
+  const Rotation<double> q{std::cos(turn), std::sin(turn)};
+  const Trace trace = meet({1, 0}), turned = meet(q);
   const double s = offset / d, c = std::sqrt(1 - s * s);
   const Vec2d n{c, -s}, hit = v * c * n, stays = Vec2d{v, 0} - hit;
   // If the contact is detected a step late, the line of centres has turned by at most v dt s/d, and the
   // velocities by twice that.
   const double tolerance = 2 * v * (v * lab.dt() * s / d) + kShare * v;
   const Vec2d a = trace.last(0).velocity, b = trace.last(1).velocity;
+  const Vec2d ta = q.inverse() * turned.last(0).velocity, tb = q.inverse() * turned.last(1).velocity;
+  // Turned with the scene, but for mistakes that follow the axes.
   const auto gives = [](Vec2d first, Vec2d second) {
-    return std::vector<double>{first.x, first.y, second.x, second.y};
+    return std::vector<double>{first.x, first.y, second.x, second.y, first.x, first.y, second.x, second.y};
   };
   return Judgement()
       .read("vx of the first", "m/s", a.x, stays.x, tolerance)
       .read("vy of the first", "m/s", a.y, stays.y, tolerance)
       .read("vx of the second", "m/s", b.x, hit.x, tolerance)
       .read("vy of the second", "m/s", b.y, hit.y, tolerance)
+      .read("the first along the approach, turned by -25 degrees", "m/s", ta.x, stays.x, tolerance)
+      .read("the first across the approach, turned by -25 degrees", "m/s", ta.y, stays.y, tolerance)
+      .read("the second along the approach, turned by -25 degrees", "m/s", tb.x, hit.x, tolerance)
+      .read("the second across the approach, turned by -25 degrees", "m/s", tb.y, hit.y, tolerance)
       .mistake("whole_velocity", gives({0, 0}, {v, 0}),
                "The whole velocities are exchanged: only the parts along the line of centres are.")
       .mistake("normal_not_unit", gives(Vec2d{v, 0} - d * d * hit, d * d * hit),
@@ -269,7 +287,7 @@ Finding oblique(const Lab& lab) {
       .mistake("normal_along_velocity", gives({0, 0}, {v * c, 0}),
                "The impulse follows the velocity: it follows the line of centres.")
       .mistake("tangent", gives(hit, stays), "The parts along and across the line of centres are mixed up.")
-      .mistake("y_of_normal_flipped", gives({stays.x, -stays.y}, {hit.x, -hit.y}),
+      .mistake("y_of_normal_flipped", {stays.x, -stays.y, hit.x, -hit.y},
                "The y of the normal has the wrong sign.")
       .mistake("no_collision", gives({v, 0}, {0, 0}),
                "They pass each other: circles touch off their centres as well.")

@@ -166,6 +166,26 @@ Finding stick_weighs_masses(const Lab& lab) {
   // Ends before a stick that gives way would be drawn out to the other side, after 0.43 s.
   const Trace pushed = lab.run(scene, 0.4);
   const double when_pushed = -force * pushed.duration() / (heavy + light);
+  // Two balls of 1 kg, for which ma + mb is 1/ma + 1/mb, move together, pulled and pushed.
+  const auto alike_hold = [&] {
+    Scene alike = scene;
+    alike.bodies[0].mass = 1;
+    for (const double f : {force, -force}) {
+      alike.forces = {push("light", {f, 0})};
+      const Trace moved = lab.run(alike, 0.4);
+      for (const std::size_t body : {0U, 1U}) {
+        const double due_alike = f * moved.duration() / 2;
+        if (std::abs(moved.last(body).velocity.x - due_alike) > 0.005 * std::abs(due_alike)) return false;
+      }
+    }
+    return true;
+  };
+  const auto weak = [&](const Trace& run, double f) {
+    const double a = run.last(0).velocity.x / f, b = run.last(1).velocity.x / f;
+    const bool right_momentum = std::abs(heavy * a + light * b - run.duration()) < 0.001 * run.duration();
+    return right_momentum && a >= 0 && a < b && (b - a) > 0.005 * run.duration() / (heavy + light);
+  };
+  const bool masses_weaken = weak(trace, force) && weak(pushed, -force) && alike_hold();
   return Judgement()
       .read("vx of 10 kg", "m/s", trace.last(0).velocity.x, both, 0.005 * both)
       .read("vx of 1 kg", "m/s", trace.last(1).velocity.x, both, 0.005 * both)
@@ -184,8 +204,8 @@ Finding stick_weighs_masses(const Lab& lab) {
                {force * t / light * heavy / (heavy + light), force * t / light * heavy / (heavy + light)},
                "The shares are swapped: the light end moves more, by inverse mass.")
       .otherwise_if(
-          std::abs(momentum - force * t) < 0.001 * force * t, "joint_impulse_weak",
-          "The two ends part although the total momentum is right: the stick's impulse is too weak. "
+          masses_weaken, "joint_impulse_weak",
+          "Two balls of 1 kg move together, and 10 kg and 1 kg do not: the stick's impulse is too weak. "
           "It is -dC/dt/(1/ma + 1/mb), not divided by ma + mb, and each end changes by it times its "
           "own inverse mass.")
       .symptom_if(std::abs(momentum - force * t) > 0.05 * force * t,

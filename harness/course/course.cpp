@@ -132,7 +132,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       const bool sure = proven || (unexplained ? finding.exact : finding.computed);
       if (later && !sure && finding.verdict == Verdict::Fail && !finding.mistake.empty()) {
         finding.mistake.clear();
-        finding.says = describe(finding.readings);
+        finding.says = describe(finding);
       }
       if (finding.verdict == Verdict::Fail && finding.mistake.empty() && named.empty()) unexplained = true;
       if (named.empty()) named = finding.mistake;

@@ -13,8 +13,7 @@ namespace {
 // Tolerance of a mistake's figure, as a fraction of its distance from the right figure.
 constexpr double kSmallestShare = 0.03, kLargestShare = 0.1;
 
-}  // namespace
-
+// Returns a sentence about the first reading that is wrong, without a cause.
 std::string describe(const std::vector<Reading>& readings) {
   std::string out = "No known mistake gives this motion";
   for (const Reading& reading : readings) {
@@ -28,6 +27,12 @@ std::string describe(const std::vector<Reading>& readings) {
     return out + fmt::format(": {} is {:.4g} times what it should be.", reading.what, times);
   }
   return out + ".";
+}
+
+}  // namespace
+
+std::string describe(const Finding& finding) {
+  return describe(finding.readings) + (finding.symptom.empty() ? "" : " " + finding.symptom);
 }
 
 bool Reading::good() const { return std::abs(measured - expected) <= tolerance; }
@@ -91,6 +96,7 @@ Finding Judgement::finding() const {
   out.readings = readings_;
   if (good()) return out;
   out.verdict = Verdict::Fail;
+  if (!symptoms_.empty()) out.symptom = symptoms_.front().says;
   const Mistake* nearest = !proven_.empty() ? &proven_.front() : seen_.empty() ? nullptr : &seen_.front();
   double least = nearest == nullptr ? 1 : 0;
   for (const Mistake& mistake : mistakes_) {
@@ -101,8 +107,7 @@ Finding Judgement::finding() const {
   }
   if (nearest == nullptr && !otherwise_.empty()) nearest = &otherwise_.front();
   if (nearest == nullptr) {
-    out.says = describe(readings_);
-    if (!symptoms_.empty()) out.says += " " + symptoms_.front().says;
+    out.says = describe(out);
     return out;
   }
   out.mistake = nearest->name;

@@ -14,9 +14,6 @@ struct Reading {
   bool good() const;
 };
 
-/// Returns a sentence about the first reading that is wrong, without a cause.
-std::string describe(const std::vector<Reading>& readings);
-
 enum class Verdict {
   Pass,
   Fail,
@@ -30,12 +27,16 @@ struct Finding {
   std::vector<Reading> readings;
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
+  std::string symptom;    ///< a sign of several possible causes, seen besides; may be empty
   bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
   bool proven = false;    ///< an experiment or a direct measurement leaves no other cause
   bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
   bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
   std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
 };
+
+/// Returns a sentence about the first reading that is wrong, without a cause, and what was seen besides.
+std::string describe(const Finding& finding);
 
 /// Stands for a figure that a mistake leaves undetermined.
 inline constexpr double kAny = std::numeric_limits<double>::quiet_NaN();

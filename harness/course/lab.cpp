@@ -7,6 +7,39 @@ namespace plumb::course {
 
 using reference::Scheme;
 
+double farthest_push(const Trace& trace, double dt) {
+  double most = 0;
+  for (std::size_t k = 1; k < trace.states.size(); ++k)
+    for (std::size_t b = 0; b < trace.states[k].size(); ++b) {
+      const BodyState &before = trace.states[k - 1][b], &after = trace.states[k][b];
+      const Vec2d way = 1 / dt * (after.position - before.position) - before.velocity;
+      const Vec2d change = after.velocity - before.velocity;
+      const double square = dot(change, change);
+      const double share = square > 0 ? std::clamp(dot(way, change) / square, 0.0, 1.0) : 0;
+      const Vec2d left = way - share * change;
+      most = std::max(most, dt * std::hypot(left.x, left.y));
+    }
+  return most;
+}
+
+bool pushed_too_far(const Trace& trace, double dt,
+                    const std::function<double(const std::vector<BodyState>&)>& gap) {
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    std::vector<BodyState> moved = trace.states[k - 1];
+    bool unchanged = true;
+    for (std::size_t b = 0; b < moved.size(); ++b) {
+      const BodyState& after = trace.states[k][b];
+      unchanged = unchanged && moved[b].velocity == after.velocity &&
+                  moved[b].angular_velocity == after.angular_velocity;
+      moved[b].position += dt * moved[b].velocity;
+      moved[b].angle += dt * moved[b].angular_velocity;
+    }
+    const double overlap = -gap(moved);
+    if (unchanged && overlap > 0 && gap(trace.states[k]) > 0.05 * overlap) return true;
+  }
+  return false;
+}
+
 Lab::Lab(const reference::Backend& engine, const reference::StepSettings& settings,
          std::vector<Recorded>* runs)
     : engine_(engine), settings_(settings), method_(engine.method(settings)), runs_(runs) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -20,6 +21,16 @@ struct Trace {
   /// Returns true if the body's final position equals its initial position.
   bool still(std::size_t body) const { return last(body).position == first(body).position; }
 };
+
+/// Returns the largest distance, in m, by which a step of `dt` moves a body to where none of the velocities
+/// between those before and after the step would take it. A bounce within a step moves none so; a correction
+/// of an overlap does, by its share of it.
+double farthest_push(const Trace& trace, double dt);
+
+/// Returns true if a step that changes no velocity moves bodies apart by more than they would overlap without
+/// that. `gap` returns the distance of two surfaces, m, negative in an overlap.
+bool pushed_too_far(const Trace& trace, double dt,
+                    const std::function<double(const std::vector<BodyState>&)>& gap);
 
 /// A scene that a check has run, and its result.
 struct Recorded {

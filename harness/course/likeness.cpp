@@ -66,6 +66,20 @@ bool static_moves(const std::vector<Recorded>& runs) {
   return false;
 }
 
+bool pushes_farther(const std::vector<Recorded>& seen, const std::vector<Recorded>& predicted, double share) {
+  constexpr double kMore = 1.25;  // contacts are found at other times, and one pair may have several
+  for (std::size_t r = 0; r < std::min(seen.size(), predicted.size()); ++r) {
+    if (!seen[r].scene.joints.empty()) continue;
+    double fastest = 0;
+    for (const auto& states : seen[r].trace.states)
+      for (const BodyState& s : states) fastest = std::max(fastest, std::hypot(s.velocity.x, s.velocity.y));
+    const double overlap =
+        std::max(farthest_push(predicted[r].trace, predicted[r].dt) / share, fastest * seen[r].dt);
+    if (farthest_push(seen[r].trace, seen[r].dt) > kMore * overlap) return true;
+  }
+  return false;
+}
+
 bool refutes(const Finding& seen, const Finding& predicted) {
   for (std::size_t i = 0; i < std::min(seen.readings.size(), predicted.readings.size()); ++i) {
     const Reading &is = seen.readings[i], &due = predicted.readings[i];

@@ -22,6 +22,11 @@ bool same_figures(const Finding& seen, const Finding& predicted);
 /// Returns true if a static body has a velocity or leaves its place.
 bool static_moves(const std::vector<Recorded>& runs);
 
+/// Returns true if steps move bodies farther than any overlap that a mistake predicts, by an engine that
+/// removes `share` of an overlap in each: corrections of positions are then wrong, whatever else is. False
+/// for scenes with joints, which are corrected as well.
+bool pushes_farther(const std::vector<Recorded>& seen, const std::vector<Recorded>& predicted, double share);
+
 /// Returns true if a wrong reading is predicted, and what was seen is nearer to the right one.
 bool refutes(const Finding& seen, const Finding& predicted);
 

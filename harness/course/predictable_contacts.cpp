@@ -9,6 +9,16 @@ constexpr const char* kSecondMoment =
     "A second moment of area stands where the inertia of a mass should: a box has m (w^2 + h^2)/12.";
 constexpr const char* kArmOfTheOther =
     "An impulse acts at the other body's arm: each body has its own r, from its centre to the point.";
+constexpr const char* kAlongAxis =
+    "The normal of two circles is taken along an axis: it points along the line of centres, (b - a)/|b - a|.";
+constexpr const char* kBoxNotTurned =
+    "A circle meets a turned box as if the box stood upright: turn the circle's centre by -angle into the "
+    "box's frame, find the nearest point there, and turn that point by +angle back.";
+constexpr const char* kPointAtCentre =
+    "The point of contact of two circles is taken at a centre: it is on the rim, where friction acts.";
+constexpr const char* kFrictionOnOne =
+    "Friction spins only one of the two bodies: each changes its w by r x j/I, with its own r and I, and a "
+    "gets the opposite impulse.";
 constexpr const char* kNotOpposite =
     "The two impulses are not opposite: compute j once, from the velocities before either changes, and apply "
     "it to both.";
@@ -80,15 +90,14 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"normal_over_square", "normal_not_unit", "3",
        "The impulse depends on the distance of the centres: divide the line of centres by its length to get "
        "the normal."},
-      {"normal_along_x", "normal_along_axis", "3",
-       "The normal of two circles is taken along an axis: it points along the line of centres, (b - a)/|b - "
-       "a|."},
-      {"normal_along_y", "normal_along_axis", "3",
-       "The normal of two circles is taken along an axis: it points along the line of centres, (b - a)/|b - "
-       "a|."},
-      {"normal_along_longer_axis", "normal_along_axis", "3",
-       "The normal of two circles is taken along an axis: it points along the line of centres, (b - a)/|b - "
-       "a|."},
+      {"normal_along_x", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_y", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_longer_axis", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_x_with_point", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_y_with_point", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_longer_axis_with_point", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_shorter_axis", "normal_along_axis", "3", kAlongAxis},
+      {"normal_along_shorter_axis_with_point", "normal_along_axis", "3", kAlongAxis},
       {"normal_along_velocity", "normal_along_velocity", "3",
        "The impulse follows the velocity: it follows the line of centres."},
       {"normal_along_approach", "normal_along_velocity", "3",
@@ -201,6 +210,8 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"mass_for_inertia", "mass_for_inertia", "45",
        "The torque is divided by the mass: divide it by the inertia."},
       {"inertia_of_one", "inertia_of_one", "45", "The inertia is 1, or forgotten: w grows by torque dt/I."},
+      {"inertia_inverted", "inertia_inverted", "45",
+       "The inertia stands where its inverse should: w grows by torque dt/I, and by r x j/I."},
       {"inertia_without_mass", "inertia_without_mass", "45",
        "The mass is left out of the inertia: a box has m (w^2 + h^2)/12, a disc m r^2/2."},
       {"second_moment_of_area", "second_moment_of_area", "45", kSecondMoment},
@@ -370,6 +381,25 @@ std::vector<Predictable> mistakes_of_contacts() {
        "Friction does not depend on the impulse along the normal: its impulse is at most mu times that one."},
       {"friction_without_mu", "friction_without_mu", "4",
        "Friction is as strong as the impulse along the normal: it is at most mu times that one."},
+      {"box_taken_upright", "box_not_turned", "4", kBoxNotTurned},
+      {"side_of_box_not_turned", "box_not_turned", "4", kBoxNotTurned},
+      {"point_of_box_not_turned", "box_not_turned", "4", kBoxNotTurned},
+      {"box_turned_backwards", "turned_backwards", "4",
+       "A circle meets a turned box as if the box were turned the other way: turned by the angle a, (x, y) "
+       "becomes (x cos a - y sin a, x sin a + y cos a)."},
+      {"contact_point_at_first_centre", "contact_point_at_centre", "4", kPointAtCentre},
+      {"contact_point_at_second_centre", "contact_point_at_centre", "4", kPointAtCentre},
+      {"friction_lever_not_squared", "lever_not_squared", "4",
+       "The effective mass of friction has (r x t)/I: square r x t."},
+      {"friction_without_rotation", "effective_mass_without_rotation", "4",
+       "The impulse of friction is too strong: its effective mass lacks (r x t)^2/I."},
+      {"sliding_of_centres", "point_velocity", "4",
+       "Friction acts against the sliding of the centres: it acts against that of the points that touch, v + "
+       "w x r, which is (vx - w ry, vy + w rx)."},
+      {"friction_never_spins", "friction_never_spins", "4",
+       "Friction never changes the spin: its impulse changes w by r x j/I, as any impulse."},
+      {"friction_spins_the_first_only", "one_body_never_spins", "4", kFrictionOnOne},
+      {"friction_spins_the_second_only", "one_body_never_spins", "4", kFrictionOnOne},
       {"torque*0.5", "torque_halved", "4",
        "The motion is that of an engine in which the torque is used by half."},
       {"torque*2", "torque_twice", "4", "The motion is that of an engine in which the torque is used twice."},

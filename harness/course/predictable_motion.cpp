@@ -8,6 +8,11 @@ namespace {
 constexpr const char* kSlowIsStopped =
     "What is slow is stopped, and so never begins to move: gravity and forces act on a body at rest as well. "
     "Leave out what sets small velocities to 0.";
+constexpr const char* kSpringAtOneEnd =
+    "The spring pulls one of its ends only: it pulls both, with opposite forces.";
+constexpr const char* kDampingOfOneEnd =
+    "The spring's damping follows the velocity of one end: it acts against the speed at which the ends part, "
+    "(vb - va) along the spring.";
 
 }  // namespace
 
@@ -148,6 +153,9 @@ std::vector<Predictable> mistakes_of_motion() {
       {"bounce_sign", "bounce_sign", "13",
        "The contact leaves e of the closing speed in place of turning it: the speed after a bounce is -e "
        "times the one before. The impulse is -(1 + e) vn, not -(1 - e) vn."},
+      {"one_plus_twice", "one_plus_twice", "13",
+       "The speed that a bounce gives back has 1 + e where it should have e: the change is (1 + e) times the "
+       "speed, and 1 of it only stops the ball."},
       {"one_plus_forgotten", "one_plus_forgotten", "13",
        "The contact takes away e of the speed: the change is (1 + e) times it, 1 to stop the ball and e to "
        "send it back."},
@@ -293,6 +301,21 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_mass_not_divided", "mass_not_divided", "2", "The spring's force is not divided by the mass."},
       {"spring_divided_by_mass_twice", "mass_divided_twice", "2",
        "The spring's force is divided by the mass twice."},
+      {"spring_pulls_the_first_only", "spring_at_one_end", "2", kSpringAtOneEnd},
+      {"spring_pulls_the_second_only", "spring_at_one_end", "2", kSpringAtOneEnd},
+      {"spring_same_direction", "same_direction_for_both", "2",
+       "Both ends of the spring are pulled in the same direction: a is pulled towards b, and b towards a."},
+      {"damping of a spring*0", "damping_ignored", "2",
+       "The spring's damping is left out: its force is stiffness (length - rest_length) + damping (speed at "
+       "which the ends part)."},
+      {"damping of a spring*-1", "damping_backwards", "2",
+       "The spring's damping drives it: it acts against the speed at which the ends part."},
+      {"damping of a spring*0.5", "damping_wrong", "2",
+       "Half of the spring's damping acts: it is damping times the speed at which the ends part."},
+      {"damping of a spring*2", "damping_wrong", "2",
+       "Twice the spring's damping acts: it is damping times the speed at which the ends part, once."},
+      {"spring_damps_the_first_only", "damping_of_one_end", "2", kDampingOfOneEnd},
+      {"spring_damps_the_second_only", "damping_of_one_end", "2", kDampingOfOneEnd},
       {"restitution*2", "restitution_twice", "13",
        "The motion is that of an engine in which the restitution is used twice."},
   };

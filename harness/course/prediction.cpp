@@ -110,6 +110,9 @@ class Predictions {
     return place->second;
   }
 
+  // Returns the share of an overlap that a step removes.
+  double share(std::size_t manner) const { return manners_[manner].after_move ? 1 : manners_[manner].share; }
+
   std::size_t manners() const { return manners_.size(); }
 
   // Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
@@ -259,6 +262,7 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
       if (changes_nothing(predictions, manner, check, *wrong)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
       if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
+      if (pushes_farther(outcome.runs, wrong->runs, predictions.share(manner))) continue;
       const double share = predictions.off(check, manner, wrong->runs);
       if (!std::isfinite(share) || !predictions.near(check, manner, *wrong)) continue;
       out.push_back({mistake.name, mistake.says, share});
@@ -353,7 +357,7 @@ void choose(std::vector<Fit>& found, const std::string& known, const std::set<st
 
 void unname(Finding& finding) {
   finding.mistake.clear();
-  finding.says = describe(finding.readings);
+  finding.says = describe(finding);
 }
 
 void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>& found, Finding& finding) {

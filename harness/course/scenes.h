@@ -8,6 +8,11 @@
 /// Building blocks of the checks' scenes. Friction is 0 unless a check sets it.
 namespace plumb::course {
 
+/// Diagnosis of `pushed_too_far`.
+inline constexpr const char* kPushedTooFar =
+    "A step moves the two apart by more than they overlap, so that the next step finds no contact and their "
+    "velocities never change. Is the depth right? Remove a share of it, and leave the last half millimetre.";
+
 struct Ball {
   std::string name = "ball";
   Vec2d position{}, velocity{};

@@ -133,6 +133,22 @@ constexpr Seed kSeeds[] = {
     {"correction_of_the_second_end_only", "stick_weighs_masses", "correction_of_one_end"},
     {"stick_only_pulls", "stick_weighs_masses", "stick_only_pulls"},
     {"correction_turns_backwards", "hinged_rod", "correction_turns_backwards"},
+    {"one_plus_twice", "bounces", "one_plus_twice"},
+    {"inertia_inverted", "torque_spins", "inertia_inverted"},
+    {"spring_same_direction", "spring", "same_direction_for_both"},
+    {"stick_impulse_only_pushes", "stick_weighs_masses", "stick_only_pushes"},
+    {"spring_pulls_the_first_only", "spring", "spring_at_one_end"},
+    {"spring_pulls_the_second_only", "spring", "spring_at_one_end"},
+    {"damping of a spring*0", "damped_spring", "damping_ignored"},
+    {"spring_damps_the_second_only", "damped_spring", "damping_of_one_end"},
+    {"normal_along_longer_axis_with_point", "oblique", "normal_along_axis"},
+    {"box_taken_upright", "turned_box", "box_not_turned"},
+    {"side_of_box_not_turned", "turned_box", "box_not_turned"},
+    {"box_turned_backwards", "turned_box", "turned_backwards"},
+    {"contact_point_at_second_centre", "discs_rub", "contact_point_at_centre"},
+    {"friction_lever_not_squared", "discs_rub", "lever_not_squared"},
+    {"friction_never_spins", "discs_rub", "friction_never_spins"},
+    {"stick_impulse_only_pulls", "stick_weighs_masses", "stick_only_pulls"},
 };
 
 // Runs the whole chapter: what a mistake does in the other checks tells it from others.

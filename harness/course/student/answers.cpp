@@ -66,6 +66,7 @@ void StudentWorld::prepare(Touch& touch) const {
   if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
   if (is("bounce_of_whole_speed") && touch.bounce > 0)
     touch.bounce = restitution(touch) * length(relative_velocity(touch));
+  if (is("one_plus_twice") && touch.bounce > 0) touch.bounce -= closing;
   if (is("bounce_sign")) touch.bounce = -touch.bounce;
   if (is("one_plus_forgotten") && touch.bounce > 0) touch.bounce += closing;
   if (quantity_ == "share of an overlap in the bounce") touch.bounce += factor_ * touch.depth / dt_;
@@ -255,9 +256,13 @@ void StudentWorld::rub(Touch& touch) {
   const Vec2d t{-touch.normal.y, touch.normal.x};
   const auto [arm_a, arm_b] = arms_of(touch);
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
-  const double k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a * spin_a +
-                   b.inverse_inertia * spin_b * spin_b;
-  const double sliding = dot(b.velocity_at(arm_b) - a.velocity_at(arm_a), t);
+  double k = a.inverse_mass + b.inverse_mass;
+  if (is("friction_lever_not_squared"))
+    k += a.inverse_inertia * spin_a + b.inverse_inertia * spin_b;
+  else if (!is("friction_without_rotation"))
+    k += a.inverse_inertia * spin_a * spin_a + b.inverse_inertia * spin_b * spin_b;
+  const double sliding = dot(
+      is("sliding_of_centres") ? b.velocity - a.velocity : b.velocity_at(arm_b) - a.velocity_at(arm_a), t);
   double most = is("friction_unlimited") ? 1e9 : mu * touch.sum;
   if (is("friction_without_normal")) most = mu;
   if (is("friction_without_mu")) most = touch.sum;
@@ -266,8 +271,11 @@ void StudentWorld::rub(Touch& touch) {
   const double against = is("friction_backwards") ? -sliding : sliding;
   const double sum = std::clamp(touch.sum_across - against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);
-  apply_impulse(touch.a, touch.b, is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a,
-                is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b, j * t);
+  Vec2d turns_a = is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a;
+  Vec2d turns_b = is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b;
+  if (is("friction_never_spins") || is("friction_spins_the_second_only")) turns_a = {};
+  if (is("friction_never_spins") || is("friction_spins_the_first_only")) turns_b = {};
+  apply_impulse(touch.a, touch.b, turns_a, turns_b, j * t);
 }
 
 void StudentWorld::push_out() {

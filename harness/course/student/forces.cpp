@@ -19,14 +19,15 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   const auto names = ends_of(law);
   const auto index = find_body(scene_, names[1] == kWorld ? names[0] : names[1]);
   Rigid& b = bodies_[index.value_or(bodies_.size() - 1)];
-  const auto add = [&](Vec2d force) {
-    if (is("last_force_only")) b.force = {};
+  const auto add_to = [&](Rigid& body, Vec2d force) {
+    if (is("last_force_only")) body.force = {};
     if (is("first_force_lost") && first && !last) return;
     if (is("last_force_lost") && last && !first) return;
     if (is("first_force_only") && !first) return;
     if (is("force_once") && steps_ > 0) return;
-    b.force += force;
+    body.force += force;
   };
+  const auto add = [&](Vec2d force) { add_to(b, force); };
   const auto acts = [&](double start, double duration) {
     if (is("push_never_ends")) return time() >= start - dt_ / 2;
     if (is("push_always")) return true;
@@ -71,7 +72,10 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("drag_along_y_always")) return add({0, c * speed});
     add(times("drag") * c * b.velocity);
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
-    const Vec2d way = b.position - spring->anchor_a;
+    Rigid& a = bodies_[find_body(scene_, names[0]).value_or(bodies_.size() - 1)];
+    Rigid& end = bodies_[find_body(scene_, names[1]).value_or(bodies_.size() - 1)];
+    const Vec2d arm_a = a.to_world(spring->anchor_a), arm_b = end.to_world(spring->anchor_b);
+    const Vec2d way = end.position + arm_b - a.position - arm_a;
     const double rest = spring->rest_length * times("rest length of a spring"), stretch = length(way) - rest;
     double tension = spring->stiffness * stretch * times("stiffness of a spring");
     if (is("spring_always_pulls")) tension = std::abs(tension);
@@ -82,9 +86,21 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_by_sign")) tension = std::copysign(spring->stiffness, stretch);
     if (is("spring_by_square")) tension = std::copysign(spring->stiffness * stretch * stretch, stretch);
     if (is("spring_not_unit")) tension *= length(way);
-    if (is("spring_mass_not_divided")) tension /= b.inverse_mass;
-    if (is("spring_divided_by_mass_twice")) tension *= b.inverse_mass;
-    add(-tension / length(way) * way);
+    const Vec2d along = 1 / length(way) * way, v_a = a.velocity_at(arm_a), v_b = end.velocity_at(arm_b);
+    Vec2d parting = v_b - v_a;
+    if (is("spring_damps_the_first_only")) parting = -v_a;
+    if (is("spring_damps_the_second_only")) parting = v_b;
+    tension += times("damping of a spring") * spring->damping * dot(parting, along);
+    const auto pull = [&](Rigid& body, Vec2d arm, Vec2d force) {
+      if (body.inverse_mass == 0) return;
+      if (is("spring_mass_not_divided")) force *= 1 / body.inverse_mass;
+      if (is("spring_divided_by_mass_twice")) force *= body.inverse_mass;
+      add_to(body, force);
+      body.torque += cross(arm, force);
+    };
+    if (!is("spring_pulls_the_second_only"))
+      pull(a, arm_a, (is("spring_same_direction") ? -tension : tension) * along);
+    if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -tension * along);
   }
 }
 

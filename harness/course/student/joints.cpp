@@ -54,6 +54,8 @@ void StudentWorld::solve(const Joint& joint) {
       k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
     if (stick && is("stick_only_pulls") && (speed < 0 || gap < std::get<DistanceJoint>(joint).length)) break;
     if (stick && is("stick_only_pushes") && (speed > 0 || gap > std::get<DistanceJoint>(joint).length)) break;
+    if (stick && is("stick_impulse_only_pulls") && speed < 0) break;
+    if (stick && is("stick_impulse_only_pushes") && speed > 0) break;
     if (n.x == 0 && is("hinge_along_x_only") && !stick) break;
     if (n.y == 0 && is("hinge_along_y_only") && !stick) continue;
     if (is("joint_same_direction")) {

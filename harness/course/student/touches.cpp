@@ -36,11 +36,17 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   Vec2d n = 1 / d * way, rim = way;
   if (is("normal_not_unit")) n = way;
   if (is("normal_over_square")) n = 1 / (d * d) * way;
-  if (is("normal_along_x")) n = {std::copysign(1.0, way.x), 0};
-  if (is("normal_along_y")) n = {0, std::copysign(1.0, way.y)};
-  if (is("normal_along_longer_axis"))
-    n = std::abs(way.x) > std::abs(way.y) ? Vec2d{std::copysign(1.0, way.x), 0}
-                                          : Vec2d{0, std::copysign(1.0, way.y)};
+  // The point of the contact is on the line of centres, or follows a wrong normal.
+  constexpr std::string_view kWithPoint = "_with_point";
+  const bool with_point = mistake_.ends_with(kWithPoint);
+  const std::string_view axis =
+      std::string_view(mistake_).substr(0, mistake_.size() - (with_point ? kWithPoint.size() : 0));
+  const Vec2d along_x{std::copysign(1.0, way.x), 0}, along_y{0, std::copysign(1.0, way.y)};
+  if (axis == "normal_along_x") n = along_x;
+  if (axis == "normal_along_y") n = along_y;
+  if (axis == "normal_along_longer_axis") n = std::abs(way.x) > std::abs(way.y) ? along_x : along_y;
+  if (axis == "normal_along_shorter_axis") n = std::abs(way.x) > std::abs(way.y) ? along_y : along_x;
+  if (with_point) rim = d * n;
   if (is("normal_along_velocity") || is("normal_along_approach")) {
     const Vec2d v = bodies_[a].velocity - bodies_[b].velocity;
     const bool turns = is("normal_along_velocity") || dot(v, n) > 0;
@@ -51,23 +57,26 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (is("normal_components_swapped")) n = {n.y, n.x};
   if (is("y_of_normal_flipped")) n.y = -n.y;
   if (wrong("normal_flipped")) n = -n;
-  out.push_back({a, b, bodies_[a].position + ra / d * rim, n,
-                 is("normal_flipped") ? 0 : (in_depth ? reach : ra + rb) - d});
+  Vec2d point = bodies_[a].position + ra / d * rim;
+  if (is("contact_point_at_first_centre")) point = bodies_[a].position;
+  if (is("contact_point_at_second_centre")) point = bodies_[b].position;
+  out.push_back({a, b, point, n, is("normal_flipped") ? 0 : (in_depth ? reach : ra + rb) - d});
 }
 
 void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
   const Rigid &c = bodies_[circle], &b = bodies_[box];
   const double r = radius(c);
   const Box size = this->box(b);
-  const Rotation<double> q{std::cos(b.angle), std::sin(b.angle)};
+  const double angle = is("box_taken_upright") ? 0 : is("box_turned_backwards") ? -b.angle : b.angle;
+  const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const Vec2d local = q.inverse() * (c.position - b.position);
   const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
                       std::clamp(local.y, -size.height / 2, size.height / 2)};
-  const Vec2d way = q * (nearest - local);
+  const Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   const double d = length(way);
   if (d <= 0 || d >= r) return;
   if (is("wall_missing") && b.position.x > 1) return;
-  Vec2d n = 1 / d * way;
+  Vec2d n = 1 / d * (is("side_of_box_not_turned") ? nearest - local : way);
   if (is("wall_normal_not_unit")) n = way;
   if (is("wall_normal_flipped")) n = -n;
   const Vec2d to_centre = b.position - c.position;

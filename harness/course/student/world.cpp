@@ -32,6 +32,7 @@ double StudentWorld::inertia(const Body& body) const {
     if (is("disc_as_sphere")) share = 0.4;
     if (is("disc_as_box")) share = 2.0 / 3;
     if (is("disc_by_diameter")) share = 2;
+    if (is("inertia_inverted")) return 1 / (body.mass * r * r * share);
     return (is("inertia_without_mass") ? 1 : body.mass) * r * r * share * times("inertia of a disc");
   }
   const Box& box = std::get<Box>(shape.geometry);
@@ -45,6 +46,7 @@ double StudentWorld::inertia(const Body& body) const {
   if (is("one_side_only")) return body.mass * w * w / 12;
   if (is("other_side_only")) return body.mass * h * h / 12;
   if (is("mass_for_inertia")) return body.mass;
+  if (is("inertia_inverted")) return 12 / (body.mass * (w * w + h * h));
   if (is("inertia_of_one")) return 1;
   if (is("square_of_sum")) return body.mass * (w + h) * (w + h) / 12;
   if (is("box_by_area")) return body.mass * w * h / 12;
