@@ -35,7 +35,7 @@ class AppliedForces {
  private:
   void place(std::size_t body, const BodyState& state);
 
-  Forces<double> laws_;
+  Forces laws_;
   std::vector<std::size_t> bodies_;
   std::vector<Pose<double>> poses_;  // by body
   std::vector<Twist<double>> twists_;
