@@ -88,6 +88,10 @@ void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScra
   if (static_cast<int>(room.earliest.size()) < bodies) make_room(room.earliest, bodies);
   if (static_cast<int>(room.last.size()) < bodies) make_room(room.last, bodies);
   std::fill_n(room.last.begin(), bodies, Real(0));
+  if (static_cast<int>(room.way.size()) < bodies) {
+    make_room(room.way, bodies), make_room(room.turn, bodies);
+    ensure_room(room.displaced, room.way.size());
+  }
   if (static_cast<int>(room.in_list.size()) < contacts) {
     make_room(room.in_list, contacts), make_room(room.seen, contacts);
     make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
@@ -286,6 +290,8 @@ int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
                       ImpactScratch<Real>& room) {
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * room.fastest);
   int looks = looks_for(room.most_restitution);
+  for (const int body : room.displaced) room.way[body] = {}, room.turn[body] = 0;
+  room.displaced.clear();
   int round = 0, at_one_time = 0;
   room.looked = room.strikes;
   for (; static_cast<int>(room.looked.size()) < looks; ++round) {

@@ -83,10 +83,10 @@ struct ImpactScratch {
   std::vector<StruckPoint<Real>> struck, grouped;
   std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
 
-  // Bodies that impacts have displaced in the substep, and by how much.
+  // Bodies that the impacts of the substep have displaced, and by how much.
   bool unplaced = false;  ///< there are contacts without restitution, which impacts leave to the solver
   std::vector<int> displaced;
-  std::vector<Vec2<Real>> way;  ///< m, by body; 0 for others
+  std::vector<Vec2<Real>> way;  ///< m, by body, of those in contacts that may bounce
   std::vector<Real> turn;       ///< rad
 
   // The joints and bodies of struck points in a round, and their rows.

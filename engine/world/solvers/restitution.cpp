@@ -1,11 +1,9 @@
 #include "engine/world/solvers/restitution.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "engine/core/room.h"
 #include "engine/core/union_find.h"
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/contact_solver/impact_propagation.h"
@@ -114,8 +112,9 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
     ContactConstraint<Real>& c = constraint_of(w, record);
     if (c.restitution > 0) return;
     const ContactPair<Real> pair(w.motion.data(), c);
-    const auto way = [&](int of) { return w.is_dynamic(of) ? room.way[of] : Vec2<Real>{}; };
-    const auto turn = [&](int of) { return w.is_dynamic(of) ? room.turn[of] : Real(0); };
+    const int known = static_cast<int>(room.way.size());
+    const auto way = [&](int of) { return of < known ? room.way[of] : Vec2<Real>{}; };
+    const auto turn = [&](int of) { return of < known ? room.turn[of] : Real(0); };
     Real opened = 0;
     for (int i = 0; i < c.count; ++i) {
       const Real opens = dot(c.normal, way(c.body_b) - way(c.body_a)) + c.arm_b[i] * turn(c.body_b) -
@@ -137,8 +136,6 @@ void keep_closed(WorldData<Real>& w, Real h) {
   const std::size_t count = room.unplaced ? room.displaced.size() : 0;
   for (std::size_t i = 0; i < count; ++i)
     if (w.bodies[room.displaced[i]].first_joint == kNone) keep_closed(w, room.displaced[i], h);
-  for (const int body : room.displaced) room.way[body] = {}, room.turn[body] = 0;
-  room.displaced.clear();
 }
 
 // Begins the impacts of a substep: what has not changed since the last one of the step is kept.
@@ -149,11 +146,6 @@ void begin_impacts(WorldData<Real>& w) {
     collect_joints(w);
     link_contacts(w.motion.data(), w.scratch.bounces, room);
     room.unplaced = any_without_restitution(w);
-    if (static_cast<int>(room.way.size()) < w.bodies.size()) {
-      make_room(room.way, w.bodies.size()), make_room(room.turn, w.bodies.size());
-      ensure_room(room.displaced, room.way.size());
-    }
-    assert(room.displaced.empty());
     room.linked = true;
   }
   room.rows.clear();
