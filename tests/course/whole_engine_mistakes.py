@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Plants mistakes in whole_engine.py and asks `plumb check` for their names.
 
-usage: whole_engine_mistakes.py PLUMB [NAME...]    NAME: only these mistakes; prints what was said
+usage: whole_engine_mistakes.py PLUMB [--part I/N | NAME...]
+  --part I/N   every N-th mistake, from the I-th on
+  NAME         only these mistakes; prints what was said
 
 Each mistake is a text that is replaced. From its chapter on, the first check that fails must name it. If its name is empty,
 a check must fail, and none of those that fail may name another mistake.
@@ -392,6 +394,10 @@ def first_named(plumb, program, chapter, named=False):
 
 def main():
     plumb, chosen = sys.argv[1], sys.argv[2:]
+    mistakes = MISTAKES
+    if chosen[:1] == ["--part"]:
+        first, parts = map(int, chosen[1].split("/"))
+        mistakes, chosen = MISTAKES[first - 1 :: parts], []
     engine = pathlib.Path(__file__).with_name("whole_engine.py").read_text(encoding="utf-8")
     failures = 0
     if not chosen:
@@ -400,7 +406,7 @@ def main():
             print(f"the engine without mistakes: {with_none}")
             failures += 1
     with tempfile.TemporaryDirectory() as folder:
-        for name, chapter, old, new, expected in MISTAKES:
+        for name, chapter, old, new, expected in mistakes:
             if chosen and name not in chosen:
                 continue
             if engine.count(old) != 1:
@@ -415,7 +421,7 @@ def main():
             if found != (expected or None) and not described:
                 failures += 1
                 print(f"{name}: is called '{found}', not '{expected}': {says}")
-    print(f"{len(MISTAKES)} mistakes, {failures} failures")
+    print(f"{len(mistakes)} mistakes, {failures} failures")
     sys.exit(failures > 0)
 
 
