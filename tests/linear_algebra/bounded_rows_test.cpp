@@ -195,6 +195,26 @@ TEST(BoundedRows, SolvesOneRowInClosedForm) {
   EXPECT_NEAR(system.rows[0].impulse, (0.25 - (0.6 + 1.6 - 0.5)) / (0.5 + 3 * 0.25), 1e-15);
 }
 
+// A body of 1 kg and 1 kg m^2 whose joint, an arm of 1 m away, is open by 0.2 m: alone it moves by 0.1 m and
+// turns by 0.1 rad. A limit of its turn, open by 0.04 rad, stops that there, and it moves by the other 0.16
+// m. A limit that is open by more changes nothing.
+TEST(BoundedRows, CorrectsGapsWithoutOverrunningALimit) {
+  for (const double open : {0.04, 0.3}) {
+    BoundedRows system;
+    system.bodies = {{}, {.inverse_mass = {1, 1}, .inverse_inertia = 1}};
+    system.rows.push_back({.a = 0, .b = 1, .linear_b = {0, 1}, .angular_b = 1, .gap = 0.2});
+    system.rows.push_back(
+        {.a = 0, .b = 1, .angular_b = 1, .upper = kUnbounded, .gap = open, .state = BoundedRow::kLower});
+    const std::pair<int, int> blocks[] = {{0, 1}};
+    const int sizes[] = {2};
+    system.order(blocks, sizes);
+    system.correct(0);
+    const double turn = std::min(open, 0.1);
+    EXPECT_NEAR(system.shifts[1].turn, -turn, 1e-15);
+    EXPECT_NEAR(system.shifts[1].way.y, -(0.2 - turn), 1e-15);
+  }
+}
+
 // Rows that repeat each other share their load, and are held as one alone.
 TEST(BoundedRows, SharesTheLoadOfRowsThatRepeatEachOther) {
   BoundedRows system;

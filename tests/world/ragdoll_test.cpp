@@ -41,8 +41,9 @@ double drop(World& world, const RagdollStart& start, int substeps, int steps) {
   return worst;
 }
 
-// However it comes down: from 3, 6, 10 and 15 m above the heap, at up to 17 m/s, in any attitude.
-TEST(Ragdoll, OvershootsItsLimitsByLessThanTwoDegrees) {
+// However it comes down: from 3, 6, 10 and 15 m above the heap, at up to 17 m/s, in any attitude. Limits are
+// projected to 0.57 degrees; closing the gaps of the joints turns no limb past a limit.
+TEST(Ragdoll, OvershootsItsLimitsByLessThanOneDegree) {
   for (const double height : {3.0, 6.0, 10.0, 15.0}) {
     for (int i = 0; i < 12; ++i) {
       World world;
@@ -51,7 +52,7 @@ TEST(Ragdoll, OvershootsItsLimitsByLessThanTwoDegrees) {
                                .tilt = i * 30 * kDegree,
                                .velocity = {2 - 0.4 * i, 0},
                                .spin = (i * 5) % 12 - 5.0};
-      EXPECT_LT(drop(world, start, 4, 240), 2 * kDegree) << height << " m, attitude " << i;
+      EXPECT_LT(drop(world, start, 4, 240), kDegree) << height << " m, attitude " << i;
     }
   }
 }

@@ -61,10 +61,14 @@ class RowMaker {
   void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper) {
     const std::size_t place = island_.ties.size();
     if (close_) {
-      // Springs and motors correct no positions. Unilateral rows that are open and have no impulse may stay
-      // so.
-      const bool holds = lower < 0 ? row.gap != 0 || rigid_ : row.gap < 0 || island_.impulses[place] > 0;
+      // Springs, motors and friction correct no positions. Unilateral rows that are open and have no impulse
+      // may stay so, or close.
+      const bool unilateral = lower == 0 && upper > 0 && tie.first < 0;
+      const bool pressed = unilateral && island_.impulses[place] > 0;
+      const bool holds = unilateral ? row.gap < 0 || pressed : row.gap != 0 || rigid_;
       row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
+      if (pressed) row.gap = std::min(row.gap, 0.0);
+      row.upper = unilateral ? upper : 0;
       row.compliance = row.coupled_compliance = 0;
       island_.system.rows.push_back(row);
       island_.ties.push_back(tie);
@@ -116,7 +120,7 @@ class RowMaker {
         case RowRole::Limit:
           lower = 0;
           row.wanted = closing(start, row);
-          row.gap = std::min(gap, 0.0);
+          row.gap = gap;
           break;
         case RowRole::Motor:
           row.wanted = from.speed;
@@ -160,7 +164,7 @@ class RowMaker {
           double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, row);
-      row.gap = std::max(std::min(gap, 0.0), -double(c.push_speed) * h_ / tuning::kPushShare);
+      row.gap = std::max(gap, -double(c.push_speed) * h_ / tuning::kPushShare);
       // A contact that bounces is disabled until its time of impact, and a gap that nothing pressed on brakes
       // nothing at the substep's end.
       const std::size_t place = island_.ties.size();
@@ -210,6 +214,8 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
     const double lower = -most - applied, upper = most - applied;
     constexpr double kSame = 1e-3;
     const bool matters = row.state != BoundedRow::kFree || std::abs(total(i)) > most;
+    // Where parts jam, friction raises the pressure that bounds it: without slip it takes no more.
+    if (upper > row.upper && !island.system.is_held_back(i)) return;
     if (matters && std::abs(upper - row.upper) > kSame * most) changed = true;
     if (row.lower >= row.upper && most > 0) row.state = BoundedRow::kFree;
     row.lower = lower, row.upper = upper;
@@ -295,8 +301,11 @@ void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
   BoundedRows& system = island.system;
   const bool direct = w.settings.solver == Solver::Direct;
   const double joint_share = direct ? tuning::kDirectJointShare : tuning::kJointShare;
-  for (std::size_t i = 0; i < system.rows.size(); ++i)
-    system.rows[i].gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
+  for (std::size_t i = 0; i < system.rows.size(); ++i) {
+    BoundedRow& row = system.rows[i];
+    if (row.state != BoundedRow::kFree) continue;
+    row.gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
+  }
   system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
   shift_links(w, island, tuning::kLinkTurn);
 }
