@@ -75,6 +75,34 @@ TYPED_TEST(HingeTrees, APendulumKeepsItsEnergy) {
   }
 }
 
+// A static hook that is disabled for a step and enabled again holds two rods as before: joints are closed, and
+// the energy comes and goes by a share of (h w)^2 as above. w is at most the frequency of the faster mode, 1.5
+// sqrt(3 g / L), and 2 m g L what the rods may exchange.
+TYPED_TEST(HingeTrees, AHookThatWasDisabledHoldsItsMechanism) {
+  BasicWorld<TypeParam> world(with(Solver::Direct));
+  const test::Chain chain = test::add_chain(world, 2);
+  const BodyId hook = world.bodies(chain.joints[0]).first;
+  world.step(1.0 / 60, 4);
+  world.set_enabled(hook, false);
+  world.step(1.0 / 60, 4);
+  EXPECT_EQ(world.data().scratch.trees.hinges, 1);
+  world.set_enabled(hook, true);
+  for (int i = 0; i < 2; ++i) {
+    world.set_position(chain.links[i], {i + 0.5, 0}, 0);
+    world.set_velocity(chain.links[i], {}), world.set_angular_velocity(chain.links[i], 0);
+  }
+  const double start = energy_of(world, chain.links);
+  double off = 0;
+  for (int i = 0; i < 600; ++i) {
+    world.step(1.0 / 60, 4);
+    off = std::max(off, std::abs(energy_of(world, chain.links) - start));
+  }
+  EXPECT_EQ(world.data().scratch.trees.hinges, 2);
+  const double turn = 1.5 * std::sqrt(3 * kGravity) / 240;
+  EXPECT_LT(off, turn * turn * 2 * kGravity);
+  EXPECT_LT(test::worst_gap(world, chain.joints), sizeof(TypeParam) == 4 ? 3e-7 : 1e-11);
+}
+
 // Substeps of more than an eighth of a rad are made smaller: it comes and goes by up to half of the square of
 // that, and the rod swings as wide as ever.
 TYPED_TEST(HingeTrees, LongStepsDoNotFreezeAPendulum) {

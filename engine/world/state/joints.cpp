@@ -42,10 +42,10 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   w.joints.make_room(1);
   ensure_room(w.load_limits, w.load_limits.size() + (limited ? 1 : 0));
   if (!definition.collide) make_room_for_ends(w, body_a, body_b);
+  w.topology_changed = true;  // before the joints' lists grow, which may fail halfway
   const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
                                    w.bodies[body_b].centre, w.is_dynamic(body_a), w.is_dynamic(body_b));
   w.joint_set.meet(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
-  w.topology_changed = true;
   JointRecord record;
   record.body_a = body_a, record.body_b = body_b;
   record.slot = slot;

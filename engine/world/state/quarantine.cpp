@@ -269,6 +269,7 @@ void release_body(WorldData<Real>& w, int body) {
   record.type = own_type(w, body);
   record.quarantined = false;
   std::erase_if(w.quarantine, [&](const QuarantinedBody& each) { return each.body == body; });
+  w.topology_changed = true;  // its joints hold again, also those of a static body
   if (record.type == BodyType::Static) w.motion[body] = {};
   if (record.type != BodyType::Static) enter_awake(w, body);
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) enter_tree(w, shape);
