@@ -75,9 +75,9 @@ TYPED_TEST(HingeTrees, APendulumKeepsItsEnergy) {
   }
 }
 
-// A static hook that is disabled for a step and enabled again holds two rods as before: joints are closed, and
-// the energy comes and goes by a share of (h w)^2 as above. w is at most the frequency of the faster mode, 1.5
-// sqrt(3 g / L), and 2 m g L what the rods may exchange.
+// A static hook that is disabled for a step and enabled again holds two rods as before: joints are closed,
+// and the energy comes and goes by a share of (h w)^2 as above. w is at most the frequency of the faster
+// mode, 1.5 sqrt(3 g / L), and 2 m g L what the rods may exchange.
 TYPED_TEST(HingeTrees, AHookThatWasDisabledHoldsItsMechanism) {
   BasicWorld<TypeParam> world(with(Solver::Direct));
   const test::Chain chain = test::add_chain(world, 2);

@@ -89,7 +89,7 @@ std::optional<Passage::Crossing> Passage::crossing(double from, double to) {
     const std::span<const double> there = expected(time);
     std::copy(there.begin(), there.end(), place_.begin());
     const double open = equations_.left_open(time, place_, 10 * kLost);
-    const double closed = kRoundings * equations_.rounding_of_gaps() + weak * equations_.length();
+    const double closed = kRoundings * equations_.rounding_of_gaps();
     return Crossing{time, open <= closed};
   }
   return std::nullopt;

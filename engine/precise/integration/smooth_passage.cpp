@@ -11,8 +11,14 @@
 namespace plumb::precise {
 namespace {
 
-/// Distance in steps beyond which a crossing is ignored.
-constexpr double kNear = 5;
+/// Distance in steps beyond which a crossing is ignored. At tolerances finer than kNearAt steps may stay
+/// small beside it: those that see the singularity of the equations off the branch shorten in proportion to
+/// the distance, and where rounding limits them (divided by the strength of a weak row) in proportion to the
+/// tolerance. So the distance grows as that falls; else steps would never come near, and end by underflow.
+constexpr double kNear = 5, kNearAt = 1e-9;
+/// Independent fraction of the weakest row below which rows count as weak: some 0.3 rad from a crossing.
+/// Beyond it steps feel no crossing, and the greater distance would take others' motion for an approach.
+constexpr double kWeak = 0.1;
 /// Look-ahead in steps: a step that ends before a crossing leaves room for the one across it.
 constexpr double kAhead = 2.2;
 /// Positions of the crossing within a step across it, as fractions of the step, in order of preference: far
@@ -43,7 +49,9 @@ bool EventFreeIntegrator::is_near_crossing() {
   const double h = time_ - start_;
   if (!(h > 0) || last_implicit_ || proposed_step_ == 0) return near_;
   const double now = std::sqrt(rank_at_start_.weakest), before = std::sqrt(weakest_before_);
-  return now * h < std::abs(now - before) * kNear * std::max(proposed_step_, h);
+  const bool weak = rank_at_start_.weakest < kWeak;
+  const double steps = kNear * (weak ? std::max(1.0, kNearAt / (kSteps * tolerance_)) : 1);
+  return now * h < std::abs(now - before) * steps * std::max(proposed_step_, h);
 }
 
 /// Sets, before a step, the expected motion from the motion so far.
@@ -63,7 +71,6 @@ void EventFreeIntegrator::expect_passage() {
 
 /// Decides by the rows themselves if there was no last step.
 void EventFreeIntegrator::look_at_rows() {
-  constexpr double kWeak = 0.01;
   if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
       equations_.holds_anything())
     return;
@@ -90,6 +97,7 @@ double EventFreeIntegrator::step_near_crossing(double limit) {
       error = try_near_crossing(std::min(end, limit));
       if (error <= strict) return accept_near_crossing(error / strict);
       h = (std::min(end, limit) - start_) * control_.after_rejection(error / strict);
+      if (!crossing) proposed_step_ = std::min(proposed_step_, h);  // later steps are no longer than this one
     } else {
       const std::span<const double> places = left > kClose * h ? std::span<const double>(kBetween) : kSoon;
       double best = loose, best_end = 0;
