@@ -93,6 +93,45 @@ TEST(FrictionalImpacts, StickSlideOnOrTurnTheSlipRoundByCoulombsLaw) {
   check_throws(0.3, 1, 100);
 }
 
+// Without restitution the corner does not rebound, whatever friction does to it. Afterwards its normal speed
+// is what turning makes of it in a step: at most w^2 r dt, with the faster of both spins.
+TEST(FrictionalImpacts, DoNotReboundWithoutRestitution) {
+  constexpr double kStep = 1.0 / 60, kWide = 1;
+  const double reach = kWide / std::sqrt(2.0);
+  std::mt19937 dice(7);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(dice() % 10000) / 9999;
+  };
+  int throws = 0, rebounds = 0;
+  for (const double friction : {0.0, 0.1, 0.3, 0.8}) {
+    for (int i = 0; i < 400; ++i) {
+      DoubleWorld world({.gravity = {0, 0}, .sleeping = false});
+      const Material material{.friction = friction};
+      add_ground(world, material);
+      const Vec2d v{between(-5, 5), -between(2, 8)};
+      const double w = between(-20, 20), angle = between(0.15, 1.4);
+      BodyDefinition definition{.position = {0, reach + between(0.01, 0.5)}, .angle = angle, .velocity = v};
+      definition.angular_velocity = w;
+      const BodyId square =
+          world.create_body(definition, ShapeDefinition{.geometry = Box{kWide, kWide}, .material = material});
+      while (world.velocity(square) == v) world.step(kStep);
+      Vec2d arm{};  // to the lowest corner
+      for (int corner = 0; corner < 4; ++corner) {
+        const double to = world.angle(square) + (0.25 + 0.5 * corner) * M_PI;
+        const Vec2d r{reach * std::cos(to), reach * std::sin(to)};
+        if (r.y < arm.y) arm = r;
+      }
+      const double spin = world.angular_velocity(square), approach = -(v.y + w * arm.x);
+      if (approach < 1) continue;
+      const double turning = std::max(w * w, spin * spin) * reach * (kStep + kStep / 4);
+      ++throws;
+      if (world.velocity(square).y + spin * arm.x > turning) ++rebounds;
+    }
+  }
+  EXPECT_GT(throws, 1500);
+  EXPECT_LE(100 * rebounds, throws);
+}
+
 // A wide box lands flat and slides: both corners are struck at once. Friction turns it; the corners take that
 // up by unequal impulses, so that it does not spin.
 TEST(FrictionalImpacts, OfABoxThatLandsFlatDoNotSpinIt) {
