@@ -394,7 +394,7 @@ void BoundedRows::solve_from_start() {
   if (!assembled_) find_largest(), assemble();
   const bool solved = pivot();
   if (!solved) descend();
-  // Where all rows are free, their velocities are as wanted, and nothing is gained. A row at its bound may
+  // Keep the energy: where all rows are free, nothing is gained. A row at its bound may
   // gain its impulse times the tolerated violation, and impulses that parts which jam exert have no limit.
   const auto held = [](const BoundedRow& row) { return row.state != BoundedRow::kFree && row.impulse != 0; };
   if (!solved || shares_ || std::any_of(rows.begin(), rows.end(), held)) shrink();

@@ -185,7 +185,7 @@ void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity
   if (own_type(*data_, index) == BodyType::Static) return;
   settle(*data_);
   wake_moved(index);
-  const bool locked = data_->is_dynamic(index) && data_->bodies[index].lock_rotation;
+  const bool locked = own_type(*data_, index) == BodyType::Dynamic && data_->bodies[index].lock_rotation;
   data_->motion[index].angular_velocity = locked ? Real(0) : static_cast<Real>(angular_velocity);
 }
 template <class Real>
@@ -310,7 +310,8 @@ template <class Real>
 void BasicWorld<Real>::use_densities(BodyId body) {
   unlocked(*this);
   const int index = place(body);
-  if (data_->is_dynamic(index)) naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
+  const bool weighs = own_type(*data_, index) == BodyType::Dynamic;
+  if (weighs) naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
   settle(*data_);
   data_->bodies[index].mass_given = false;
   update_mass(*data_, index);

@@ -18,7 +18,7 @@ template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
   unlocked(*this);
   const int index = place(body);
-  const bool weighs = data_->is_dynamic(index) && !data_->bodies[index].mass_given;
+  const bool weighs = own_type(*data_, index) == BodyType::Dynamic && !data_->bodies[index].mass_given;
   naming_part(*data_, "shape", index, [&] {
     validate(definition);
     if (std::is_same_v<Real, float> && weighs) require_weight(definition);

@@ -88,6 +88,18 @@ TYPED_TEST(LockedAxes, UnlockedABodyHasItsMassAgain) {
   EXPECT_NEAR(world.velocity(other).x, 3, 3 * rounding<TypeParam>());
 }
 
+// While a body is disabled its locks hold for what it is given, as they do once it is enabled.
+TYPED_TEST(LockedAxes, ADisabledBodyTakesNoSpinThatALockForbids) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}});
+  const BodyId box = world.create_body({.lock_rotation = true}, {.geometry = Box{1, 0.5}});
+  world.set_enabled(box, false);
+  world.set_angular_velocity(box, 3);
+  EXPECT_EQ(world.angular_velocity(box), 0);
+  world.set_enabled(box, true);
+  world.step();
+  EXPECT_EQ(world.angle(box), 0);
+}
+
 // A kinematic body turns as told, whatever is locked. Once dynamic it keeps its angle.
 TYPED_TEST(LockedAxes, AKinematicBodyThatBecomesDynamicLosesItsSpinToALock) {
   BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});

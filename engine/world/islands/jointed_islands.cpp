@@ -63,7 +63,7 @@ class RowMaker {
     if (close_) {
       // Springs, motors and friction correct no positions. Unilateral rows that are open and have no impulse
       // may stay so, or close.
-      const bool unilateral = lower == 0 && upper > 0 && tie.first < 0;
+      const bool unilateral = lower == 0 && tie.first < 0;
       const bool pressed = unilateral && island_.impulses[place] > 0;
       const bool holds = unilateral ? row.gap < 0 || pressed : row.gap != 0 || rigid_;
       row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
@@ -214,7 +214,7 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
     const double lower = -most - applied, upper = most - applied;
     constexpr double kSame = 1e-3;
     const bool matters = row.state != BoundedRow::kFree || std::abs(total(i)) > most;
-    // Where parts jam, friction raises the pressure that bounds it: without slip it takes no more.
+    // Take no more without slip: where parts jam, friction raises the pressure that bounds it.
     if (upper > row.upper && !island.system.is_held_back(i)) return;
     if (matters && std::abs(upper - row.upper) > kSame * most) changed = true;
     if (row.lower >= row.upper && most > 0) row.state = BoundedRow::kFree;
