@@ -15,11 +15,11 @@
 namespace plumb::app {
 namespace {
 
-struct Options {
+struct AgreementOptions {
   std::string folder = "results", format = "console", without;
 };
 
-int start(const Options& options) {
+int start_agreement(const AgreementOptions& options) {
   std::vector<harness::Result> rows = harness::sweep::read_rows(options.folder);
   if (!options.without.empty())
     std::erase_if(rows,
@@ -44,7 +44,7 @@ void add_agreement(CLI::App& app, Action& chosen) {
       "agreement",
       "case by case: the engines that agree with the truth, with each other, and what misses by\n"
       "how much and why, from results");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AgreementOptions>();
   command
       ->add_option("results", options->folder,
                    "a folder that `plumb compare` wrote, or a results.jsonl (default results)")
@@ -58,7 +58,7 @@ void add_agreement(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples:\n  plumb agreement\n  plumb agreement results --without '*-default' --format json\n"
       "Exit codes: 0 written, 2 usage, or results that cannot be read.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_agreement(*options); }; });
 }
 
 }  // namespace plumb::app

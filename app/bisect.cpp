@@ -29,7 +29,7 @@ using harness::Check;
 using harness::Result;
 using harness::Status;
 
-struct Options {
+struct BisectOptions {
   std::string name, engine, check, from, to, dt, timeout;
   int size = 0;
 };
@@ -37,7 +37,7 @@ struct Options {
 /// Runs of one case on versions of one engine, each made once.
 class Runs {
  public:
-  Runs(const Options& options, reference::NodeEngine engine, bool out_of_the_box)
+  Runs(const BisectOptions& options, reference::NodeEngine engine, bool out_of_the_box)
       : engine_(std::move(engine)), prefix_(engine_.name + (out_of_the_box ? "-default" : "")) {
     if (!options.dt.empty()) settings_.dt = parse_positive("--dt", options.dt);
     if (!options.timeout.empty()) seconds_ = parse_positive("--timeout", options.timeout);
@@ -95,7 +95,7 @@ std::string figures(const Result& result, const std::string& check) {
                      found->pass ? "" : ": misses");
 }
 
-int start(const Options& options) {
+int start_bisect(const BisectOptions& options) {
   std::string name = options.engine;
   const bool out_of_the_box = name.ends_with("-default");
   if (out_of_the_box) name.resize(name.size() - std::string("-default").size());
@@ -158,7 +158,7 @@ int start(const Options& options) {
 void add_bisect(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "bisect", "find the version of an engine from npm that brought a miss, by installing and running");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BisectOptions>();
   command->add_option("case", options->name, "a scenario or a case file")->required()->type_name("NAME|FILE");
   command->add_option("engine", options->engine, "an engine from npm, see `plumb engines`")
       ->required()
@@ -177,7 +177,7 @@ void add_bisect(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb bisect cradle_energy rapier\n  plumb bisect my_case.json rapier --from 0.17.3 --to "
       "0.21.0\n"
       "Exit codes: 0 found, 1 no version brought a miss, 2 usage, 130 interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_bisect(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -28,7 +28,7 @@ namespace {
 
 using harness::Style;
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> command, cases;
   std::string engine, dt, timeout = "10", format = "console";
   std::optional<int> chapter;
@@ -47,7 +47,7 @@ std::vector<course::Chapter> chosen_chapters(std::optional<int> number) {
 }
 
 // Opens the window with the first check that failed, in place of this program.
-[[noreturn]] void show(const Options& options, const course::Outcome& failed) {
+[[noreturn]] void show(const CheckOptions& options, const course::Outcome& failed) {
   constexpr const char* kDemos[] = {"bouncing_ball", "cannonballs", "pool_break", "spinning_boxes",
                                     "ragdoll"};
   std::string command;
@@ -70,7 +70,7 @@ std::vector<course::Chapter> chosen_chapters(std::optional<int> number) {
   throw std::logic_error("the window's program was not started");
 }
 
-int examine(const Options& options, const reference::Backend& engine) {
+int examine(const CheckOptions& options, const reference::Backend& engine) {
   reference::StepSettings settings;
   if (!options.dt.empty()) settings.dt = parse_positive("--dt", options.dt);
   if (settings.dt > kLargestStep)
@@ -102,7 +102,7 @@ int examine(const Options& options, const reference::Backend& engine) {
 }
 
 // Runs case files in place of the course.
-int examine_cases(const Options& options, const reference::Backend& engine) {
+int examine_cases(const CheckOptions& options, const reference::Backend& engine) {
   harness::CompareOptions what{.instances = {}, .engines = {&engine}};
   for (const std::string& name : options.cases)
     if (case_files(name).empty())
@@ -129,11 +129,11 @@ int examine_cases(const Options& options, const reference::Backend& engine) {
   return comparison.interrupted ? kInterrupted : comparison.as_expected() ? kOk : kCheckFailed;
 }
 
-int examine_engine(const Options& options, const reference::Backend& engine) {
+int examine_engine(const CheckOptions& options, const reference::Backend& engine) {
   return options.cases.empty() ? examine(options, engine) : examine_cases(options, engine);
 }
 
-int start(const Options& options) {
+int start_check(const CheckOptions& options) {
   if (options.chapter && !options.cases.empty())
     throw UsageError("--chapter goes with the course, not with --case");
   if (options.command.empty() == options.engine.empty())
@@ -162,7 +162,7 @@ int start(const Options& options) {
 void add_check(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "check", "put an engine through the course, chapter by chapter, and name its mistakes");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   command
       ->add_option("command", options->command,
                    "the command that starts your engine (docs/protocol.md); put it after --")
@@ -194,7 +194,7 @@ void add_check(CLI::App& app, Action& chosen) {
       "  plumb check --engine plumb --format json\n  plumb check --case my_case.json -- ./my_engine\n"
       "What an engine does not declare is \"not yet\". The chapters are in docs/course.\n"
       "Exit codes: 0 all checks pass, 1 some do not, 2 usage, or a program that does not answer \"hello\".");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_check(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -35,7 +35,7 @@ namespace {
 using harness::Result;
 using harness::Style;
 
-struct Options {
+struct CompareCommandOptions {
   std::vector<std::string> names;
   EngineOptions engines;
   std::string dt, timeout, out = "results", format = "console", junit, again;
@@ -53,7 +53,7 @@ std::string as_text(std::span<const Result> results, const std::string& format, 
 
 // Writes a report of everything in the folder, not of this run alone. Returns false if it could not be
 // written; the results are saved by then.
-bool report(const Options& options, std::span<const reference::Backend* const> engines) {
+bool report(const CompareCommandOptions& options, std::span<const reference::Backend* const> engines) {
   const std::string path = harness::report::default_report_path(options.out);
   try {
     if (!harness::report::write_report(options.out, path, engines)) {
@@ -82,7 +82,7 @@ void put_common_first(harness::CompareOptions& what) {
   if (first != what.instances.end()) std::rotate(what.instances.begin(), first, first + 1);
 }
 
-int again(const Options& options) {
+int again(const CompareCommandOptions& options) {
   if (!options.dt.empty()) throw UsageError("--dt and --again: each run has the step that it had");
   AgainRequest request{.results = options.again,
                        .names = options.names,
@@ -95,7 +95,7 @@ int again(const Options& options) {
   return compare_again(request);
 }
 
-int start(const Options& options) {
+int start_compare(const CompareCommandOptions& options) {
   if (!options.again.empty()) return again(options);
   if (options.jobs > 1) throw UsageError("--jobs goes with --again: costs are measured one at a time");
   if (mean_results(options.names))
@@ -158,7 +158,7 @@ void add_compare(CLI::App& app, Action& chosen) {
       "compare",
       "run scenarios on engines, hold each run against the truth, and measure its cost; or compare two\n"
       "sets of results: compare OLD NEW");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareCommandOptions>();
   command
       ->add_option("names", options->names,
                    "scenarios, variants or sizes (default: all), case files and folders of them "
@@ -198,7 +198,7 @@ void add_compare(CLI::App& app, Action& chosen) {
       "  plumb compare results-before results-after\n"
       "  plumb compare --again results-of-a-cluster --out made-here --jobs 2\n"
       "Exit codes: 0 all as expected, 1 a check failed, 2 usage, 130 interrupted (finished results kept).");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_compare(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -17,11 +17,11 @@ namespace {
 
 namespace sweep = harness::sweep;
 
-struct Options {
+struct FrontOptions {
   std::string folder, metric, machine, format = "console";
 };
 
-int start(const Options& options) {
+int start_front(const FrontOptions& options) {
   const std::vector<harness::Result> rows = sweep::read_rows(options.folder, options.machine);
   const harness::MetricField* metric = options.metric.empty() ? nullptr : &metric_by_name(options.metric);
   if (options.format != "console") {
@@ -49,7 +49,7 @@ int start(const Options& options) {
 void add_front(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "front", "from results: each engine's front, cost at equal error, error at equal cost, dominance");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FrontOptions>();
   command->add_option("results", options->folder, "a folder that `plumb sweep` wrote, or a results.jsonl")
       ->required()
       ->type_name("DIR");
@@ -64,7 +64,7 @@ void add_front(CLI::App& app, Action& chosen) {
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->footer("Examples:\n  plumb front sweep\n  plumb front sweep --metric energy_drift --format json");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_front(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -25,12 +25,12 @@ namespace {
 namespace cluster = harness::cluster;
 using Ink = harness::Style::Ink;
 
-struct Options {
+struct GatherOptions {
   std::string folder, out = "results", format = "console", expiry;
   bool no_report = false;
 };
 
-double expiry_of(const Options& options) {
+double expiry_of(const GatherOptions& options) {
   return options.expiry.empty() ? cluster::WorkOptions{}.expiry : parse_positive("--expiry", options.expiry);
 }
 
@@ -89,7 +89,7 @@ std::string machines_text(const cluster::Survey& survey) {
   return out;
 }
 
-int status(const Options& options) {
+int status(const GatherOptions& options) {
   const cluster::Plan plan = cluster::read_plan(options.folder);
   const cluster::Survey survey = cluster::survey(options.folder, plan, expiry_of(options));
   if (options.format == "json") {
@@ -130,7 +130,7 @@ std::string lines_text(const cluster::Gathered& gathered, const std::string& out
   return text;
 }
 
-int gather(const Options& options) {
+int gather(const GatherOptions& options) {
   const cluster::Plan plan = cluster::read_plan(options.folder);
   const cluster::Gathered gathered = cluster::gather(options.folder, plan, options.out, expiry_of(options));
   const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
@@ -159,7 +159,7 @@ int gather(const Options& options) {
   return code;
 }
 
-void add_common(CLI::App& command, Options& options) {
+void add_common(CLI::App& command, GatherOptions& options) {
   command.add_option("folder", options.folder, "folder of work")->required()->type_name("FOLDER");
   command.add_option("--format", options.format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
@@ -174,7 +174,7 @@ void add_common(CLI::App& command, Options& options) {
 void add_gather(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "gather", "merge the units that are done: the usual results and report, and what is missing");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GatherOptions>();
   add_common(*command, *options);
   command
       ->add_option("--out", options->out,
@@ -193,7 +193,7 @@ void add_gather(CLI::App& app, Action& chosen) {
 void add_status(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("status", "how far a folder of work is, what failed, how long it will take");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GatherOptions>();
   add_common(*command, *options);
   command->footer("Examples:\n  plumb status work\n  plumb status work --format json");
   command->callback([&chosen, options] { chosen = [options] { return status(*options); }; });

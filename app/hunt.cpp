@@ -29,7 +29,7 @@ namespace hunting = harness::hunt;
 
 constexpr double kMinutes = 10;
 
-struct Options {
+struct HuntCommandOptions {
   std::vector<std::string> names;
   EngineOptions engines;
   std::string out = "hunt", format = "console", minutes, replay;
@@ -66,7 +66,8 @@ void choose(const std::vector<std::string>& names, hunting::HuntOptions& what) {
   }
 }
 
-std::vector<hunting::Engine> engines_of(const Options& options, const std::vector<std::string>& usual,
+std::vector<hunting::Engine> engines_of(const HuntCommandOptions& options,
+                                        const std::vector<std::string>& usual,
                                         std::vector<std::unique_ptr<reference::Backend>>& programs) {
   EngineOptions wanted = options.engines;
   if (wanted.names.empty() && wanted.commands.empty()) wanted.names = usual;
@@ -78,7 +79,7 @@ std::vector<hunting::Engine> engines_of(const Options& options, const std::vecto
   return out;
 }
 
-int replay(const Options& options) {
+int replay(const HuntCommandOptions& options) {
   const std::string text = harness::read_text(options.replay);
   const bool is_finding = nlohmann::json::parse(text, nullptr, false).contains("case");
   hunting::Case one;
@@ -121,7 +122,7 @@ std::string progress_text(std::uint64_t scenes, std::uint64_t findings, double p
   return text;
 }
 
-int start(const Options& options) {
+int start_hunt(const HuntCommandOptions& options) {
   if (options.list) {
     list();
     return kOk;
@@ -175,7 +176,7 @@ int start(const Options& options) {
 void add_hunt(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "hunt", "random scenes, judged without an answer sheet: laws, symmetries, engines as jury");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<HuntCommandOptions>();
   command
       ->add_option("families", options->names,
                    "structures to draw from (default: all), see --list; or case files and folders of them, "
@@ -221,7 +222,7 @@ void add_hunt(CLI::App& app, Action& chosen) {
       "under way; the same command goes on. See docs/hunting.md. Exit codes: 0 nothing was found; 1 "
       "something\n"
       "was; 2 usage; 130 interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_hunt(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -14,11 +14,11 @@
 namespace plumb::app {
 namespace {
 
-struct Options {
+struct LimitsOptions {
   std::string folder = "stress", out;
 };
 
-int start(const Options& options) {
+int start_limits(const LimitsOptions& options) {
   const harness::limits::LimitsData data = harness::limits::read_limits(options.folder);
   const std::string part = harness::limits::measured_part(data);
   if (options.out.empty()) {
@@ -40,7 +40,7 @@ int start(const Options& options) {
 void add_limits(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "limits", "write the measured part of docs/limits.md from what stress and thresholds found");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LimitsOptions>();
   command
       ->add_option("folder", options->folder, "with stress.jsonl, thresholds.jsonl or both (default stress)")
       ->type_name("DIR");
@@ -54,7 +54,7 @@ void add_limits(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb limits\n"
       "  plumb stress && plumb thresholds && plumb limits stress --out docs/limits.md\n"
       "Exit codes: 0 written, 2 usage, or files that cannot be read or written.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_limits(*options); }; });
 }
 
 }  // namespace plumb::app

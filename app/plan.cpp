@@ -397,7 +397,7 @@ void tell(const std::string& folder) {
       "`plumb submit {0} --on local` does them here, `--on slurm` and `--on parallel` elsewhere\n", folder));
 }
 
-int start(const PlanOptions& options, const std::vector<std::string>& words) {
+int start_plan(const PlanOptions& options, const std::vector<std::string>& words) {
   cluster::Plan plan = plan_of(options, words);
   const std::size_t wanted = plan.units.size();
   double seconds = 0, longest = 0;
@@ -483,7 +483,7 @@ void add_plan(CLI::App& app, Action& chosen) {
     chosen = [options, next, words = command->remaining()] {
       if (*next && !words.empty())
         throw UsageError("--next takes no command: it goes on with those of the folder");
-      return *next ? start_next(options->folder) : start(*options, words);
+      return *next ? start_next(options->folder) : start_plan(*options, words);
     };
   });
 }

@@ -24,7 +24,7 @@ namespace {
 
 namespace reality = harness::reality;
 
-struct Options {
+struct RealityOptions {
   std::string data = "impacts", out, format = "console";
   EngineOptions engines;
   int seed = 1;
@@ -47,7 +47,7 @@ void write_files(const std::string& folder, const reality::Findings& findings) {
   harness::write_whole((path / "reality.json").string(), reality::to_json(findings));
 }
 
-int run_published(const std::vector<const reference::Backend*>& engines, const Options& options) {
+int run_published(const std::vector<const reference::Backend*>& engines, const RealityOptions& options) {
   const std::string& format = options.format;
   harness::catch_interrupts();
   const std::vector<reality::PublishedFinding> findings =
@@ -64,7 +64,7 @@ int run_published(const std::vector<const reference::Backend*>& engines, const O
   return harness::interrupted() ? kInterrupted : kOk;
 }
 
-int start(const Options& options) {
+int start_reality(const RealityOptions& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
   if (options.published) return run_published(engines, options);
@@ -101,7 +101,7 @@ void add_reality(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "reality",
       "engines and laws of impact held against measured motions, the law's error apart from the numerical");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RealityOptions>();
   command
       ->add_option(
           "--data", options->data,
@@ -128,7 +128,7 @@ void add_reality(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb reality --data ~/impacts --out reality\n  plumb reality --engine plumb,box2d "
       "--format csv\n"
       "Exit code 4: the measurements are not there.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_reality(*options); }; });
 }
 
 }  // namespace plumb::app

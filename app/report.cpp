@@ -15,11 +15,11 @@
 namespace plumb::app {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string folder = "results", out, picture;
 };
 
-int start(const Options& options) {
+int start_report(const ReportOptions& options) {
   const std::string out =
       options.out.empty() ? harness::report::default_report_path(options.folder) : options.out;
   harness::catch_interrupts();
@@ -41,7 +41,7 @@ int start(const Options& options) {
 void add_report(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "report", "results as one HTML file with charts, checks and settings, which any browser opens");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   command
       ->add_option(
           "results", options->folder,
@@ -59,7 +59,7 @@ void add_report(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples:\n  plumb report\n  plumb report sweep --out trade.html\n"
       "  plumb report stress --picture stress.svg");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_report(*options); }; });
 }
 
 }  // namespace plumb::app

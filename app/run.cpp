@@ -30,7 +30,7 @@
 namespace plumb::app {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string name, engine, format = "csv", duration, rate;
   int size = 0;
   bool forces = false;
@@ -64,7 +64,7 @@ int sample_count(double duration, double dt, int every) {
 }
 
 // Ends the run before a non-finite state is written.
-void require_finite(const Options& options, const Scene& scene, double time,
+void require_finite(const RunOptions& options, const Scene& scene, double time,
                     std::span<const BodyState> states) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& s = states[i];
@@ -80,7 +80,7 @@ void require_finite(const Options& options, const Scene& scene, double time,
   }
 }
 
-int run(const Options& options, const reference::Backend& backend, const reference::StepSettings& settings,
+int run(const RunOptions& options, const reference::Backend& backend, const reference::StepSettings& settings,
         const Source& source, int every, int samples) {
   const auto simulator = backend.create(source.scene, settings);
   const auto format =
@@ -123,7 +123,7 @@ int run(const Options& options, const reference::Backend& backend, const referen
 }
 
 /// Prints derivatives in place of the motion: of Precise itself, as no other engine has them.
-int run_derived(const Options& options, const reference::StepSettings& settings, const Source& source,
+int run_derived(const RunOptions& options, const reference::StepSettings& settings, const Source& source,
                 int every, int samples) {
   Simulation simulation =
       compile(source.scene,
@@ -145,7 +145,7 @@ int run_derived(const Options& options, const reference::StepSettings& settings,
   return kOk;
 }
 
-int start(Options options) {
+int start_run(RunOptions options) {
   if (!options.parameters.empty()) {
     if (options.engine.empty()) options.engine = "plumb-precise";
     if (options.engine != "plumb-precise" || options.forces)
@@ -177,7 +177,7 @@ int start(Options options) {
 
 void add_run(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("run", "run a scene on an engine; the trajectory goes to stdout");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   command->add_option("name", options->name, "a scenario or a scene file (- reads stdin)")
       ->required()
       ->type_name("NAME|FILE");
@@ -207,7 +207,7 @@ void add_run(CLI::App& app, Action& chosen) {
       "  plumb scene pendulum_chain --size 5 > chain.json && plumb run chain.json --dt 1/240\n"
       "  plumb run free_fall --set integrator=explicit_euler --substeps 1\n"
       "  plumb run bounce/e_1 --engine-command mine='python3 my_engine.py'");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_run(*options); }; });
 }
 
 }  // namespace plumb::app

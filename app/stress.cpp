@@ -26,7 +26,7 @@ namespace stress = harness::stress;
 
 constexpr double kCellSeconds = 10, kQuickSeconds = 3, kMegabytes = 2048;
 
-struct Options {
+struct StressCommandOptions {
   std::vector<std::string> names;
   EngineOptions engines;
   std::string out = "stress", format = "console", cell_seconds, cell_memory;
@@ -67,7 +67,7 @@ void print_data(const std::vector<stress::Cell>& cells, const std::string& forma
   print(text + "\n]\n");
 }
 
-stress::StressOptions what_to_run(const Options& options,
+stress::StressOptions what_to_run(const StressCommandOptions& options,
                                   std::vector<std::unique_ptr<reference::Backend>>& programs) {
   stress::StressOptions what{.families = chosen_families(options.names),
                              .engines = chosen_engines(options.engines, programs),
@@ -85,7 +85,7 @@ stress::StressOptions what_to_run(const Options& options,
   return what;
 }
 
-int start(const Options& options) {
+int start_stress(const StressCommandOptions& options) {
   const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
   if (options.list) {
     list(chosen_families(options.names), style);
@@ -122,7 +122,7 @@ int start(const Options& options) {
 void add_stress(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("stress", "the extremes: where each engine breaks, as maps along an axis");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StressCommandOptions>();
   command->add_option("families", options->names, "families of scenes (default: all); see --list")
       ->type_name("FAMILY");
   options->engines.add_to(*command);
@@ -153,7 +153,7 @@ void add_stress(CLI::App& app, Action& chosen) {
       "Each cell runs in a process of its own. Stopping at any instant loses at most the cells under way;\n"
       "the same command goes on. See docs/stress.md. Exit codes: 0 done, whatever broke; 2 usage; 130\n"
       "interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_stress(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -28,7 +28,7 @@ namespace {
 namespace cluster = harness::cluster;
 namespace fs = std::filesystem;
 
-struct Options {
+struct SubmitOptions {
   std::string folder, on, out, hosts, partition;
   int nodes = 0, jobs = 0, memory = 4096;
   bool dry_run = false;
@@ -50,7 +50,7 @@ int run_script(const std::string& script) {
 }
 
 // Runs the units on this machine, `jobs` at a time, and gathers the results.
-int run_here(const std::string& folder, const Options& options, const LocalWork& work) {
+int run_here(const std::string& folder, const SubmitOptions& options, const LocalWork& work) {
   if (!do_here(work)) {
     notice(fmt::format("interrupted; `plumb submit {} --on local` goes on", options.folder));
     return kInterrupted;
@@ -96,8 +96,8 @@ std::string hosts_text(const std::string& hosts) {
 }
 
 // Writes the scripts; returns the one that submits.
-std::string write_scripts(const cluster::Plan& plan, const std::vector<int>& units, const Options& options,
-                          cluster::JobOptions& job) {
+std::string write_scripts(const cluster::Plan& plan, const std::vector<int>& units,
+                          const SubmitOptions& options, cluster::JobOptions& job) {
   std::string list;
   for (const int unit : units) list += fmt::format("{}\n", unit);
   const auto write = [&](const char* name, const std::string& text) {
@@ -114,7 +114,7 @@ std::string write_scripts(const cluster::Plan& plan, const std::vector<int>& uni
   return write("submit.sh", cluster::slurm_script(job));
 }
 
-int start(Options options) {
+int start_submit(SubmitOptions options) {
   const std::string folder = fs::absolute(options.folder).lexically_normal().string();
   const cluster::Plan plan = cluster::read_plan(folder);
   cluster::require_same_program(options.folder, plan, cluster::this_program());
@@ -154,7 +154,7 @@ int start(Options options) {
 
 void add_submit(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("submit", "do a folder of work by Slurm, by GNU parallel, or here");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SubmitOptions>();
   command->add_option("folder", options->folder, "folder that `plumb plan` made")
       ->required()
       ->type_name("FOLDER");
@@ -188,7 +188,7 @@ void add_submit(CLI::App& app, Action& chosen) {
       "The scripts are in FOLDER/submit, to be read and edited. See docs/cluster.md. Exit codes: 0 "
       "submitted, or\n"
       "all done; 1 some units are missing; 2 usage; 130 interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_submit(*options); }; });
 }
 
 }  // namespace plumb::app

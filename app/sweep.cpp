@@ -31,7 +31,7 @@ namespace {
 namespace cluster = harness::cluster;
 namespace sweep = harness::sweep;
 
-struct Options {
+struct SweepCommandOptions {
   std::vector<std::string> names;
   EngineOptions engines;
   std::string budget, duration, explore, out = "sweep", format = "console";
@@ -51,7 +51,7 @@ void require_different(const std::vector<scenarios::Instance>& instances) {
 }
 
 // Prints the fronts of a folder of results, and which engine dominates.
-void show(const std::vector<harness::Result>& rows, const Options& options) {
+void show(const std::vector<harness::Result>& rows, const SweepCommandOptions& options) {
   if (options.format != "console") return print(sweep::trade_data(rows, nullptr, options.format));
   const harness::Style style = harness::Style::of_file(STDOUT_FILENO);
   print(sweep::dominance_table(sweep::dominance(rows), style));
@@ -63,7 +63,7 @@ void show(const std::vector<harness::Result>& rows, const Options& options) {
 
 // Plans the sweep in a folder of work in its results, does the units here, and gathers them, as `plumb plan`,
 // `submit --on local` and `gather` do.
-int sweep_on_cores(const Options& options) {
+int sweep_on_cores(const SweepCommandOptions& options) {
   const std::string folder = std::filesystem::absolute(options.out + "/work").lexically_normal().string();
   std::vector<std::string> words{"sweep"};
   words.insert(words.end(), options.names.begin(), options.names.end());
@@ -105,7 +105,7 @@ int sweep_on_cores(const Options& options) {
   return gathered.survey.failed.empty() ? kOk : kCheckFailed;
 }
 
-int start(const Options& options) {
+int start_sweep(const SweepCommandOptions& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
   sweep::SweepOptions what;
@@ -162,7 +162,7 @@ int start(const Options& options) {
 void add_sweep(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("sweep", "run every engine over its settings: what accuracy costs on each of them");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepCommandOptions>();
   command
       ->add_option("names", options->names,
                    "scenarios, variants, sizes, scene files, case files or folders of these (default: all)")
@@ -197,7 +197,7 @@ void add_sweep(CLI::App& app, Action& chosen) {
       "  plumb sweep my_scene.json\n"
       "Stopping it at any instant loses at most the run under way; the same command goes on.\n"
       "See docs/trade.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_sweep(*options); }; });
 }
 
 }  // namespace plumb::app

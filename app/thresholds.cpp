@@ -24,7 +24,7 @@ namespace {
 
 namespace thresholds = harness::thresholds;
 
-struct Options {
+struct ThresholdsOptions {
   std::vector<std::string> names;
   EngineOptions engines;
   std::string out = "stress", seconds, format = "console";
@@ -60,7 +60,7 @@ void show(const std::vector<thresholds::Finding>& findings, const std::string& f
     print((format == "csv" ? thresholds::to_csv(finding) : thresholds::to_json(finding)) + "\n");
 }
 
-int start(const Options& options) {
+int start_thresholds(const ThresholdsOptions& options) {
   if (options.list) return list();
   std::vector<std::unique_ptr<reference::Backend>> programs;
   const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
@@ -99,7 +99,7 @@ int start(const Options& options) {
 void add_thresholds(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "thresholds", "each engine's own critical values, by bisection, beside the exact ones");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ThresholdsOptions>();
   command->add_option("names", options->names, "thresholds, see --list (default: all)")->type_name("NAME");
   options->engines.add_to(*command);
   command->add_option("--digits", options->digits, "digits of a critical value (default 3)")
@@ -127,7 +127,7 @@ void add_thresholds(CLI::App& app, Action& chosen) {
       "  plumb thresholds --engine plumb-precise --engine-command mine='python3 my_engine.py'\n"
       "Stopping it at any instant loses at most the searches under way; the same command goes on.\n"
       "See docs/thresholds.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_thresholds(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -24,13 +24,13 @@ namespace {
 
 namespace sweep = harness::sweep;
 
-struct Options {
+struct TuneCommandOptions {
   std::string name, tolerance, budget, step, seconds, duration, metric, format = "console";
   EngineOptions engines;
   int size = 0;
 };
 
-int start(const Options& options) {
+int start_tune(const TuneCommandOptions& options) {
   std::vector<std::unique_ptr<reference::Backend>> programs;
   std::vector<std::unique_ptr<scenarios::Scenario>> files;
   // A case file contains its own tolerances.
@@ -79,7 +79,7 @@ void add_tune(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "tune",
       "the cheapest settings that reach an accuracy, or the most accurate within a cost, on every engine");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TuneCommandOptions>();
   command->add_option("name", options->name, "a scenario, a scene file or a case file")
       ->required()
       ->type_name("NAME|FILE");
@@ -108,7 +108,7 @@ void add_tune(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n"
       "  plumb tune my_scene.json --cost-us 200 --engine plumb,plumb-float,box2d\n"
       "Exit codes: 0 an engine can, 1 none can, 2 usage, 130 interrupted. See docs/trade.md.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_tune(*options); }; });
 }
 
 }  // namespace plumb::app

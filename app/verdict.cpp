@@ -30,7 +30,7 @@ namespace {
 using harness::Result;
 using Clock = std::chrono::steady_clock;
 
-struct Options {
+struct VerdictOptions {
   std::vector<std::string> command, names;
   std::string engine, budget = "60", format = "console", junit, json, badge, name = "yours";
 };
@@ -109,7 +109,7 @@ std::vector<Result> judge_all(const std::vector<scenarios::Instance>& cases, con
   return results;
 }
 
-int start(const Options& options) {
+int start_verdict(const VerdictOptions& options) {
   if (options.command.empty() == options.engine.empty())
     throw UsageError(
         "give either the command that starts an engine after `--`, or --engine with one that is built in; "
@@ -139,7 +139,7 @@ int start(const Options& options) {
 void add_verdict(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "verdict", "run the whole catalogue on one engine: a verdict a case, what it misses first");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerdictOptions>();
   command
       ->add_option("command", options->command,
                    "starts a program that speaks docs/protocol.md; put it after --")
@@ -170,7 +170,7 @@ void add_verdict(CLI::App& app, Action& chosen) {
       "Examples:\n  plumb verdict -- python3 my_engine.py\n  plumb verdict --engine box2d --junit report.xml "
       "--badge badge.svg\n"
       "Exit codes: 0 all that ran agree, 1 some do not, 2 usage, 130 interrupted. See docs/cases.md.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_verdict(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -21,7 +21,7 @@ namespace cluster = harness::cluster;
 
 constexpr useconds_t kShortest = 100'000, kLongest = 3'000'000;  // us between looks at others' claims
 
-struct Options {
+struct WorkCommandOptions {
   std::string folder, kind, calibration, expiry;
   int unit = 0, attempts = cluster::kAttempts;
   bool next = false, all = false, again = false;
@@ -70,7 +70,7 @@ int do_all(const std::string& folder, const cluster::Plan& plan, const cluster::
   return kInterrupted;
 }
 
-int start(const Options& options) {
+int start_work(const WorkCommandOptions& options) {
   if ((options.unit > 0 ? 1 : 0) + (options.next ? 1 : 0) + (options.all ? 1 : 0) != 1)
     throw UsageError("work takes one of --unit K, --next and --all");
   if (options.again && options.unit == 0) throw UsageError("--again goes with --unit K");
@@ -95,7 +95,7 @@ int start(const Options& options) {
 
 void add_work(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("work", "do a unit of a folder that `plumb plan` made");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<WorkCommandOptions>();
   command->add_option("folder", options->folder, "folder of work")->required()->type_name("FOLDER");
   command->add_option("--unit", options->unit, "do this one, whoever claims it; done is done")
       ->check(CLI::PositiveNumber)
@@ -127,7 +127,7 @@ void add_work(CLI::App& app, Action& chosen) {
       "but the unit under way. See docs/cluster.md. Exit codes: 0 done, 1 the unit failed, 2 usage or "
       "another\n"
       "program, 3 no unit is free, 130 interrupted.");
-  command->callback([&chosen, options] { chosen = [options] { return start(*options); }; });
+  command->callback([&chosen, options] { chosen = [options] { return start_work(*options); }; });
 }
 
 }  // namespace plumb::app

@@ -105,13 +105,13 @@ Case mirrored(Case one) {
   for (Joint& joint : one.scene.joints) {
     std::visit(
         [](auto& j) {
-          using Kind = std::decay_t<decltype(j)>;
+          using JointKind = std::decay_t<decltype(j)>;
           if constexpr (requires { j.reference_angle; }) j.reference_angle = -j.reference_angle;
           if constexpr (requires { j.target_angle; }) j.target_angle = -j.target_angle;
           if constexpr (requires { j.phase; }) j.phase = -j.phase;
           if constexpr (requires { j.tooth; }) j.tooth = -j.tooth;
-          if constexpr (std::is_same_v<Kind, RevoluteJoint>) flip(j.limits);
-          if constexpr (std::is_same_v<Kind, RevoluteJoint> || std::is_same_v<Kind, WheelJoint>)
+          if constexpr (std::is_same_v<JointKind, RevoluteJoint>) flip(j.limits);
+          if constexpr (std::is_same_v<JointKind, RevoluteJoint> || std::is_same_v<JointKind, WheelJoint>)
             if (j.motor) j.motor->speed = -j.motor->speed;
         },
         joint);
@@ -185,9 +185,9 @@ Case rescaled(Case one, double length, double time, double mass) {
   for (Joint& joint : one.scene.joints) {
     std::visit(
         [&](auto& j) {
-          using Kind = std::decay_t<decltype(j)>;
+          using JointKind = std::decay_t<decltype(j)>;
           constexpr bool kSlides =
-              std::is_same_v<Kind, PrismaticJoint> || std::is_same_v<Kind, DistanceJoint>;
+              std::is_same_v<JointKind, PrismaticJoint> || std::is_same_v<JointKind, DistanceJoint>;
           // The axis is a unit vector.
           if constexpr (requires { j.axis; }) j.axis = (1 / length) * j.axis;
           if constexpr (requires { j.spring.hertz; }) ticks(j.spring);
@@ -205,13 +205,13 @@ Case rescaled(Case one, double length, double time, double mass) {
           if constexpr (requires { j.max_force; }) j.max_force *= force;
           if constexpr (requires { j.max_torque; }) j.max_torque *= torque;
           if constexpr (requires { j.limits; })
-            if (!std::is_same_v<Kind, RevoluteJoint> && j.limits)
+            if (!std::is_same_v<JointKind, RevoluteJoint> && j.limits)
               j.limits = Range{j.limits->lower * length, j.limits->upper * length};
           if constexpr (requires { j.range; })
             if (j.range) j.range = Range{j.range->lower * length, j.range->upper * length};
-          if constexpr (std::is_same_v<Kind, DistanceJoint>) j.length *= length;
+          if constexpr (std::is_same_v<JointKind, DistanceJoint>) j.length *= length;
           if constexpr (requires { j.target_translation; }) j.target_translation *= length;
-          if constexpr (std::is_same_v<Kind, PulleyJoint>)
+          if constexpr (std::is_same_v<JointKind, PulleyJoint>)
             if (j.length) *j.length *= length;
           j.break_force *= force, j.break_torque *= torque;
         },

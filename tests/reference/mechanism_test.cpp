@@ -9,7 +9,7 @@
 namespace plumb::reference {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Body body_at(const std::string& name, Vec2d position) { return {.name = name, .position = position}; }
 
@@ -79,7 +79,7 @@ struct Refusal {
 
 void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.reason; }
 
-class MechanismRefuses : public testing::TestWithParam<Refusal> {};
+class MechanismRefuses : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(MechanismRefuses, WithTheReason) {
   Scene scene = tree();
@@ -89,7 +89,7 @@ TEST_P(MechanismRefuses, WithTheReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, MechanismRefuses,
-    testing::Values(
+    ::testing::Values(
         Refusal{"joint 'rod': only revolute joints",
                 [](Scene& s) {
                   s.joints.emplace_back(

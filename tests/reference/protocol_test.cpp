@@ -13,8 +13,8 @@
 namespace plumb::reference::protocol {
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 // A conversion of such a number to an int would have no defined result.
 TEST(Protocol, WholeNumbersAreThoseThatAnIntHolds) {

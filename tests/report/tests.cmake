@@ -1,9 +1,7 @@
 # The report: what is written, and the page in a browser.
 target_sources(test_report PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/app/program.cpp)
-target_compile_definitions(test_report PRIVATE PLUMB_PROGRAM="$<TARGET_FILE:plumb_app>")
-set_source_files_properties(report/report_test.cpp PROPERTIES COMPILE_DEFINITIONS PLUMB_CHART_JS="${PLUMB_CHART_JS}")
-set_source_files_properties(report/extremes_test.cpp PROPERTIES COMPILE_DEFINITIONS
-  PLUMB_REPORT_DATA="${CMAKE_CURRENT_SOURCE_DIR}/report/data")
+target_compile_definitions(test_report PRIVATE PLUMB_PROGRAM="$<TARGET_FILE:plumb_app>"
+  PLUMB_CHART_JS="${PLUMB_CHART_JS}" PLUMB_REPORT_DATA="${CMAKE_CURRENT_SOURCE_DIR}/report/data")
 add_dependencies(test_report plumb_app)
 
 find_program(NODE NAMES node nodejs)

@@ -28,8 +28,6 @@ if(TARGET test_scenarios)
   endforeach()
 
   target_sources(test_scenarios PRIVATE ${example} ${newly_written})
-  set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/doc_example_test.cpp APPEND PROPERTY
-    COMPILE_DEFINITIONS PLUMB_DOC_EXAMPLE="${example}")
-  set_property(SOURCE ${CMAKE_CURRENT_SOURCE_DIR}/scenarios/registry_test.cpp APPEND PROPERTY
-    COMPILE_DEFINITIONS PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(test_scenarios PRIVATE PLUMB_DOC_EXAMPLE="${example}"
+    PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endif()

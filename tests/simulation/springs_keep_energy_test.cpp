@@ -88,7 +88,7 @@ std::pair<double, double> energies(const Drawn& drawn, int substeps) {
   return {most, last};
 }
 
-class SpringsKeepEnergy : public testing::TestWithParam<std::pair<double, int>> {};
+class SpringsKeepEnergy : public ::testing::TestWithParam<std::pair<double, int>> {};
 
 // With the explicit midpoint method for soft springs, and an implicit one for each stiff spring by itself,
 // 250 of 300 such scenes of up to 1e6 N/m, and 70 of those of up to 1e4 N/m, gained more than a million times
@@ -109,7 +109,7 @@ TEST_P(SpringsKeepEnergy, HoweverStiffAndManyAndWithWhateverLevers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(UpTo, SpringsKeepEnergy,
-                         testing::Values(std::pair(1e2, 4), std::pair(1e4, 10), std::pair(1e6, 50)),
+                         ::testing::Values(std::pair(1e2, 4), std::pair(1e4, 10), std::pair(1e6, 50)),
                          [](const auto& one) { return std::to_string(static_cast<int>(one.param.first)); });
 
 }  // namespace
