@@ -320,6 +320,39 @@ void expect_points_about_the_pivot(double bend) {
   }
 }
 
+// Coordinates count from the pivot: from an end of a floor of 400 m a float has steps of 15 um.
+TEST(LongFloor, PointsAreAsExactAsOnAShortOne) {
+  const auto points = [](auto real, double half_length, double x, double tilt, bool floor_first) {
+    using Real = decltype(real);
+    const Solid<Real> floor(box_corners(half_length, 1), 0), box(box_corners(0.15, 0.05), 0);
+    const double low = 0.15 * std::sin(tilt) + 0.05 * std::cos(tilt);
+    const Pose<Real> pose = at<Real>(x, 1 + low, tilt);
+    const Rotation<Real> back = pose.rotation.inverse();
+    const auto manifold =
+        floor_first
+            ? collide_convex(floor.view(), box.view(), pose, Real(0.02), pose.position)
+            : collide_convex(box.view(), floor.view(), {-(back * pose.position), back}, Real(0.02), {});
+    std::vector<double> out;
+    for (int i = 0; i < manifold.count; ++i) {
+      const Vec2<Real> point = manifold.points[i].point,
+                       arm = floor_first ? point - pose.position : pose.rotation * point;
+      out.push_back(static_cast<double>(arm.x)), out.push_back(static_cast<double>(arm.y));
+    }
+    return out;
+  };
+  for (const bool floor_first : {true, false}) {
+    for (const double tilt : {0.0, 0.01, 0.3}) {
+      const std::vector<double> exact = points(double{}, 2, 0, tilt, floor_first);
+      const std::vector<double> found = points(float{}, 200, 0.25, tilt, floor_first);
+      ASSERT_EQ(found.size(), exact.size()) << tilt;
+      // In a tilted box's frame the height of so long a floor is rounded as coarsely as its corners.
+      for (std::size_t i = 0; i < exact.size(); ++i)
+        EXPECT_NEAR(found[i], exact[i], i % 2 == 1 && !floor_first && tilt > 0 ? 1.5e-5 : 4e-7)
+            << tilt << " " << i;
+    }
+  }
+}
+
 TEST(Slender, BothSidesOfTheCentreOfMassAreHeld) {
   for (const double bend : {1e-4, 1e-3, 4e-3}) {
     expect_points_about_the_pivot<float>(bend);

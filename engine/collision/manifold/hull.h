@@ -145,31 +145,31 @@ ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real dist
 /// The part of two facing edges that lies over each other, between two places along the reference.
 template <class Real>
 struct Span {
-  Real x[2];                            // m, along the reference from its first end
+  Real x[2];                            // m, along the reference, from the origin of the edges' frame
   Real gap[2];                          // m, from reference to incident, radii not counted
   Real base[2] = {};                    // m, height of the reference's outline over its edge
   int reference_id[2], incident_id[2];  // corners that the edges there lead to, away from the span
   bool overlaps = false;
 };
 
-/// Clips the incident edge to the reference edge.
+/// Clips the incident edge to the reference edge. Counts along it from the frame's origin, near the contact:
+/// from an end of a long floor rounding would be as coarse as that is long.
 template <class Real>
 inline Span<Real> clip(const FacingEdges<Real>& edges) {
   Span<Real> out;
   const Vec2<Real> tangent = perpendicular(edges.normal);
-  const Real length = dot(tangent, edges.reference[1] - edges.reference[0]);
-  const Vec2<Real> start = edges.incident[1] - edges.reference[0],
-                   end = edges.incident[0] - edges.reference[0];
-  const Real start_x = dot(tangent, start), end_x = dot(tangent, end);
-  const Real before = -edges.slack_before, after = length + edges.slack_after;
+  const Real first = dot(tangent, edges.reference[0]), last = dot(tangent, edges.reference[1]);
+  const Real start_x = dot(tangent, edges.incident[1]), end_x = dot(tangent, edges.incident[0]);
+  const Real before = first - edges.slack_before, after = last + edges.slack_after;
   if (end_x < before || start_x > after) return out;
   out.overlaps = true;
-  const Real start_y = dot(edges.normal, start), end_y = dot(edges.normal, end);
+  const Real start_y = dot(edges.normal, edges.incident[1] - edges.reference[0]),
+             end_y = dot(edges.normal, edges.incident[0] - edges.reference[0]);
 
   const Real low = start_x < before ? before : start_x, high = end_x > after ? after : end_x;
   const Real width = end_x - start_x;
   // An upright incident edge has both ends over the same place: nothing to clip.
-  const Real slope = width > Real(1e-6) * length ? (end_y - start_y) / width : 0;
+  const Real slope = width > Real(1e-6) * (last - first) ? (end_y - start_y) / width : 0;
   out.x[0] = low, out.x[1] = high;
   out.gap[0] = start_y + slope * (low - start_x), out.gap[1] = end_y - slope * (end_x - high);
   for (int i = 0; i < 2; ++i)
@@ -187,7 +187,7 @@ inline ContactManifold<Real> points_of(const Span<Real>& span, const FacingEdges
   const Vec2<Real> tangent = perpendicular(edges.normal);
   const Real radii = edges.reference_radius + edges.incident_radius;
   const Real lift = edges.reference_radius - edges.incident_radius;
-  const Vec2<Real> base = origin + edges.reference[0];
+  const Vec2<Real> base = origin + dot(edges.normal, edges.reference[0]) * edges.normal;
   const int reference_shift = edges.reference_is_b ? 0 : 6;  // as in corner_pair
   for (int i = 0; i < 2; ++i) {
     const Real separation = span.gap[i] - radii;

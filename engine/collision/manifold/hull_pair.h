@@ -153,16 +153,16 @@ void extend(Span<Real>& span, const FacingEdges<Real>& edges, const Hull<Real>& 
             const Hull<Real>& other, Real pivot, Real limit) {
   const int far = pivot > span.x[1] ? 1 : 0, near = 1 - far;
   const Real sign = far == 1 ? Real(1) : Real(-1);
-  const Vec2<Real> tangent = sign * perpendicular(edges.normal), origin = edges.reference[0];
+  const Vec2<Real> tangent = sign * perpendicular(edges.normal);
   // An outline's present edge: from a corner towards the pivot. Corners are numbered counter-clockwise, so
   // one outline is walked forwards and the other one backwards.
   struct Edge {
     int start, end;
     Real x, y, end_x, end_y;
   };
-  const auto corner_x = [&](const Hull<Real>& hull, int i) { return dot(tangent, hull.point(i) - origin); };
+  const auto corner_x = [&](const Hull<Real>& hull, int i) { return dot(tangent, hull.point(i)); };
   const auto corner_y = [&](const Hull<Real>& hull, int i) {
-    return dot(edges.normal, hull.point(i) - origin);
+    return dot(edges.normal, hull.point(i) - edges.reference[0]);
   };
   const auto edge_of = [&](const Hull<Real>& hull, int start, int end) {
     return Edge{
@@ -200,7 +200,7 @@ template <class Real>
 inline Span<Real> span_of(const FacingEdges<Real>& edges, const Hull<Real>& reference,
                           const Hull<Real>& other, Vec2<Real> pivot, Real limit) {
   Span<Real> span = clip(edges);
-  const Real x = dot(perpendicular(edges.normal), pivot - edges.reference[0]);
+  const Real x = dot(perpendicular(edges.normal), pivot);
   if (span.overlaps && !(x >= span.x[0] && x <= span.x[1])) [[unlikely]]
     extend(span, edges, reference, other, x, limit);
   return span;

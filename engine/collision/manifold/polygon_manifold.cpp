@@ -8,7 +8,11 @@ namespace {
 template <int kA, int kB, class Real>
 ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                       Real reach, Vec2<Real> pivot) {
-  const Vec2<Real> origin = a.corners[0].point;
+  // Coordinates count from the centre nearer to the pivot: from a corner of a long floor they would be
+  // rounded as coarsely as it is long. Sums with the pivot itself would round where those with a centre are
+  // exact.
+  const bool near_b = length_squared(pivot) > length_squared(pivot - b_in_a.position);
+  const Vec2<Real> origin = near_b ? b_in_a.position : Vec2<Real>{};
   Hull<Real> hull_a, hull_b;
   place<kA>(hull_a, a, origin);
   place<kB>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);

@@ -199,8 +199,9 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
   const int most = restitution_between(w, next.shape, next.other) > 0 ? tuning::kImpactsInFlight
                                                                       : tuning::kLandingsInFlight;
   if (flight.yields && flight.impacts < most && may_rebound(w, next.shape, next.other, search.dt)) {
-    const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt);
-    if (!thrown) flight.yields = false;  // they do not approach
+    const bool is_last = flight.impacts + 1 == most;
+    const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt, is_last);
+    if (!thrown || is_last) flight.yields = false;  // they do not approach, or slide on
     if (thrown) insert_swept_aabb(w, flight);
     const bool other_too = thrown && other != nullptr && w.is_dynamic(other->body);
     if (other_too) insert_swept_aabb(w, *other);

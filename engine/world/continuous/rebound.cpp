@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/collision/distance/hull_distance.h"
 #include "engine/world/contact_solver/contact_impact.h"
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/integration/free_motion.h"
@@ -81,29 +82,54 @@ void set_velocity(WorldData<Real>& w, const SweptBody& flight, double fraction) 
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
+// Returns a speed that rounding does not turn into an approach, m/s: velocities after an impact at a point,
+// and its arms, are rounded. Points that part at it do not meet again at once.
+template <class Real>
+double speed_above_rounding(const WorldData<Real>& w, const ContactConstraint<Real>& c, int point) {
+  const Real impulse = -c.approach[point] * c.mass[point];
+  const auto of = [&](int body, Real arm, Real push) {
+    const BodyMotion<Real>& motion = w.motion[body];
+    const Vec2<Real> velocity = motion.velocity + (motion.inverse_mass * push) * c.normal;
+    const Real spin = motion.angular_velocity + motion.inverse_inertia * arm * push;
+    return std::abs(c.normal.x * velocity.x) + std::abs(c.normal.y * velocity.y) +
+           std::abs(spin) * w.extents[body];
+  };
+  const Real speed = of(c.body_a, c.arm_a[point], -impulse) + of(c.body_b, c.arm_b[point], impulse);
+  return static_cast<double>(8 * std::numeric_limits<Real>::epsilon() * speed);
+}
+
 enum class Throw { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
 
-// Resolves an impact of two bodies: Newton's law at the touching points, with friction.
+// Resolves an impact of two bodies: Newton's law at the touching points, with friction. `left`: time in which
+// points that do not touch yet must not close, s; 0: they have impacts of their own.
 template <class Real>
-Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt) {
+Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt, Real left) {
   ContactPair<Real> pair(w.motion.data(), c);
   const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
   // Gaps by rounding: points that are indistinguishable in time are resolved together.
   const Real rounding =
       Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
-  bool strikes[2] = {}, fast = false;
+  // A touching point that does not approach may still be pushed by the impulse at the other one.
+  bool closed[2] = {}, strikes = false, fast = false;
   for (int i = 0; i < c.count; ++i) {
     c.normal_impulse[i] = c.peak_impulse[i] = 0;
     c.approach[i] = pair.normal_rate(i);
-    strikes[i] = c.approach[i] < 0 && c.separation[i] <= nearest + rounding;
-    fast = fast || (strikes[i] && c.approach[i] < -threshold);
+    closed[i] = c.separation[i] <= nearest + rounding;
+    strikes = strikes || (closed[i] && c.approach[i] < 0);
+    fast = fast || (closed[i] && c.approach[i] < -threshold);
   }
-  if (!strikes[0] && !strikes[1]) return Throw::None;
+  if (!strikes) return Throw::None;
   fast = fast && may_bounce;
   double wanted[2] = {};
-  for (int i = 0; i < c.count; ++i) wanted[i] = fast ? -double(c.restitution) * double(c.approach[i]) : 0;
-  const ContactImpulses impulses = impact_of(pair.a, pair.b, c, strikes, wanted);
+  for (int i = 0; i < c.count; ++i) {
+    wanted[i] =
+        std::max(fast ? -double(c.restitution) * double(c.approach[i]) : 0, speed_above_rounding(w, c, i));
+    if (closed[i] || !(left > 0)) continue;
+    wanted[i] = -double(c.separation[i]) / double(left);
+    closed[i] = true;
+  }
+  const ContactImpulses impulses = impact_of(pair.a, pair.b, c, closed, wanted);
   const Real first = static_cast<Real>(impulses.normal[0]), second = static_cast<Real>(impulses.normal[1]),
              friction = static_cast<Real>(impulses.friction);
   if (!std::isfinite(first) || !std::isfinite(second) || !std::isfinite(friction)) return Throw::None;
@@ -114,6 +140,29 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   c.watched = Watch::Motion;
   pair.note_peaks();
   return fast ? Throw::Bounce : Throw::Slide;
+}
+
+// Reduces a contact to the shapes' nearest points, along its normal. Of an outline of nearly parallel edges
+// the manifold holds the corners on both sides of the centre of mass, and may leave out the one between them
+// that strikes.
+template <class Real>
+void take_nearest_points(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
+  const auto rotation = [&](int body) -> Rotation<double> {
+    return {static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
+  };
+  const Convex<Real> a = w.convex(contact.shape_a), b = w.convex(contact.shape_b);
+  const Rotation<double> to_a = rotation(contact.body_a).inverse(), q = rotation(contact.body_b);
+  const Pose<double> b_in_a{to_a * (w.position[contact.body_b] - w.position[contact.body_a]),
+                            {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  const HullDistance nearest = hull_distance(a, b, b_in_a, nullptr);
+  const double radius_a = static_cast<double>(a.radius),
+               separation = nearest.separation - radius_a - static_cast<double>(b.radius);
+  const Vec2d point = nearest.point_a + (radius_a + 0.5 * separation) * nearest.normal;
+  ContactManifold<Real> manifold;
+  manifold.normal = w.rotation[contact.body_a].inverse() * c.normal;
+  manifold.count = 1;
+  manifold.points[0] = {point.template as<Real>(), static_cast<Real>(separation), 0};
+  prepare_contact(w, contact, manifold, c);
 }
 
 // Reports that the shapes touched. If they were thrown apart, they are apart again at the end of the step;
@@ -175,8 +224,8 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
 }
 
 template <class Real>
-bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
-             double dt) {
+bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction, double dt,
+             bool is_last) {
   Kept<Real> kept_a(w, &a), kept_b(w, b);
   place(w, a, fraction), set_velocity(w, a, fraction);
   if (b) place(w, *b, fraction), set_velocity(w, *b, fraction);
@@ -184,7 +233,12 @@ bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int othe
   ContactConstraint<Real> c = constraint_between(w, contact);
   // Ends a cascade of impacts that loses energy each time.
   const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
-  Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt)) : Throw::None;
+  const Real left = is_last ? static_cast<Real>((1 - fraction) * dt) : Real(0);
+  Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt), left) : Throw::None;
+  if (thrown == Throw::None && c.count > 0) {
+    take_nearest_points(w, contact, c);
+    thrown = throw_back(w, c, may_bounce, static_cast<Real>(dt), left);
+  }
   // Beyond the range of numbers the bodies stop here, and the next step's solver and quarantine treat them.
   for (const int body : {contact.body_a, contact.body_b})
     if (w.is_dynamic(body) && !is_sound_motion(w.motion[body])) thrown = Throw::None;
@@ -222,10 +276,10 @@ void land(WorldData<Real>& w, const SweptBody& flight) {
   if (!is_still(w, record, motion, w.extents[flight.body])) record.sleep_time = 0;
 }
 
-#define PLUMB_FOR(Real)                                                                      \
-  template SweptBody flight_of(const WorldData<Real>&, int, double);                         \
-  template bool may_rebound(const WorldData<Real>&, int, int, double);                       \
-  template bool rebound(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double); \
+#define PLUMB_FOR(Real)                                                                            \
+  template SweptBody flight_of(const WorldData<Real>&, int, double);                               \
+  template bool may_rebound(const WorldData<Real>&, int, int, double);                             \
+  template bool rebound(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double, bool); \
   template void land(WorldData<Real>&, const SweptBody&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -28,8 +28,8 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt);
 /// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; approaches
 /// too slow to bounce slide along the surface. Returns false and does nothing if they do not approach.
 template <class Real>
-bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
-             double dt);
+bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction, double dt,
+             bool is_last);
 
 /// Moves a body to the end of its flight.
 template <class Real>

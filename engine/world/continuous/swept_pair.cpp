@@ -60,6 +60,19 @@ Real half_width_of(const WorldData<Real>& w, int shape) {
   return w.bodies[w.shapes[shape].body].half_width;
 }
 
+// Returns the distance to which a fast body is brought to what it hits, m. Without a contact, which would
+// hold what slides on the surface, it is far less than the depth of a core.
+template <class Real>
+Real tolerance_between(const WorldData<Real>& w, const SweptPair<Real>& pair) {
+  Real out =
+      Real(tuning::kImpactTolerance) * std::min(w.forms[pair.shape].extent, w.forms[pair.other].extent);
+  if (pair.contact != nullptr) return out;
+  for (const int shape : {pair.shape, pair.other})
+    if (const Real half = half_width_of(w, shape); half > 0)
+      out = std::min(out, Real(0.25 * tuning::kCoreDepth) * half);
+  return out;
+}
+
 // Returns the distance of two shapes at the start of their motions, m.
 template <class Real>
 double distance_between(const Sweep<double>& way, const Convex<Real>& moving, const Sweep<double>& others,
@@ -84,8 +97,7 @@ class Encountering {
         of_other_(motion_of(w, w.shapes[pair.other].body, way.from, way.origin, way.search.dt)),
         whole_(w.convex(pair.shape), way.flight.arm),
         obstacle_(w.convex(pair.other), of_other_.arm),
-        tolerance_(Real(tuning::kImpactTolerance) *
-                   std::min(w.forms[pair.shape].extent, w.forms[pair.other].extent)) {}
+        tolerance_(tolerance_between(w, pair)) {}
 
   const Convex<Real>& whole() const { return whole_.convex(); }
   bool flies_on() const { return way_.flight.impacts > 0; }

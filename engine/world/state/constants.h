@@ -176,9 +176,10 @@ inline constexpr double kReboundTolerance = 1e-14;
 /// meets. From kBouncesInFlight on, impacts with restitution below 1 are inelastic: a box that lands flat has
 /// ever smaller ones, without end.
 inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
-/// The same for an impact without restitution: the corners of a side, one after the other, and back. A body
-/// that has landed slides or rolls on, which the next step's contacts do for less.
-inline constexpr int kLandingsInFlight = 3;
+/// The same for an impact without restitution: the corners of a side, one after the other, and back. The last
+/// one ends the landing: no point of the side approaches after it. With 3, sharp polygons that spin by tens
+/// of radians a step lose a part of one step in 7 of 100 landings; with 8 in 1.
+inline constexpr int kLandingsInFlight = 8;
 
 /// A body slower than kSleepSpeed, in extents a second, for kSleepTime, s, may sleep.
 inline constexpr double kSleepSpeed = 0.05;
