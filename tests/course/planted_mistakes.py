@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants mistakes in the course's solved engines in Python and asks `plumb check` for their names.
 
-usage: planted_mistakes.py PLUMB STARTERS [NAME...]    NAME: only these mistakes; prints what was said
+usage: planted_mistakes.py PLUMB WARM_START STARTERS [NAME...]    NAME: only these mistakes; prints what was said
 
 Each mistake is a text that is replaced in solved/chapterN.py. The first mistake that `plumb check` names, over the chapters
 up to that one, must be one of those that describe it. ONE_SWEEP marks mistakes that iteration repairs in part, as an engine
@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+from warm_start import WarmStart
 
 CLOCK = """        import time
         now = time.perf_counter()
@@ -135,7 +137,7 @@ def plant(folder, chapter, old, new):
     path.write_text(text.replace(old, new))
 
 
-def first_named(plumb, starters, mistake):
+def first_named(plumb, warm, starters, mistake):
     """(what was named first, where, what it said), or None and the readings where nothing was."""
     name, chapter, old, new, _, *more = mistake
     with tempfile.TemporaryDirectory() as temporary:
@@ -147,7 +149,7 @@ def first_named(plumb, starters, mistake):
         failed = []
         for tried in range(chapter, 6):
             engine = folder / "solved" / f"chapter{tried}.py"
-            ran = subprocess.run([plumb, "check", "--format", "json", "--chapter", str(tried), "--", sys.executable, "-B", engine],
+            ran = subprocess.run([plumb, "check", "--format", "json", "--chapter", str(tried), "--", *warm.command(engine)],
                                  capture_output=True, text=True, timeout=300)
             for result in json.loads(ran.stdout)["results"]:
                 if result["verdict"] not in ("fail", "broken"):
@@ -159,21 +161,22 @@ def first_named(plumb, starters, mistake):
 
 
 def main():
-    plumb, starters = sys.argv[1], pathlib.Path(sys.argv[2])
-    chosen = sys.argv[3:]
+    plumb, client, starters = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+    chosen = sys.argv[4:]
     named, unnamed, false = 0, [], []
-    for mistake in MISTAKES:
-        if chosen and not any(word in mistake[0] for word in chosen):
-            continue
-        what, where, says, failed = first_named(plumb, starters, mistake)
-        if chosen:
-            print(f"{mistake[0]}: {what} in {where}: {says} (failed: {', '.join(failed)})")
-        if what in mistake[4]:
-            named += 1
-        elif what is None:
-            unnamed.append(f"{mistake[0]} (failed: {', '.join(failed) or 'nothing'})")
-        else:
-            false.append(f"{mistake[0]}: {what} in {where}: {says}")
+    with WarmStart(client) as warm:
+        for mistake in MISTAKES:
+            if chosen and not any(word in mistake[0] for word in chosen):
+                continue
+            what, where, says, failed = first_named(plumb, warm, starters, mistake)
+            if chosen:
+                print(f"{mistake[0]}: {what} in {where}: {says} (failed: {', '.join(failed)})")
+            if what in mistake[4]:
+                named += 1
+            elif what is None:
+                unnamed.append(f"{mistake[0]} (failed: {', '.join(failed) or 'nothing'})")
+            else:
+                false.append(f"{mistake[0]}: {what} in {where}: {says}")
     count = named + len(unnamed) + len(false)
     print(f"{named} of {count} planted mistakes named, {len(unnamed)} not named, {len(false)} named falsely")
     for each in unnamed:

@@ -13,8 +13,11 @@ set(starters ${PROJECT_SOURCE_DIR}/docs/course/starters)
 add_executable(plumb_course_starter ${starters}/ball.cpp)
 target_link_libraries(plumb_course_starter PRIVATE nlohmann_json::nlohmann_json)
 
+# Starts programs in Python by forking one that runs already.
+add_executable(plumb_warm_start ${CMAKE_CURRENT_SOURCE_DIR}/course/warm/main.cpp)
+
 find_program(PLUMB_NODE NAMES node nodejs)
-add_dependencies(test_course plumb_app plumb_course_student plumb_course_starter)
+add_dependencies(test_course plumb_app plumb_course_student plumb_course_starter plumb_warm_start)
 target_compile_definitions(test_course PRIVATE PLUMB_PROGRAM="$<TARGET_FILE:plumb_app>"
   PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   PLUMB_STUDENT="$<TARGET_FILE:plumb_course_student>" PLUMB_STARTER_CPP="$<TARGET_FILE:plumb_course_starter>"
@@ -33,12 +36,13 @@ add_test(NAME course/skeletons COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOU
 set_tests_properties(course/skeletons PROPERTIES LABELS unit TIMEOUT 60)
 # Runs about a hundred programs in Python.
 add_test(NAME course/planted_mistakes COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/course/planted_mistakes.py
-  $<TARGET_FILE:plumb_app> ${starters})
+  $<TARGET_FILE:plumb_app> $<TARGET_FILE:plumb_warm_start> ${starters})
 set_tests_properties(course/planted_mistakes PROPERTIES LABELS process TIMEOUT 900)
 # All of them take eight minutes.
 foreach(part 1 2 3)
   add_test(NAME course/whole_engine_mistakes/${part} COMMAND ${Python3_EXECUTABLE}
-    ${CMAKE_CURRENT_SOURCE_DIR}/course/whole_engine_mistakes.py $<TARGET_FILE:plumb_app> --part ${part}/3)
+    ${CMAKE_CURRENT_SOURCE_DIR}/course/whole_engine_mistakes.py $<TARGET_FILE:plumb_app>
+      $<TARGET_FILE:plumb_warm_start> --part ${part}/3)
   set_tests_properties(course/whole_engine_mistakes/${part} PROPERTIES LABELS "process;long" TIMEOUT 600)
 endforeach()
 set_tests_properties(course/whole_engine_mistakes/1 PROPERTIES LABELS process)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants mistakes in whole_engine.py and asks `plumb check` for their names.
 
-usage: whole_engine_mistakes.py PLUMB [--part I/N | NAME...]
+usage: whole_engine_mistakes.py PLUMB WARM_START [--part I/N | NAME...]
   --part I/N   every N-th mistake, from the I-th on
   NAME         only these mistakes; prints what was said
 
@@ -13,6 +13,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+
+from warm_start import WarmStart
 
 # name, first chapter that shows it, old text, new text, the name that describes it
 MISTAKES = [
@@ -378,11 +380,11 @@ MISTAKES = [
 ]
 
 
-def first_named(plumb, program, chapter, named=False):
+def first_named(plumb, command, chapter, named=False):
     """The name that the first failing check gives, from `chapter` on, and what it says; `named`: that the first name gives."""
     found = "", "all checks pass"
     for number in range(chapter, 6):
-        run = subprocess.run([plumb, "check", "--chapter", str(number), "--format", "json", "--", sys.executable, program],
+        run = subprocess.run([plumb, "check", "--chapter", str(number), "--format", "json", "--", *command],
                              capture_output=True, text=True, check=False)
         for result in json.loads(run.stdout)["results"]:
             if result["verdict"] in ("fail", "broken"):
@@ -392,35 +394,42 @@ def first_named(plumb, program, chapter, named=False):
     return found
 
 
+def fails(plumb, warm, mistake, prints):
+    """Returns true if a mistake gets another name than its own, or the engine without one (None) gets any."""
+    engine = pathlib.Path(__file__).with_name("whole_engine.py")
+    if mistake is None:
+        found, says = first_named(plumb, warm.command(engine), 1)
+        if found or says != "all checks pass":
+            print(f"the engine without mistakes: {found}: {says}")
+        return bool(found) or says != "all checks pass"
+    name, chapter, old, new, expected = mistake
+    text = engine.read_text(encoding="utf-8")
+    if text.count(old) != 1:
+        sys.exit(f"{name}: its text is there {text.count(old)} times")
+    with tempfile.TemporaryDirectory() as folder:
+        program = pathlib.Path(folder) / "engine.py"
+        program.write_text(text.replace(old, new), encoding="utf-8")
+        found, says = first_named(plumb, warm.command(program), chapter, not expected)
+    if prints:
+        print(f"{name}: {found}: {says}")
+    # Accepts a description of both where two give one motion, and none is named.
+    described = not found and (f" {expected}: " in says if expected else says != "all checks pass")
+    if found == (expected or None) or described:
+        return False
+    print(f"{name}: is called '{found}', not '{expected}': {says}")
+    return True
+
+
 def main():
-    plumb, chosen = sys.argv[1], sys.argv[2:]
+    plumb, client, chosen = sys.argv[1], sys.argv[2], sys.argv[3:]
     mistakes = MISTAKES
     if chosen[:1] == ["--part"]:
         first, parts = map(int, chosen[1].split("/"))
         mistakes, chosen = MISTAKES[first - 1 :: parts], []
-    engine = pathlib.Path(__file__).with_name("whole_engine.py").read_text(encoding="utf-8")
-    failures = 0
-    if not chosen:
-        with_none = first_named(plumb, str(pathlib.Path(__file__).with_name("whole_engine.py")), 1)
-        if with_none[0] or with_none[1] != "all checks pass":
-            print(f"the engine without mistakes: {with_none}")
-            failures += 1
-    with tempfile.TemporaryDirectory() as folder:
-        for name, chapter, old, new, expected in mistakes:
-            if chosen and name not in chosen:
-                continue
-            if engine.count(old) != 1:
-                sys.exit(f"{name}: its text is there {engine.count(old)} times")
-            program = pathlib.Path(folder) / "engine.py"
-            program.write_text(engine.replace(old, new), encoding="utf-8")
-            found, says = first_named(plumb, str(program), chapter, not expected)
-            if chosen:
-                print(f"{name}: {found}: {says}")
-            # Accepts a description of both where two give one motion, and none is named.
-            described = not found and (f" {expected}: " in says if expected else says != "all checks pass")
-            if found != (expected or None) and not described:
-                failures += 1
-                print(f"{name}: is called '{found}', not '{expected}': {says}")
+    with WarmStart(client) as warm:
+        failures = sum(fails(plumb, warm, mistake, bool(chosen)) for mistake in mistakes if not chosen or mistake[0] in chosen)
+        if not chosen:
+            failures += fails(plumb, warm, None, False)
     print(f"{len(mistakes)} mistakes, {failures} failures")
     sys.exit(failures > 0)
 
