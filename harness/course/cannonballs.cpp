@@ -145,10 +145,13 @@ Finding push_ends(const Lab& lab) {
   scene.forces.emplace_back(law);
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = force / mass * duration, step = force / mass * lab.dt();
+  const double vx = trace.last(0).velocity.x;
   // An engine that evaluates forces only at the start of each step may apply the push for up to one step more
   // or less.
   return Judgement()
-      .read("vx after the push", "m/s", trace.last(0).velocity.x, v, step + lab.rounding(v, t))
+      .read("vx after the push", "m/s", vx, v, step + lab.rounding(v, t))
+      .read("way after 1 s, at the speed that the push gave", "m", trace.last(0).position.x,
+            vx * (t - start - duration / 2), 2 * std::abs(vx) * lab.dt() + 1e-6)
       .mistake("push_never_ends", {force / mass * (t - start)},
                "The push goes on: it ends at start + duration. Clear forces at the end of each step.")
       .mistake("push_starts_at_once", {force / mass * (start + duration)},

@@ -195,9 +195,16 @@ Finding heavy_hits_light(const Lab& lab) {
     return std::abs(t.last(0).velocity.x - after_heavy) + std::abs(t.last(1).velocity.x - after_light);
   };
   const double off_at_1 = off(meet(1 / 1.8));
-  const Trace alike = head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}}, {.position = {0, 0}}, 2);
-  const bool alike_is_right =
-      std::abs(alike.last(0).velocity.x) + std::abs(alike.last(1).velocity.x - v) < 0.01 * v;
+  // Changes nothing but the masses: all of a right motion is then right, along y as well.
+  const auto alike_at = [&](double mass) {
+    const Trace t = head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}, .mass = mass, .radius = 1},
+                            {.position = {0, 0}, .mass = mass, .radius = 0.8}, 2);
+    const Vec2d wrong[] = {t.last(0).velocity, t.last(1).velocity - Vec2d{v, 0}};
+    return std::abs(wrong[0].x) + std::abs(wrong[0].y) + std::abs(wrong[1].x) + std::abs(wrong[1].y) <
+           0.01 * v;
+  };
+  const bool straight = trace.last(0).velocity.y == 0 && trace.last(1).velocity.y == 0;
+  const bool alike_is_right = straight && alike_at(light) && alike_at(heavy);
   const bool right_at_1 = off_at_1 < 0.2 * v && off_at_1 < off(trace) / 3;
   return judgement.mistake_if(right_at_1, "normal_not_unit", kNormalNotUnit)
       .mistake_if(pulled_back(trace, v), "no_test_of_parting", kPulledBack)
@@ -420,11 +427,17 @@ Finding overlap_is_shared(const Lab& lab) try {
   const double b = trace.last(1).position.x - trace.first(1).position.x;
   const double centre = (heavy * a + light * b) / (heavy + light), most = 0.05 * deep;
   const double overlap = 2 * r - distance(trace, trace.states.size() - 1);
+  // Inverse masses that add up to 15 show a correction that is not divided by their sum.
+  const Trace light_pair =
+      head_on(lab, {.position = {-r + deep / 2, 0}, .mass = 0.2, .radius = r, .restitution = 0},
+              {.position = {r - deep / 2, 0}, .mass = 0.1, .radius = r, .restitution = 0}, 1);
+  const double light_overlap = 2 * r - distance(light_pair, light_pair.states.size() - 1);
   const bool alike =
       b > most && std::abs(a + b)<0.1 * b, swapped = b> most && std::abs(a + heavy * b) < 0.1 * -a;
   return Judgement()
       .read("shift of the centre of mass", "m", centre, 0, most)
       .read("overlap that is left", "m", overlap, 0, deep)
+      .read("overlap that is left of 0.2 kg and 0.1 kg", "m", light_overlap, 0, deep)
       .proven_if(
           overlap > 1.01 * deep && two_bounce(lab), "pushed_together",
           "The overlap grows: the correction pushes the two into each other. a moves against the normal, b "
@@ -484,7 +497,7 @@ Finding pile_rests(const Lab& lab) {
            high - low - 2 * r < 1.5 * std::min(gap, -tolerance);
   };
   const bool deep = height < -tolerance || gap < -tolerance;
-  const bool lost = loses_contact(lab, trace, g);
+  const bool lost = !deep && loses_contact(lab, trace, g);
   return Judgement()
       .read("lower ball above the floor", "m", height, 0, tolerance)
       .read("upper ball above the lower", "m", gap, 0, tolerance)

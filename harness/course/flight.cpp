@@ -45,11 +45,13 @@ std::size_t length_of_flight(const Recorded& run, std::size_t b) {
   return states.size();
 }
 
-// Returns the ratio of each value to the one before, if it is the same for all and not 1.
+// Returns the ratio of each value to the one before, if it is the same for all and not 1. A ratio so small
+// that the values vanish before it is seen again shows a stop, and no ratio.
 std::optional<double> constant_ratio(std::span<const double> values) {
+  constexpr double kVanishes = 1e-4;
   if (values.size() < kFewest || std::abs(values[0]) < 1e-9) return std::nullopt;
   const double ratio = values[1] / values[0];
-  if (!(ratio > 0) || std::abs(ratio - 1) < 1e-6) return std::nullopt;
+  if (!(ratio > 0) || std::abs(ratio - 1) < 1e-6 || ratio * ratio < kVanishes) return std::nullopt;
   for (std::size_t k = 1; k < values.size(); ++k)
     if (std::abs(values[k] - ratio * values[k - 1]) > 1e-5 * std::abs(values[0])) return std::nullopt;
   return ratio;

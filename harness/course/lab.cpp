@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plumb::course {
 
@@ -41,8 +42,12 @@ bool pushed_too_far(const Trace& trace, double dt,
 }
 
 Lab::Lab(const reference::Backend& engine, const reference::StepSettings& settings,
-         std::vector<Recorded>* runs)
-    : engine_(engine), settings_(settings), method_(engine.method(settings)), runs_(runs) {
+         std::vector<Recorded>* runs, Watcher watcher)
+    : engine_(engine),
+      settings_(settings),
+      method_(engine.method(settings)),
+      runs_(runs),
+      watcher_(std::move(watcher)) {
   if (method_.scheme == Scheme::Adaptive) method_.substep = 0;
 }
 
@@ -56,6 +61,7 @@ Trace Lab::run(const Scene& scene, double duration, int finer) const {
   for (const Body& body : scene.bodies) trace.states.back().push_back(initial_state(body));
   const int steps = static_cast<int>(std::floor(duration / settings.dt + 1e-6));
   const auto simulator = engine_.create(scene, settings);
+  const std::size_t run = runs_ != nullptr ? runs_->size() : 0;
   const auto keep = [&] {
     if (runs_ != nullptr) runs_->push_back({scene, trace, settings.dt});
   };
@@ -63,6 +69,7 @@ Trace Lab::run(const Scene& scene, double duration, int finer) const {
     simulator->record(steps, 1, scene.bodies.size(), [&](double time, std::span<const BodyState> states) {
       trace.times.push_back(time);
       trace.states.emplace_back(states.begin(), states.end());
+      if (watcher_) watcher_(run, trace.states.size() - 1, states);
     });
   } catch (...) {
     keep();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -47,9 +49,13 @@ class NotYet : public std::runtime_error {
 /// Runs scenes on an engine and knows how its method steps through time.
 class Lab {
  public:
+  /// Sees each state of a run as it is computed: the run's number, the state's number, and the state. It may
+  /// throw to end the run.
+  using Watcher = std::function<void(std::size_t, std::size_t, std::span<const BodyState>)>;
+
   /// Appends every run to `runs`, if given.
   Lab(const reference::Backend& engine, const reference::StepSettings& settings,
-      std::vector<Recorded>* runs = nullptr);
+      std::vector<Recorded>* runs = nullptr, Watcher watcher = {});
 
   /// Steps `scene` for as many whole steps as fit into `duration`, in s, with a sample after each. A step is
   /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
@@ -98,6 +104,7 @@ class Lab {
   reference::StepSettings settings_;
   reference::Method method_;
   std::vector<Recorded>* runs_;
+  Watcher watcher_;
 };
 
 }  // namespace plumb::course

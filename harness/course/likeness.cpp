@@ -12,26 +12,51 @@ constexpr double kFar = 30;
 
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
 
-// Adds up the squared distances of the bodies' places in two runs.
-double distance(const Trace& a, const Trace& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k)
-    for (std::size_t i = 0; i < std::min(a.states[k].size(), b.states[k].size()); ++i) {
-      const Vec2d way = a.states[k][i].position - b.states[k][i].position;
-      if (dot(a.states[k][i].position, a.states[k][i].position) > kFar * kFar) return sum;
-      const double turn = kLever * (a.states[k][i].angle - b.states[k][i].angle);
-      sum += dot(way, way) + turn * turn;
-    }
-  return sum;
+// Adds the squared distances of the bodies' places; returns false once one is far away.
+bool add_distance(std::span<const BodyState> a, std::span<const BodyState> b, double& sum) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const Vec2d way = a[i].position - b[i].position;
+    if (dot(a[i].position, a[i].position) > kFar * kFar) return false;
+    const double turn = kLever * (a[i].angle - b[i].angle);
+    sum += dot(way, way) + turn * turn;
+  }
+  return true;
+}
+
+// Returns the number of states before a body is far away.
+std::size_t length(const Trace& trace) {
+  const auto far = [](const std::vector<BodyState>& states) {
+    return std::any_of(states.begin(), states.end(),
+                       [](const BodyState& s) { return dot(s.position, s.position) > kFar * kFar; });
+  };
+  return static_cast<std::size_t>(std::find_if(trace.states.begin(), trace.states.end(), far) -
+                                  trace.states.begin());
 }
 
 }  // namespace
 
 double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs) {
   double sum = 0;
-  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r)
-    sum += distance(a[r].trace, b[r].trace);
+  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r) {
+    const auto &from = a[r].trace.states, &to = b[r].trace.states;
+    for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k)
+      if (!add_distance(from[k], to[k], sum)) break;
+  }
   return std::sqrt(sum);
+}
+
+double Distance::add(std::size_t run, std::size_t state, std::span<const BodyState> states) {
+  if (run != run_) ended_ = false;
+  run_ = run;
+  if (!ended_ && run < std::min(runs_, from_.size()) && state < from_[run].trace.states.size())
+    ended_ = !add_distance(from_[run].trace.states[state], states, sum_);
+  return std::sqrt(sum_);
+}
+
+bool ends_sooner(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs) {
+  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r)
+    if (length(a[r].trace) < length(b[r].trace)) return true;
+  return false;
 }
 
 bool same_readings(const Finding& seen, const Finding& predicted) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "harness/course/finding.h"
@@ -11,6 +12,24 @@ namespace plumb::course {
 
 /// Compares the first `runs` runs: what a check needs apart from experiments with an engine that fails it.
 double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
+
+/// Adds up the same distance while runs are under way.
+class Distance {
+ public:
+  Distance(const std::vector<Recorded>& from, std::size_t runs) : from_(from), runs_(runs) {}
+
+  /// Adds a state of a run, both by number, and returns the distance until then.
+  double add(std::size_t run, std::size_t state, std::span<const BodyState> states);
+
+ private:
+  const std::vector<Recorded>& from_;
+  std::size_t runs_, run_ = 0;
+  double sum_ = 0;
+  bool ended_ = false;  ///< the path of the present run leads too far away
+};
+
+/// Returns true if a path of `a` leads too far away to be compared, sooner than that of `b`.
+bool ends_sooner(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
 
 /// Returns true if each reading is that of the mistake, within the tolerance that figures of mistakes have.
 bool same_readings(const Finding& seen, const Finding& predicted);

@@ -11,4 +11,7 @@ std::vector<Predictable> mistakes_of_motion();
 std::vector<Predictable> mistakes_of_contacts();
 std::vector<Predictable> mistakes_of_joints();
 
+/// Returns every way to mix the x and y of a vector, for every vector of an engine.
+std::vector<Predictable> mistakes_of_axes();
+
 }  // namespace plumb::course

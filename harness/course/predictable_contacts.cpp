@@ -5,6 +5,12 @@ namespace plumb::course {
 namespace {
 
 // Causes that several mistakes share.
+constexpr const char* kSlidingOfOneCentre =
+    "Friction takes the velocity of one of the centres: it acts against the sliding of both points that "
+    "touch, v + "
+    "w x r each.";
+constexpr const char* kOneArmInMass =
+    "The effective mass has one body's arm for both: (ra x n)^2/Ia + (rb x n)^2/Ib, each with its own r.";
 constexpr const char* kSecondMoment =
     "A second moment of area stands where the inertia of a mass should: a box has m (w^2 + h^2)/12.";
 constexpr const char* kArmOfTheOther =
@@ -54,6 +60,14 @@ std::vector<Predictable> mistakes_of_contacts() {
        "They turn back too late: compare the distance with r1 + r2, not with one radius."},
       {"other_radius_in_depth", "one_radius", "3",
        "They turn back too late: compare the distance with r1 + r2, not with one radius."},
+      {"larger_radius_alone", "one_radius", "3",
+       "They turn back too late: compare the distance with r1 + r2, not with the larger radius."},
+      {"larger_radius_alone_in_depth", "one_radius", "3",
+       "They turn back too late: compare the distance with r1 + r2, not with the larger radius."},
+      {"smaller_radius_alone", "one_radius", "3",
+       "They turn back too late: compare the distance with r1 + r2, not with the smaller radius."},
+      {"smaller_radius_alone_in_depth", "one_radius", "3",
+       "They turn back too late: compare the distance with r1 + r2, not with the smaller radius."},
       {"larger_radius", "larger_radius", "3",
        "They touch at twice the larger radius: they touch at r1 + r2."},
       {"larger_radius_in_depth", "larger_radius", "3",
@@ -177,6 +191,10 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"correction_split_evenly", "correction_split_evenly", "3",
        "10 kg and 1 kg are moved equally far: each moves by its inverse mass over the sum of both, here 1 "
        "and 10 parts of 11."},
+      {"correction_not_divided", "correction_not_divided", "3",
+       "The correction of an overlap is not divided by 1/ma + 1/mb: light balls are pushed apart by many "
+       "times "
+       "their overlap. Each moves by its inverse mass over that sum."},
       {"correction_shares_swapped", "correction_shares_swapped", "3",
        "The heavy ball is moved ten times as far as the light one: the shares are swapped. Each moves by its "
        "inverse mass over the sum of both."},
@@ -363,6 +381,10 @@ std::vector<Predictable> mistakes_of_contacts() {
        "Friction is twice too strong: each of two contact points is limited by the impulse at that point."},
       {"friction_product", "friction_product", "4",
        "The coefficients are multiplied: \"contact_rules\" says geometric_mean, the root of their product."},
+      {"friction_by_restitution", "friction_by_restitution", "134",
+       "Friction acts with the coefficient of restitution: it is \"friction\" of the two shapes."},
+      {"effective_mass_of_the_first_arm", "arm_of_the_other", "4", kOneArmInMass},
+      {"effective_mass_of_the_second_arm", "arm_of_the_other", "4", kOneArmInMass},
       {"friction_average", "friction_average", "4",
        "The coefficients are averaged: \"contact_rules\" says geometric_mean, the root of their product."},
       {"friction_sum", "friction_sum", "4",
@@ -396,6 +418,12 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"sliding_of_centres", "point_velocity", "4",
        "Friction acts against the sliding of the centres: it acts against that of the points that touch, v + "
        "w x r, which is (vx - w ry, vy + w rx)."},
+      {"sliding_of_the_first_centre", "point_velocity", "4", kSlidingOfOneCentre},
+      {"sliding_of_the_second_centre", "point_velocity", "4", kSlidingOfOneCentre},
+      {"friction_by_weight", "friction_without_normal", "4",
+       "The limit of friction follows from the weight: it is mu times the sum of the impulses along the "
+       "normal, "
+       "which a collision makes larger and a slope smaller."},
       {"friction_never_spins", "friction_never_spins", "4",
        "Friction never changes the spin: its impulse changes w by r x j/I, as any impulse."},
       {"friction_spins_the_first_only", "one_body_never_spins", "4", kFrictionOnOne},

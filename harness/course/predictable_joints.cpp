@@ -10,6 +10,12 @@ constexpr const char* kArmOfTheOther =
 constexpr const char* kOneNeverSpins =
     "Only one of the two bodies gets spin from the joint: each changes its w by r x j/I, with its own r and "
     "I, and a gets the opposite impulse.";
+constexpr const char* kOneAnchor =
+    "One of the two anchors does not turn with its own body: turn each by the angle of the body that it is "
+    "on.";
+constexpr const char* kOneTurnsBackwards =
+    "Correcting the hinge's positions turns one of the bodies the wrong way: the angle of a changes by (ra x "
+    "push)/Ia, that of b by minus (rb x push)/Ib.";
 constexpr const char* kOneEnd =
     "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
 
@@ -44,6 +50,12 @@ std::vector<Predictable> mistakes_of_joints() {
        "eleven."},
       {"correction_moves_both_alike", "masses_ignored", "5",
        "Correcting a joint's positions moves both ends alike: share it by inverse mass."},
+      {"correction_by_the_first_mass", "masses_ignored", "5",
+       "Correcting a joint's positions moves both ends by the inverse mass of the first: each moves by its "
+       "own."},
+      {"correction_by_the_second_mass", "masses_ignored", "5",
+       "Correcting a joint's positions moves both ends by the inverse mass of the second: each moves by its "
+       "own."},
       {"velocities_not_recomputed", "velocities_not_recomputed", "5",
        "Positions are corrected and velocities stay as they were: after joints have moved bodies, a velocity "
        "is the "
@@ -69,6 +81,14 @@ std::vector<Predictable> mistakes_of_joints() {
        "w x r, and an impulse changes the spin by r x j/I."},
       {"anchor_not_turned", "anchor_not_turned", "5",
        "The anchor does not turn with the body: turn \"anchor_b\" by the body's angle to get r."},
+      {"first_anchor_not_turned", "anchor_not_turned", "5", kOneAnchor},
+      {"second_anchor_not_turned", "anchor_not_turned", "5", kOneAnchor},
+      {"second_anchor_turned_by_the_first", "anchor_not_turned", "5", kOneAnchor},
+      {"first_anchor_turned_by_the_second", "anchor_not_turned", "5", kOneAnchor},
+      {"joint_mass_of_the_first_arm", "arm_of_the_other", "5",
+       "The joint's effective mass has the first body's arm for both: each term has its own r."},
+      {"joint_mass_of_the_second_arm", "arm_of_the_other", "5",
+       "The joint's effective mass has the second body's arm for both: each term has its own r."},
       {"one_anchor_for_both", "one_anchor", "5",
        "One anchor is used for both bodies: \"anchor_a\" is a place on a, \"anchor_b\" one on b, each from "
        "its own centre."},
@@ -102,6 +122,8 @@ std::vector<Predictable> mistakes_of_joints() {
       {"correction_turns_backwards", "correction_turns_backwards", "5",
        "Correcting the hinge's positions turns the bodies the wrong way: the angle changes by (r x push)/I, "
        "with the push that moves this body."},
+      {"correction_turns_the_first_backwards", "correction_turns_backwards", "5", kOneTurnsBackwards},
+      {"correction_turns_the_second_backwards", "correction_turns_backwards", "5", kOneTurnsBackwards},
       {"correction_never_turns", "correction_never_turns", "5",
        "Correcting the hinge's positions moves bodies and does not turn them: the push at the anchor also "
        "changes the angle by (r x push)/I."},

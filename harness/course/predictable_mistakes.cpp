@@ -4,7 +4,7 @@ namespace plumb::course {
 
 std::vector<Predictable> predictable_mistakes() {
   std::vector<Predictable> out = mistakes_of_motion();
-  for (const auto& more : {mistakes_of_contacts(), mistakes_of_joints()})
+  for (const auto& more : {mistakes_of_contacts(), mistakes_of_joints(), mistakes_of_axes()})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
@@ -43,6 +43,8 @@ std::vector<Scaled> scaled_quantities() {
       {"inertia of a box", "inertia_wrong", "45",
        "A box turns as if its inertia were {} times m (w^2 + h^2)/12."},
       {"inertia of a disc", "inertia_wrong", "4", "A disc turns as if its inertia were {} times m r^2/2."},
+      {"spin by an impulse", "spin_change_wrong", "45",
+       "The spin that an impulse gives is {} times what it should be: w changes by r x j/I."},
       {"torque", "torque_wrong", "4", "Torques act {} times as strongly as the scene says."},
       {"arm of a force", "arm_wrong", "4", "The torque of a force is that of an arm {} times as long."},
       {"spin in the angle's change", "turn_wrong", "4",
@@ -50,6 +52,9 @@ std::vector<Scaled> scaled_quantities() {
       {"impulse of a joint", "joint_impulse_wrong", "5",
        "The impulse of a joint is {} times what it should be: it is -dC/dt over the effective mass."},
       {"length of a stick", "length_wrong", "5", "A stick is held at {} times its length."},
+      {"share of a joint's error without dt", "bias_without_dt", "5",
+       "Velocities close a joint as if {} of its error were a speed: a share s of the error C is closed in a "
+       "step by the speed s C/h."},
   };
 }
 

@@ -8,6 +8,8 @@ namespace {
 constexpr const char* kSlowIsStopped =
     "What is slow is stopped, and so never begins to move: gravity and forces act on a body at rest as well. "
     "Leave out what sets small velocities to 0.";
+constexpr const char* kWallMissing =
+    "The ball leaves through one wall, which never acts on it: every static box is a wall.";
 constexpr const char* kSpringAtOneEnd =
     "The spring pulls one of its ends only: it pulls both, with opposite forces.";
 constexpr const char* kDampingOfOneEnd =
@@ -55,6 +57,8 @@ std::vector<Predictable> mistakes_of_motion() {
       {"milliseconds", "milliseconds", "1", "A thousand times too fast: dt is in seconds, not milliseconds."},
       {"per_frame", "per_frame", "1",
        "Something is added once a step and does not depend on dt. Multiply it by dt."},
+      {"move_per_frame", "per_frame", "1",
+       "A position changes by v/60 a step, whatever dt is: by v dt, with the dt of the settings."},
       {"explicit_euler", "explicit_euler", "12",
        "The motion is that of explicit Euler (position first, with the old velocity), and \"hello\" declares "
        "another scheme. It adds energy every step: update the velocity first, then move with the new one."},
@@ -91,11 +95,21 @@ std::vector<Predictable> mistakes_of_motion() {
       {"size of a box*2", "whole_sizes", "1",
        "The walls are twice their size: a box reaches half of its width and half of its height from its "
        "centre."},
+      {"width of a box*2", "whole_sizes", "1",
+       "Boxes reach their whole width from their centre along x: it is half of the width."},
+      {"height of a box*2", "whole_sizes", "1",
+       "Boxes reach their whole height from their centre along y: it is half of the height."},
       {"size of a box*0.5", "quarter_sizes", "1",
        "The walls have half their size: a box reaches half of its width and half of its height from its "
        "centre, not a quarter."},
       {"width_and_height_swapped", "sides_swapped", "14",
        "The width and the height of a box are swapped: \"width\" is along x, at angle 0."},
+      {"width_for_both", "one_side_for_both", "14",
+       "Boxes are taken for squares of their width: half of the width is along x, half of the height along "
+       "y."},
+      {"height_for_both", "one_side_for_both", "14",
+       "Boxes are taken for squares of their height: half of the width is along x, half of the height along "
+       "y."},
       {"corner_for_centre", "corner_for_centre", "14",
        "Boxes stand half a width and half a height from their place: \"position\" is a body's centre, not "
        "its lower left corner."},
@@ -127,6 +141,10 @@ std::vector<Predictable> mistakes_of_motion() {
       {"bounce_of_whole_speed", "bounce_of_whole_speed", "13",
        "The speed along the normal after a bounce is e times the whole speed before it: it is e times the "
        "part along the normal, -e vn."},
+      {"wall_missing", "wall_missing", "1", kWallMissing},
+      {"left_wall_missing", "wall_missing", "1", kWallMissing},
+      {"upper_wall_missing", "wall_missing", "1", kWallMissing},
+      {"lower_wall_missing", "wall_missing", "1", kWallMissing},
       {"falls_through", "falls_through", "1",
        "The ball goes through the floor: no contact is found, or the velocity is not changed."},
       {"both_turned", "both_turned", "1",
@@ -153,6 +171,13 @@ std::vector<Predictable> mistakes_of_motion() {
       {"bounce_sign", "bounce_sign", "13",
        "The contact leaves e of the closing speed in place of turning it: the speed after a bounce is -e "
        "times the one before. The impulse is -(1 + e) vn, not -(1 - e) vn."},
+      {"bounce_each_sweep", "bounce_each_sweep", "134",
+       "Each sweep over the contacts turns the velocity again: compute the bounce -e vn once, before the "
+       "first "
+       "sweep."},
+      {"bounce_without_speed", "bounce_without_speed", "134",
+       "Every bounce gives back e in m/s, however fast the bodies came: it is e times the closing speed, -e "
+       "vn."},
       {"one_plus_twice", "one_plus_twice", "13",
        "The speed that a bounce gives back has 1 + e where it should have e: the change is (1 + e) times the "
        "speed, and 1 of it only stops the ball."},
@@ -305,6 +330,14 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_pulls_the_second_only", "spring_at_one_end", "2", kSpringAtOneEnd},
       {"spring_same_direction", "same_direction_for_both", "2",
        "Both ends of the spring are pulled in the same direction: a is pulled towards b, and b towards a."},
+      {"length_squared", "length_squared", "2",
+       "The spring takes the square of the distance for its length: take the root."},
+      {"drag_dt_twice", "drag_dt_twice", "2",
+       "Drag is multiplied by dt twice: it is a force, -c v, and the step multiplies it by dt/m."},
+      {"damping_by_speed", "damping_by_speed", "2",
+       "The damping of a spring follows the speed of its ends, which has no sign: it acts against the rate "
+       "at "
+       "which the length changes, (vb - va) . n, and that has one."},
       {"damping of a spring*0", "damping_ignored", "2",
        "The spring's damping is left out: its force is stiffness (length - rest_length) + damping (speed at "
        "which the ends part)."},

@@ -2,26 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/course/flight.h"
 #include "harness/course/likeness.h"
-#include "harness/course/student/student.h"
+#include "harness/course/predictions.h"
 
 namespace plumb::course {
 namespace {
-
-// Largest distance of two paths that count as the same, as a fraction of their distance from the right one. A
-// contact that is found a step sooner or later shifts a path by about a hundredth of it.
-constexpr double kSamePath = 0.1;
 
 // A mistake that fits less well than another by this factor does not count beside it.
 constexpr double kClearly = 5;
@@ -32,189 +26,6 @@ constexpr double kEqual = 0.01, kRounding = 1e-6;
 // The same for a mistake of any factor: its path is fitted, and must lie closer.
 constexpr double kFittedPath = 0.02, kExactPath = 0.001;
 
-// Right engines of different manners differ by this much in their paths, so that a wrong one may as well.
-constexpr double kManners = 2, kLoosePath = 0.3;
-
-struct Attempt {
-  Finding finding;
-  std::vector<Recorded> runs;
-};
-
-std::optional<Attempt> attempt(const Check& check, const reference::Backend& engine,
-                               const reference::StepSettings& settings) {
-  Attempt out;
-  try {
-    const Lab lab(engine, settings, &out.runs);
-    out.finding = check.run(lab);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  return out;
-}
-
-// A mistake as the learner's engine makes it, in one of the ways in which engines work.
-struct Planted {
-  std::string mistake;
-  std::size_t manner = 0;
-
-  auto operator<=>(const Planted&) const = default;
-};
-
-// Ways to work that the learner's engines of a chapter differ in. Where one mistake makes sweeps differ from
-// each other, their number counts.
-std::vector<Manner> manners_of(int chapter) {
-  switch (chapter) {
-    case 1:
-      return {{}, {.once = true}, {.once = true, .after_move = true}};
-    case 2:
-      return {{}};
-    case 3:
-      return {{},
-              {.once = true},
-              {.once = true, .after_move = true},
-              {.sweeps = 10},
-              {.once = true, .share = 0.4},
-              {.once = true, .share = 0.2}};
-    case 4:
-      return {{}, {.once = true}, {.sweeps = 10}, {.sweeps = 20}, {.sweeps = 5}, {.sweeps = 30}};
-    default:
-      return {{}, {.once = true}, {.by_positions = true}, {.sweeps = 10}, {.fed = 0.2}};
-  }
-}
-
-struct Fit {
-  std::string name, says;
-  double off;  // distance of the paths over that from the right ones
-  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
-  int verdicts = 0, readings = 0;
-  double elsewhere = 0;  ///< largest `off` of the other checks that fail
-  bool exact = false;    ///< its figures are the engine's, and its paths as good as
-  bool refuted = false;  ///< another check, which the engine passes, would clearly fail
-  int signs = 0;         ///< checks that see a mistake in its motion, and not in that of the engine
-};
-
-// Runs the checks of a chapter on the learner's engine, each at most once for each mistake.
-class Predictions {
- public:
-  Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
-      : lab_(lab), chapter_(chapter), manners_(manners_of(chapter.front().chapter->number)) {
-    for (const Outcome& outcome : chapter) seen_.push_back(outcome.finding.mistake);
-  }
-
-  const std::optional<Attempt>& of(const Planted& planted, std::size_t check) {
-    const auto [place, is_new] = attempts_.try_emplace({planted, check});
-    if (is_new)
-      place->second = attempt(*chapter_[check].check,
-                              *make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]),
-                              lab_.plain_settings());
-    return place->second;
-  }
-
-  // Returns the share of an overlap that a step removes.
-  double share(std::size_t manner) const { return manners_[manner].after_move ? 1 : manners_[manner].share; }
-
-  std::size_t manners() const { return manners_.size(); }
-
-  // Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
-  void refute(const Planted& planted, std::size_t check, Fit& fit) {
-    for (std::size_t i = 0; i < chapter_.size(); ++i) {
-      const Finding& seen = chapter_[i].finding;
-      if (i == check || !chapter_[i].check->repeatable || seen.verdict == Verdict::NotYet ||
-          seen.verdict == Verdict::Broken)
-        continue;
-      const auto& predicted = of(planted, i);
-      if (seen.verdict == Verdict::Pass && predicted && refutes(seen, predicted->finding)) fit.refuted = true;
-      if (!predicted || predicted->finding.verdict != seen.verdict)
-        ++fit.verdicts;
-      else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
-        ++fit.readings;
-      else if (seen.verdict == Verdict::Fail)
-        fit.elsewhere = std::max(fit.elsewhere, off(i, planted.manner, predicted->runs));
-      if (predicted) fit.signs += sees_another(i, predicted->finding);
-    }
-    fit.signs += sees_another(check, of(planted, check)->finding);
-  }
-
-  // Returns true if a check sees a mistake in the motion that was predicted, and not in the engine's.
-  bool sees_another(std::size_t check, const Finding& predicted) const {
-    return predicted.observed && predicted.mistake != seen_[check];
-  }
-
-  // Returns the distance of the engine's paths from those of a mistake, over that of the right ones from
-  // them. If only velocities are wrong it is 0: readings decide alone.
-  double off(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong) {
-    const auto& right = of({"", manner}, check);
-    if (!right) return 0;
-    const std::size_t n = right->runs.size();
-    const double way = distance(right->runs, wrong, n);
-    return way > 1e-9 ? distance(chapter_[check].runs, wrong, n) / way : 0;
-  }
-
-  // Returns true if the engine's paths are those of a mistake. If its figures are exactly those, paths may
-  // differ by more: by what right engines differ in, and by how overlaps are corrected that only the mistake
-  // causes.
-  bool near(std::size_t check, std::size_t manner, const Attempt& wrong) {
-    const auto& right = of({"", manner}, check);
-    if (!right) return true;
-    const std::size_t n = right->runs.size();
-    const double way = distance(right->runs, wrong.runs, n),
-                 far = distance(chapter_[check].runs, wrong.runs, n);
-    if (way <= 1e-9 || far <= kSamePath * way) return true;
-    return same_figures(chapter_[check].finding, wrong.finding) &&
-           far <= std::max(kSamePath * way + kManners * spread(check), kLoosePath * way);
-  }
-
-  // Returns the largest distance of the paths of right engines that work differently.
-  double spread(std::size_t check) {
-    double most = 0;
-    for (std::size_t manner = 1; manner < manners_.size(); ++manner) {
-      const auto &first = of({}, check), &other = of({"", manner}, check);
-      if (first && other && other->finding.verdict == Verdict::Pass)
-        most = std::max(most, distance(first->runs, other->runs, first->runs.size()));
-    }
-    return most;
-  }
-
-  // Returns the factor with which the learner's engine comes nearest to the engine's paths.
-  double factor(const std::string& quantity, std::size_t manner, std::size_t check) {
-    const auto& right = of({"", manner}, check);
-    const std::size_t right_runs = right ? right->runs.size() : 0;
-    const auto far = [&](double factor) {
-      const auto run =
-          attempt(*chapter_[check].check,
-                  *make_student(fmt::format("{}*{:.17g}", quantity, factor), lab_.scheme(), manners_[manner]),
-                  lab_.plain_settings());
-      const double way = run ? distance(chapter_[check].runs, run->runs, right_runs)
-                             : std::numeric_limits<double>::infinity();
-      return std::isfinite(way) ? way : std::numeric_limits<double>::infinity();
-    };
-    constexpr double kFactors[] = {-2,   -1, -0.5, 0,   0.05, 0.1, 0.2, 0.35, 0.5,
-                                   0.75, 1,  1.25, 1.5, 2,    3,   5,   9,    15};
-    std::size_t best = 0;
-    std::vector<double> ways;
-    for (const double each : kFactors) ways.push_back(far(each));
-    for (std::size_t i = 0; i < ways.size(); ++i)
-      if (ways[i] < ways[best]) best = i;
-    double low = kFactors[best == 0 ? 0 : best - 1], high = kFactors[std::min(best + 1, ways.size() - 1)];
-    constexpr double kGolden = 0.6180339887498949;
-    for (int i = 0; i < 24; ++i) {
-      const double lower = high - kGolden * (high - low), upper = low + kGolden * (high - low);
-      if (far(lower) < far(upper))
-        high = upper;
-      else
-        low = lower;
-    }
-    return (low + high) / 2;
-  }
-
- private:
-  const Lab& lab_;
-  const std::vector<Outcome>& chapter_;
-  std::vector<std::string> seen_;  ///< the mistakes that the checks themselves saw
-  std::vector<Manner> manners_;
-  std::map<std::pair<Planted, std::size_t>, std::optional<Attempt>> attempts_;
-};
-
 // Returns true if the learner's engine without a mistake fails in the same way: it is the declared method's
 // own motion, and no mistake has to explain it.
 bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::size_t check) {
@@ -222,13 +33,26 @@ bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::s
   return right && right->finding.verdict == Verdict::Fail && same_readings(outcome.finding, right->finding);
 }
 
-// Returns true if the mistake of a name would fail a check.
-bool fails_as_well(const std::vector<Predictable>& mistakes, Predictions& predictions,
-                   const std::string& name, std::size_t check) {
-  return std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
-    if (name != mistake.name) return false;
-    const auto& run = predictions.of({mistake.planted}, check);
-    return run && run->finding.verdict == Verdict::Fail;
+// Returns the ways to make the mistake of a name that can spoil a check: those that fitted one before, and
+// all that are known.
+std::vector<Planted> ways_to_make(const std::vector<Predictable>& mistakes, const std::string& name,
+                                  const std::vector<std::vector<Fit>>& found) {
+  std::vector<Planted> out;
+  for (const std::vector<Fit>& fits : found)
+    for (const Fit& fit : fits)
+      if (fit.name == name) out.push_back(fit.planted);
+  for (const Predictable& mistake : mistakes)
+    if (mistake.name == name) out.push_back({mistake.planted});
+  return out;
+}
+
+// Returns true if one of the mistakes would fail a check; in the eyes of the check's own experiments as what
+// `proven` names, unless that is empty.
+bool fails_as_well(const std::vector<Planted>& mistakes, Predictions& predictions, std::size_t check,
+                   const std::string& proven = "") {
+  return std::any_of(mistakes.begin(), mistakes.end(), [&](const Planted& planted) {
+    const auto& run = predictions.of(planted, check);
+    return run && run->finding.verdict == Verdict::Fail && (proven.empty() || run->finding.mistake == proven);
   });
 }
 
@@ -245,39 +69,81 @@ bool changes_nothing(Predictions& predictions, std::size_t manner, std::size_t c
   return true;
 }
 
-// Returns the mistakes that fit, the best first, one for each name.
+// Keeps the best mistake of each name. Of a family, all that fit as well are described.
+std::vector<Fit> one_for_each_name(const std::vector<Fit>& sorted) {
+  std::vector<Fit> out;
+  for (const Fit& fit : sorted) {
+    const auto best =
+        std::find_if(out.begin(), out.end(), [&](const Fit& other) { return other.name == fit.name; });
+    if (best == out.end()) {
+      out.push_back(fit);
+      continue;
+    }
+    const bool alike = fit.verdicts == best->verdicts && fit.readings == best->readings &&
+                       fit.off <= kClearly * std::max(best->off, kEqual);
+    if (fit.generated && alike && best->says.find(fit.says) == std::string::npos)
+      best->says += fmt::format(" Or: {}", fit.says);
+  }
+  return out;
+}
+
+// Returns true if anything moves: what is held in its place tells nothing of the cause.
+bool moves(const std::vector<Recorded>& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const Recorded& run) {
+    for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
+      if (!run.trace.still(b)) return true;
+    return false;
+  });
+}
+
+// Adds a mistake in each manner in which it fits.
+void add_fits(const Predictable& mistake, Predictions& predictions, const Outcome& outcome, std::size_t check,
+              std::vector<Fit>& out) {
+  for (std::size_t manner = 0; manner < predictions.manners(); ++manner) {
+    const Planted planted{mistake.planted, manner};
+    const auto& wrong = predictions.nearby(planted, check);
+    if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
+    if (changes_nothing(predictions, manner, check, *wrong)) continue;
+    if (!same_readings(outcome.finding, wrong->finding)) continue;
+    if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
+    if (pushes_farther(outcome.runs, wrong->runs, predictions.share(manner))) continue;
+    const double share = predictions.off(check, manner, wrong->runs);
+    if (!std::isfinite(share) || !predictions.near(check, manner, *wrong)) continue;
+    out.push_back({.name = mistake.name, .says = mistake.says, .planted = planted, .off = share});
+    out.back().generated = mistake.generated;
+    predictions.refute(planted, check, out.back());
+    // A mistake that is made in some cases only may pass a check that it would fail in all.
+    out.back().exact = share <= kEqual && moves(wrong->runs) && same_figures(outcome.finding, wrong->finding);
+    if (out.back().refuted && !out.back().exact) out.pop_back();
+  }
+}
+
+// Returns true if a mistake gives every verdict and every wrong reading of the chapter.
+bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 0; }
+
+// Returns the mistakes that fit, the best first, one for each name. Those that explain all of the chapter by
+// another check, `likely`, come first, and the others only if none of them fits; the generated families only
+// if no other mistake explains all.
 std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
-                      const std::vector<Outcome>& chapter, std::size_t check, const std::string& named) {
+                      const std::vector<Outcome>& chapter, std::size_t check, const std::string& named,
+                      const std::vector<Fit>& likely) {
   std::vector<Fit> out;
   const Outcome& outcome = chapter[check];
   if (!predictions.of({}, check)) return out;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
-  for (const Predictable& mistake : mistakes) {
-    const bool belongs = std::string_view(mistake.chapters).find(digit) != std::string_view::npos;
-    if (!belongs && named != mistake.name) continue;
-    for (std::size_t manner = 0; manner < predictions.manners(); ++manner) {
-      const Planted planted{mistake.planted, manner};
-      const auto& wrong = predictions.of(planted, check);
-      if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
-      if (changes_nothing(predictions, manner, check, *wrong)) continue;
-      if (!same_readings(outcome.finding, wrong->finding)) continue;
-      if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
-      if (pushes_farther(outcome.runs, wrong->runs, predictions.share(manner))) continue;
-      const double share = predictions.off(check, manner, wrong->runs);
-      if (!std::isfinite(share) || !predictions.near(check, manner, *wrong)) continue;
-      out.push_back({mistake.name, mistake.says, share});
-      predictions.refute(planted, check, out.back());
-      // A mistake that is made in some cases only may pass a check that it would fail in all.
-      out.back().exact = share <= kEqual && same_figures(outcome.finding, wrong->finding);
-      if (out.back().refuted && !out.back().exact) out.pop_back();
+  for (const Fit& fit : likely)
+    add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated}, predictions, outcome, check, out);
+  for (const bool generated : {false, true}) {
+    if (!out.empty() && !likely.empty()) break;
+    if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
+    for (const Predictable& mistake : mistakes) {
+      if (mistake.generated != generated) continue;
+      const bool belongs = mistake.chapters.find(digit) != std::string::npos;
+      if (belongs || named == mistake.name) add_fits(mistake, predictions, outcome, check, out);
     }
   }
   std::stable_sort(out.begin(), out.end(), better);
-  std::vector<Fit> names;
-  for (const Fit& fit : out)
-    if (std::none_of(names.begin(), names.end(), [&](const Fit& other) { return other.name == fit.name; }))
-      names.push_back(fit);
-  return names;
+  return one_for_each_name(out);
 }
 
 std::size_t wrong_readings(const std::vector<Outcome>& chapter) {
@@ -287,6 +153,13 @@ std::size_t wrong_readings(const std::vector<Outcome>& chapter) {
       out += std::count_if(outcome.finding.readings.begin(), outcome.finding.readings.end(),
                            [](const Reading& r) { return !r.good(); });
   return out;
+}
+
+// Returns a factor as text: as dt if it is that or its inverse, which tells more than a number.
+std::string factor_text(double factor, double dt) {
+  const auto is = [&](double other) { return std::abs(factor / other - 1) < 0.01; };
+  if (is(dt)) return "dt";
+  return is(1 / dt) ? "1/dt" : fmt::format("{:.3g}", factor);
 }
 
 // Returns the quantities that give the motion with some factor. The factor is fitted to one check; what the
@@ -300,15 +173,19 @@ std::vector<Fit> fitted(Predictions& predictions, const std::vector<Outcome>& ch
   for (const Scaled& scaled : scaled_quantities()) {
     if (std::string_view(scaled.chapters).find(digit) == std::string_view::npos) continue;
     for (std::size_t manner = 0; manner < std::min(kTried, predictions.manners()); ++manner) {
-      const double factor = predictions.factor(scaled.quantity, manner, check);
-      const Planted planted{fmt::format("{}*{:.17g}", scaled.quantity, factor), manner};
+      const auto factor = predictions.factor(scaled.quantity, manner, check);
+      if (!factor) continue;
+      const Planted planted{fmt::format("{}*{:.17g}", scaled.quantity, *factor), manner};
       const auto& wrong = predictions.of(planted, check);
       if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
       if (changes_nothing(predictions, manner, check, *wrong)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
       const double share = predictions.off(check, manner, wrong->runs);
       if (!(share <= (several ? kFittedPath : kExactPath))) continue;
-      Fit fit{scaled.name, fmt::format(fmt::runtime(scaled.says), fmt::format("{:.3g}", factor)), share};
+      Fit fit{.name = scaled.name,
+              .says = fmt::format(fmt::runtime(scaled.says), factor_text(*factor, predictions.dt())),
+              .planted = planted,
+              .off = share};
       predictions.refute(planted, check, fit);
       if (!fit.refuted && fit.verdicts == 0 && fit.readings == 0) out.push_back(fit);
     }
@@ -372,6 +249,9 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
   const bool close = found.size() == 1 && found.front().off <= kEqual;
   if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
     return;
+  // A family is no better evidence than an experiment.
+  if (finding.proven && std::all_of(found.begin(), found.end(), [](const Fit& fit) { return fit.generated; }))
+    return;
   if (found.size() == 1) {
     if (finding.mistake != found.front().name) finding.says = found.front().says;
     finding.mistake = found.front().name;
@@ -400,14 +280,17 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   Predictions predictions(lab, chapter);
   std::vector<std::vector<Fit>> found(chapter.size());
   std::set<std::string> alone;
+  std::vector<Fit> likely;
   for (std::size_t i = 0; i < chapter.size(); ++i) {
     const Finding& finding = chapter[i].finding;
     if (finding.verdict != Verdict::Fail || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer)
       continue;
-    found[i] = fits(mistakes, predictions, chapter, i, named);
+    found[i] = fits(mistakes, predictions, chapter, i, named, likely);
     narrow(found[i], chapter[i]);
     if (found[i].empty() && !finding.proven) found[i] = fitted(predictions, chapter, i);
     if (found[i].size() == 1) alone.insert(found[i].front().name);
+    if (likely.empty())
+      std::copy_if(found[i].begin(), found[i].end(), std::back_inserter(likely), explains_all);
   }
   std::string known = named;
   for (std::size_t i = 0; i < chapter.size(); ++i) {
@@ -421,8 +304,9 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     if (!chapter[i].check->repeatable && finding.observed && !finding.proven && finding.mistake != known)
       unname(finding);
     // Blames no second mistake for what the first one does as well.
-    if (found[i].empty() && !finding.proven && !known.empty() && finding.mistake != known &&
-        fails_as_well(mistakes, predictions, known, i)) {
+    if (found[i].empty() && !known.empty() && finding.mistake != known &&
+        fails_as_well(ways_to_make(mistakes, known, found), predictions, i,
+                      finding.proven ? finding.mistake : "")) {
       finding.mistake.clear();
       finding.says = fmt::format("{}, which is named above, spoils this as well.", known);
     }
@@ -437,7 +321,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   for (std::size_t i = 0; i < chapter.size() && chapter[i].finding.mistake != known; ++i) {
     Finding& finding = chapter[i].finding;
     if (finding.verdict != Verdict::Fail || !finding.mistake.empty() || !found[i].empty()) continue;
-    if (!fails_as_well(mistakes, predictions, known, i)) continue;
+    if (!fails_as_well(ways_to_make(mistakes, known, found), predictions, i)) continue;
     finding.mistake = known;
     finding.says = std::find_if(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
                      return known == mistake.name;

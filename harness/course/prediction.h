@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "harness/course/course.h"
@@ -9,10 +9,11 @@ namespace plumb::course {
 
 /// A mistake that the learner's engine (student/student.h) can make, so that its motion can be computed.
 struct Predictable {
-  const char* planted;   ///< for `make_student`
-  const char* name;      ///< several may share one
-  const char* chapters;  ///< digits of the chapters whose checks it may spoil
-  const char* says;
+  std::string planted;   ///< for `make_student`
+  std::string name;      ///< several may share one
+  std::string chapters;  ///< digits of the chapters whose checks it may spoil
+  std::string says;
+  bool generated = false;  ///< one of a family: several that fit alike are all described
 };
 
 /// Returns every mistake whose motion can be computed.

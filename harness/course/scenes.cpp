@@ -1,5 +1,7 @@
 #include "harness/course/scenes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace plumb::course {
@@ -49,6 +51,30 @@ PointForce push(const std::string& body, Vec2d force, Vec2d point) {
   law.force = force;
   law.point = point;
   return law;
+}
+
+double least_gain_above(const Lab& lab, const Trace& trace, double r, double g) {
+  double least = 1;
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const BodyState &before = trace.states[k - 1][0], &after = trace.states[k][0];
+    const bool rises = before.velocity.y > 0 && after.velocity.y > 0;
+    const bool above = rises && before.position.y > r + 1e-3 && after.position.y > r + 1e-3;
+    if (above) least = std::min(least, (before.velocity.y - after.velocity.y) / (g * lab.dt()));
+  }
+  return least;
+}
+
+double turn_at_platform(const Lab& lab) {
+  const Body platform = fixed(make(Crate{.name = "platform", .width = 2, .height = 1}));
+  double most = 0;
+  const auto pass = [&](Vec2d from, Vec2d velocity) {
+    const Body ball = make(Ball{.position = from, .velocity = velocity, .radius = 0.4});
+    const Vec2d change = lab.run(scene_of("platform", {}, {ball, platform}), 2).last(0).velocity - velocity;
+    most = std::max(most, std::hypot(change.x, change.y));
+  };
+  pass({1.7, 2}, {0, -2});
+  pass({-2.5, 0.98}, {2, 0});
+  return most;
 }
 
 }  // namespace plumb::course

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "harness/course/lab.h"
 
 /// Building blocks of the checks' scenes. Friction is 0 unless a check sets it.
 namespace plumb::course {
@@ -42,5 +43,13 @@ Scene scene_of(std::string name, Vec2d gravity, std::vector<Body> bodies);
 
 /// Returns the force `force` on the body's point `point` from `start` for `duration`.
 PointForce push(const std::string& body, Vec2d force, Vec2d point = {});
+
+/// Returns the least gain of downward speed in a step in which a ball of radius r is above the floor at 0,
+/// before and after, over g dt. It is 1 for any method.
+double least_gain_above(const Lab& lab, const Trace& trace, double r, double g);
+
+/// Returns the largest change of velocity, m/s, of two balls that pass a static box without touching it: one
+/// falls past its end, one flies over it.
+double turn_at_platform(const Lab& lab);
 
 }  // namespace plumb::course

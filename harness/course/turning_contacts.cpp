@@ -59,13 +59,21 @@ Finding ball_hits_rod(const Lab& lab) {
         make(Crate{.name = "rod", .position = at, .mass = rod_mass, .width = width, .height = height});
     return lab.run(scene_of("rod", {}, rod_first ? std::vector{rod, ball} : std::vector{ball, rod}), 0.6);
   };
-  // A rod so light that its lever takes most of the effective mass: sweeps do not mend an impulse without it.
-  const double light = 0.3, light_inertia = light * (width * width + height * height) / 12, reach = 0.9;
-  const double light_k = 1 / m + 1 / light + reach * reach / light_inertia, light_j = 2 * v / light_k;
-  const auto meet_light = [&] {
-    const Body ball = make(Ball{.position = {-0.8, reach}, .velocity = {v, 0}, .mass = m, .radius = 0.2});
-    const Body rod = make(Crate{.name = "rod", .mass = light, .width = width, .height = height});
-    return std::clamp(lab.run(scene_of("light rod", {}, {ball, rod}), 0.6).last(0).velocity.x, -2 * v, 2 * v);
+  // Rods so light that the lever takes most of the effective mass: sweeps do not mend an impulse without it.
+  // On the long one, a lever that is not squared is as wrong as none.
+  struct LightRod {
+    double mass, height, reach;
+  };
+  constexpr LightRod kLight{0.3, 2, 0.9}, kLong{0.1, 10, 4.8};
+  const auto due = [&](const LightRod& rod) {
+    const double eases = 12 / (rod.mass * (width * width + rod.height * rod.height));
+    return v - 2 * v / (1 / m + 1 / rod.mass + rod.reach * rod.reach * eases) / m;
+  };
+  const auto hits = [&](const LightRod& rod) {
+    const Body ball = make(Ball{.position = {-0.8, rod.reach}, .velocity = {v, 0}, .mass = m, .radius = 0.2});
+    const Body crate = make(Crate{.name = "rod", .mass = rod.mass, .width = width, .height = rod.height});
+    const Trace run = lab.run(scene_of("light rod", {}, {ball, crate}), 0.6);
+    return std::clamp(run.last(0).velocity.x, -2 * v, 2 * v);
   };
   const Trace trace = meet({3, -2});
   const double linear = 1 / m + 1 / rod_mass, k = linear + arm * arm / inertia;
@@ -76,8 +84,10 @@ Finding ball_hits_rod(const Lab& lab) {
       .read("spin of the rod", "rad/s", trace.last(1).angular_velocity, w, 0.005 * std::abs(w))
       .read("spin of the rod if it comes first in the scene", "rad/s",
             meet({3, -2}, true).last(0).angular_velocity, w, 0.005 * std::abs(w))
-      .read("vx of the ball after it hits a rod of 0.3 kg, at most twice as fast", "m/s", meet_light(),
-            v - light_j / m, 0.005 * v);
+      .read("vx of the ball after it hits a rod of 0.3 kg, at most twice as fast", "m/s", hits(kLight),
+            due(kLight), 0.005 * v)
+      .read("vx of the ball after it hits a rod of 10 m and 0.1 kg, at most twice as fast", "m/s",
+            hits(kLong), due(kLong), 0.005 * v);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) { return std::abs(t.last(1).angular_velocity - w); };
   const double off_at_origin = off(meet({}));

@@ -48,7 +48,7 @@ Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
   const auto at_point = [&](const Rigid& body, Vec2d arm) {
     if (is("spin_not_in_velocity")) return body.velocity;
     if (is("point_velocity_flipped")) return body.velocity - cross(body.spin, arm);
-    return body.velocity_at(arm);
+    return this->at_point(body, arm);
   };
   const Arms arms = arms_of(touch);
   const auto arm = [&](Vec2d own) { return is("contact_arm_from_origin") ? touch.point : own; };
@@ -61,23 +61,27 @@ Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
 }
 
 void StudentWorld::prepare(Touch& touch) const {
-  const double closing = dot(relative_velocity(touch), touch.normal);
+  const Vec2d coming =
+      mixed("velocity before a bounce", mixed("velocity in a contact", relative_velocity(touch)));
+  const double closing = dot(coming, touch.normal);
   const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
   if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
+  if (is("bounce_without_speed") && touch.bounce > 0) touch.bounce = restitution(touch);
   if (is("bounce_of_whole_speed") && touch.bounce > 0)
     touch.bounce = restitution(touch) * length(relative_velocity(touch));
   if (is("one_plus_twice") && touch.bounce > 0) touch.bounce -= closing;
   if (is("bounce_sign")) touch.bounce = -touch.bounce;
   if (is("one_plus_forgotten") && touch.bounce > 0) touch.bounce += closing;
-  if (quantity_ == "share of an overlap in the bounce") touch.bounce += factor_ * touch.depth / dt_;
+  if (scales("share of an overlap in the bounce")) touch.bounce += factor_ * touch.depth / dt_;
 }
 
 void StudentWorld::apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse) {
   Rigid &first = bodies_[a], &second = bodies_[b];
   first.velocity -= first.inverse_mass * impulse;
-  first.spin -= first.inverse_inertia * cross(arm_a, impulse);
+  const double turn = times("spin by an impulse");
+  first.spin -= turn * first.inverse_inertia * cross(arm_a, impulse);
   second.velocity += second.inverse_mass * impulse;
-  second.spin += second.inverse_inertia * cross(arm_b, impulse);
+  second.spin += turn * second.inverse_inertia * cross(arm_b, impulse);
 }
 
 void StudentWorld::answer_all(std::vector<Touch>& found) {
@@ -151,12 +155,16 @@ void StudentWorld::answer(Touch& touch) {
   Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
   const Vec2d n = touch.normal;
   const auto [arm_a, arm_b] = arms_of(touch);
-  const double closing = dot(relative_velocity(touch), n);
+  const double closing =
+      dot(mixed("velocity in an impulse", mixed("velocity in a contact", relative_velocity(touch))), n);
+  if (is("bounce_each_sweep")) touch.bounce = -restitution(touch) * closing;
   if (is("ignores_slow") && closing > -4 * length(scene_.gravity) * dt_) return;
   if (answer_wrongly(touch, closing)) return;
   double spin_a = cross(arm_a, n), spin_b = cross(arm_b, n);
   const bool heavy_only = is("effective_mass_without_rotation") || is("no_rotation");
   double k = a.inverse_mass + b.inverse_mass;
+  if (is("effective_mass_of_the_first_arm")) spin_b = spin_a;
+  if (is("effective_mass_of_the_second_arm")) spin_a = spin_b;
   if (is("first_inverse_mass_only")) k = a.inverse_mass > 0 ? a.inverse_mass : k;
   if (is("second_inverse_mass_only")) k = b.inverse_mass > 0 ? b.inverse_mass : k;
   if (is("first_inverse_mass_for_both") && a.inverse_mass > 0) k = 2 * a.inverse_mass;
@@ -174,6 +182,7 @@ void StudentWorld::answer(Touch& touch) {
   if (is("masses_in_place_of_inverses")) k = 1 / a.inverse_mass + 1 / b.inverse_mass;
   if (is("effective_mass_forgotten")) k = 1;
   if (is("masses_ignored")) k = (a.inverse_mass > 0) + (b.inverse_mass > 0);
+  spin_a = cross(arm_a, n), spin_b = cross(arm_b, n);
   double j = times("impulse of a contact") * (touch.bounce - closing) / k;
   const auto new_sum = [&](double change) {
     if (is("each_push_clamped")) return touch.sum + std::max(0.0, change);
@@ -231,14 +240,16 @@ void StudentWorld::answer(Touch& touch) {
   if (is("whole_velocity") && j > 0)
     push = length(a.velocity - b.velocity) / k * 2.0 / length(a.velocity - b.velocity) *
            (a.velocity - b.velocity);
-  a.velocity -= share_a * push;
-  b.velocity += share_b * push;
+  push = mixed("impulse of a contact", push);
+  a.velocity -= share_a * mixed("impulse on the first", push);
+  b.velocity += share_b * mixed("impulse on the second", push);
   const auto eases = [&](const Rigid& body) {
     if (is("spin_by_inverse_mass")) return body.inverse_mass;
     return is("spin_by_impulse_alone") && body.inverse_inertia > 0 ? 1 : body.inverse_inertia;
   };
-  a.spin -= eases(a) * spin_a * j;
-  b.spin += eases(b) * spin_b * j;
+  const double turn = times("spin by an impulse");
+  a.spin -= turn * eases(a) * spin_a * j;
+  b.spin += turn * eases(b) * spin_b * j;
   rub(touch);
 }
 
@@ -252,8 +263,10 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_sum")) mu = mu_a + mu_b;
   if (is("friction_minimum")) mu = std::min(mu_a, mu_b);
   if (is("friction_maximum")) mu = std::max(mu_a, mu_b);
+  if (is("friction_by_restitution"))
+    mu = std::sqrt(a.body->shapes[0].restitution * b.body->shapes[0].restitution);
   if (mu == 0 || is("friction_ignored")) return;
-  const Vec2d t{-touch.normal.y, touch.normal.x};
+  const Vec2d t = mixed("tangent", {-touch.normal.y, touch.normal.x});
   const auto [arm_a, arm_b] = arms_of(touch);
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
   double k = a.inverse_mass + b.inverse_mass;
@@ -261,10 +274,14 @@ void StudentWorld::rub(Touch& touch) {
     k += a.inverse_inertia * spin_a + b.inverse_inertia * spin_b;
   else if (!is("friction_without_rotation"))
     k += a.inverse_inertia * spin_a * spin_a + b.inverse_inertia * spin_b * spin_b;
-  const double sliding = dot(
-      is("sliding_of_centres") ? b.velocity - a.velocity : b.velocity_at(arm_b) - a.velocity_at(arm_a), t);
+  const bool centre_a = is("sliding_of_centres") || is("sliding_of_the_first_centre");
+  const bool centre_b = is("sliding_of_centres") || is("sliding_of_the_second_centre");
+  const double sliding =
+      dot(at_point(b, centre_b ? Vec2d{} : arm_b) - at_point(a, centre_a ? Vec2d{} : arm_a), t);
   double most = is("friction_unlimited") ? 1e9 : mu * touch.sum;
   if (is("friction_without_normal")) most = mu;
+  if (is("friction_by_weight"))
+    most = mu * length(scene_.gravity) * dt_ / (b.inverse_mass > 0 ? b.inverse_mass : a.inverse_mass);
   if (is("friction_without_mu")) most = touch.sum;
   if (is("friction_limit_times_dt")) most *= dt_;
   if (is("friction_by_last_impulse")) most = mu * std::abs(touch.last);
@@ -291,9 +308,10 @@ void StudentWorld::push_out() {
   const double part = manner_.after_move ? 1 : manner_.share, left = manner_.after_move ? 0 : kSlop;
   for (const Touch& touch : touches()) {
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+    const double inverse = is("correction_not_divided") ? 1 : a.inverse_mass + b.inverse_mass;
     const Vec2d push =
-        part * std::max(0.0, touch.depth - left) / (a.inverse_mass + b.inverse_mass) * touch.normal;
-    if (quantity_ == "share of an overlap that becomes velocity") {
+        mixed("push out of an overlap", part * std::max(0.0, touch.depth - left) / inverse * touch.normal);
+    if (scales("share of an overlap that becomes velocity")) {
       const double faster = factor_ / (part * dt_);
       a.velocity -= faster * a.inverse_mass * push;
       b.velocity += faster * b.inverse_mass * push;

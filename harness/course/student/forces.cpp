@@ -44,7 +44,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   };
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
-    add(times("force") * push->force +
+    add(mixed("force", times("force") * push->force) +
         (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
     Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
     if (is("lever_from_origin")) arm += b.position;
@@ -66,17 +66,19 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     const double speed = length(b.velocity), c = (is("drag_pushes") ? share : -share) * drag->coefficient;
     if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
+    if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
     if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
     if (is("drag_along_x_only")) return add({c * b.velocity.x, 0});
     if (is("drag_along_x_always")) return add({c * speed, 0});
     if (is("drag_along_y_always")) return add({0, c * speed});
-    add(times("drag") * c * b.velocity);
+    add(mixed("drag", times("drag") * c * b.velocity));
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
     Rigid& a = bodies_[find_body(scene_, names[0]).value_or(bodies_.size() - 1)];
     Rigid& end = bodies_[find_body(scene_, names[1]).value_or(bodies_.size() - 1)];
     const Vec2d arm_a = a.to_world(spring->anchor_a), arm_b = end.to_world(spring->anchor_b);
     const Vec2d way = end.position + arm_b - a.position - arm_a;
-    const double rest = spring->rest_length * times("rest length of a spring"), stretch = length(way) - rest;
+    const double rest = spring->rest_length * times("rest length of a spring"),
+                 stretch = (is("length_squared") ? dot(way, way) : length(way)) - rest;
     double tension = spring->stiffness * stretch * times("stiffness of a spring");
     if (is("spring_always_pulls")) tension = std::abs(tension);
     if (is("spring_always_pushes")) tension = -std::abs(tension);
@@ -86,11 +88,14 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_by_sign")) tension = std::copysign(spring->stiffness, stretch);
     if (is("spring_by_square")) tension = std::copysign(spring->stiffness * stretch * stretch, stretch);
     if (is("spring_not_unit")) tension *= length(way);
-    const Vec2d along = 1 / length(way) * way, v_a = a.velocity_at(arm_a), v_b = end.velocity_at(arm_b);
+    const Vec2d along = mixed("direction of a spring", 1 / length(way) * way), v_a = a.velocity_at(arm_a),
+                v_b = end.velocity_at(arm_b);
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;
     if (is("spring_damps_the_second_only")) parting = v_b;
-    tension += times("damping of a spring") * spring->damping * dot(parting, along);
+    double rate = dot(mixed("velocity in a spring", parting), along);
+    if (is("damping_by_speed")) rate = length(parting);
+    tension += times("damping of a spring") * spring->damping * rate;
     const auto pull = [&](Rigid& body, Vec2d arm, Vec2d force) {
       if (body.inverse_mass == 0) return;
       if (is("spring_mass_not_divided")) force *= 1 / body.inverse_mass;
@@ -116,7 +121,7 @@ void StudentWorld::gather_forces() {
 void StudentWorld::accelerate() {
   Vec2d g = scene_.gravity;
   if (is("no_gravity")) g = {};
-  g *= times("gravity");
+  g = mixed("gravity", times("gravity") * g);
   if (is("gravity_of_10")) g = {0, -10};
   if (is("gravity_of_9_80665")) g = {0, -9.80665};
   if (is("gravity_components_swapped")) g = {g.y, g.x};
@@ -149,7 +154,7 @@ void StudentWorld::accelerate() {
     if (is("constant_speed")) b.velocity = b.body->velocity;
     b.velocity += gain;
     if (is("damping")) b.velocity *= 0.99;
-    if (quantity_ == "speed below which bodies stop" && length(b.velocity) < factor_) b.velocity = {};
+    if (scales("speed below which bodies stop") && length(b.velocity) < factor_) b.velocity = {};
     const double torque_dt = is("torque_without_dt") ? 1 : is("torque_dt_twice") ? dt * dt : dt;
     b.spin += torque_dt * b.inverse_inertia * b.torque;
     if (is("spin_damping")) b.spin *= 0.99;
@@ -162,10 +167,14 @@ void StudentWorld::move() {
     if (is("moves_by_first_velocity")) {
       b.position += dt_ * b.body->velocity;
     } else {
-      const double dt = is("velocity_without_dt") ? 1 : is("velocity_with_dt_twice") ? dt_ * dt_ : dt_;
+      const double dt = is("velocity_without_dt")      ? 1
+                        : is("velocity_with_dt_twice") ? dt_ * dt_
+                        : is("move_per_frame")         ? 1.0 / 60
+                                                       : dt_;
       const Vec2d v =
           scheme_ == reference::Scheme::VelocityVerlet ? 0.5 * (b.velocity + b.before) : b.velocity;
-      b.position += times("velocity in the position's change") * dt * v;
+      b.position +=
+          mixed("velocity in the position's change", times("velocity in the position's change") * dt * v);
     }
     b.before = b.velocity;
     if (is("half_a_step_twice")) b.position += dt_ * dt_ / 2 * scene_.gravity;

@@ -16,24 +16,36 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 }  // namespace
 
 StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
+  const auto [first, second] = ends_[static_cast<std::size_t>(&joint - scene_.joints.data())];
   return std::visit(
-      [&](const auto& j) -> Ends {
-        Ends out{find_body(scene_, j.body_a).value_or(bodies_.size() - 1),
-                 find_body(scene_, j.body_b).value_or(bodies_.size() - 1),
-                 {},
-                 {},
-                 {}};
+      [&, first = first, second = second](const auto& j) -> Ends {
+        Ends out{first, second, {}, {}, {}};
         if constexpr (requires { j.anchor_a; }) {
           const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
           const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
           const Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
-          out.arm_a = is("anchor_not_turned") ? anchor_a : a.to_world(anchor_a);
-          out.arm_b = is("anchor_not_turned") ? anchor_b : b.to_world(anchor_b);
+          const bool neither = is("anchor_not_turned");
+          const Rigid& turns_a = is("first_anchor_turned_by_the_second") ? b : a;
+          const Rigid& turns_b = is("second_anchor_turned_by_the_first") ? a : b;
+          out.arm_a = neither || is("first_anchor_not_turned") ? anchor_a : turns_a.to_world(anchor_a);
+          out.arm_b = neither || is("second_anchor_not_turned") ? anchor_b : turns_b.to_world(anchor_b);
           out.gap = b.position + out.arm_b - a.position - out.arm_a;
         }
         return out;
       },
       joint);
+}
+
+bool StudentWorld::joined(std::size_t a, std::size_t b) const {
+  if (is("joined_bodies_collide")) return false;
+  return std::any_of(ends_.begin(), ends_.end(), [&](const auto& ends) {
+    return (ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a);
+  });
+}
+
+// The velocity of a body's point.
+Vec2d StudentWorld::at_point(const Rigid& body, Vec2d arm) const {
+  return body.velocity + mixed("w x r", cross(body.spin, arm));
 }
 
 // A stick as one row along it, a hinge as two, x and y, one after the other.
@@ -45,11 +57,15 @@ void StudentWorld::solve(const Joint& joint) {
   const double gap = length(e.gap);
   for (const Vec2d n : {stick ? 1 / gap * e.gap : Vec2d{1, 0}, Vec2d{0, 1}}) {
     const double error = dot(e.gap, n) - (stick ? std::get<DistanceJoint>(joint).length : 0);
-    const double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
-    const double speed = dot(b.velocity_at(e.arm_b) - a.velocity_at(e.arm_a), n) + fed;
+    double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
+    if (scales("share of a joint's error without dt")) fed = factor_ * error;
+    const Vec2d parting = at_point(b, e.arm_b) - at_point(a, e.arm_a);
+    const double speed = dot(mixed("velocity in a joint", parting), n) + fed;
     const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
+    const double ka = is("joint_mass_of_the_second_arm") ? sb : sa;
+    const double kb = is("joint_mass_of_the_first_arm") ? sa : sb;
     double k = a.inverse_mass + b.inverse_mass;
-    if (!is("joint_without_rotation")) k += a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
+    if (!is("joint_without_rotation")) k += a.inverse_inertia * ka * ka + b.inverse_inertia * kb * kb;
     if (is("joint_masses_in_place_of_inverses"))
       k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
     if (stick && is("stick_only_pulls") && (speed < 0 || gap < std::get<DistanceJoint>(joint).length)) break;
@@ -88,7 +104,8 @@ void StudentWorld::solve(const Joint& joint) {
       apply_impulse(e.a, e.b, is("joint_first_arm_for_both") ? e.arm_a : e.arm_b,
                     is("joint_second_arm_for_both") ? e.arm_b : e.arm_a, -speed / k * n);
     } else {
-      apply_impulse(e.a, e.b, e.arm_a, e.arm_b, -times("impulse of a joint") * speed / k * n);
+      apply_impulse(e.a, e.b, e.arm_a, e.arm_b,
+                    mixed("impulse of a joint", -times("impulse of a joint") * speed / k * n));
     }
     if (stick) break;
   }
@@ -104,25 +121,35 @@ void StudentWorld::correct(const Joint& joint) {
   if (size == 0) return;
   const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
   if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
-  const Vec2d n = 1 / size * error;
+  const Vec2d n = mixed("error of a joint", 1 / size * error);
   const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
   const double k =
       a.inverse_mass + b.inverse_mass + a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
   const double push = times("correction of a joint") * (manner_.by_positions ? 1 : kShare) * size / k;
   const double turn = is("correction_turns_backwards") ? -push : is("correction_never_turns") ? 0 : push;
+  const double turn_a = is("correction_turns_the_first_backwards") ? -turn : turn;
+  const double turn_b = is("correction_turns_the_second_backwards") ? -turn : turn;
   if (is("correction_moves_both_alike") && a.inverse_mass > 0 && b.inverse_mass > 0) {
     const Vec2d half = push * k / 2 * n;
     a.position += half;
     b.position -= half;
     return;
   }
+  if (is("correction_by_the_first_mass") || is("correction_by_the_second_mass")) {
+    const double share = is("correction_by_the_first_mass") ? a.inverse_mass : b.inverse_mass;
+    a.position += share * push * n;
+    a.angle += a.inverse_inertia * sa * turn;
+    b.position -= share * push * n;
+    b.angle -= b.inverse_inertia * sb * turn;
+    return;
+  }
   if (!is("correction_of_the_second_end_only")) {
     a.position += a.inverse_mass * push * n;
-    a.angle += a.inverse_inertia * sa * turn;
+    a.angle += a.inverse_inertia * sa * turn_a;
   }
   if (is("correction_of_the_first_end_only")) return;
   b.position -= b.inverse_mass * push * n;
-  b.angle -= b.inverse_inertia * sb * turn;
+  b.angle -= b.inverse_inertia * sb * turn_b;
 }
 
 }  // namespace plumb::course

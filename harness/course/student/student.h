@@ -16,6 +16,7 @@ struct Manner {
   bool by_positions =
       false;           ///< joints are closed by positions, and velocities are displacements over the step
   double share = 0.5;  ///< of an overlap that a step removes by positions
+  bool deep = false;   ///< a circle whose centre is in a box is pushed out at the nearest side
   double fed = 0;      ///< share of a joint's error that velocities close in a step, in place of positions
 };
 

@@ -25,6 +25,8 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (wrong("diameters")) reach *= 2;
   if (wrong("one_radius")) reach = ra;
   if (wrong("other_radius")) reach = rb;
+  if (wrong("larger_radius_alone")) reach = std::max(ra, rb);
+  if (wrong("smaller_radius_alone")) reach = std::min(ra, rb);
   if (wrong("larger_radius")) reach = 2 * std::max(ra, rb);
   if (wrong("smaller_radius")) reach = 2 * std::min(ra, rb);
   if (wrong("sum_of_squared_radii")) reach = std::hypot(ra, rb);
@@ -74,8 +76,17 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
                       std::clamp(local.y, -size.height / 2, size.height / 2)};
   const Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   const double d = length(way);
+  if (d == 0 && manner_.deep) {
+    const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
+    const Vec2d out_of =
+        in_x < in_y ? Vec2d{std::copysign(1.0, local.x), 0} : Vec2d{0, std::copysign(1.0, local.y)};
+    out.push_back({circle, box, c.position, q * -out_of, r + std::min(in_x, in_y)});
+    return;
+  }
   if (d <= 0 || d >= r) return;
-  if (is("wall_missing") && b.position.x > 1) return;
+  const Vec2d at = b.position;
+  if ((is("wall_missing") && at.x > 1) || (is("left_wall_missing") && at.x < -1)) return;
+  if ((is("upper_wall_missing") && at.y > 1) || (is("lower_wall_missing") && at.y < -1)) return;
   Vec2d n = 1 / d * (is("side_of_box_not_turned") ? nearest - local : way);
   if (is("wall_normal_not_unit")) n = way;
   if (is("wall_normal_flipped")) n = -n;
@@ -115,14 +126,6 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
 
 std::vector<Touch> StudentWorld::touches() const {
   std::vector<Touch> out;
-  const auto joined = [&](std::size_t a, std::size_t b) {
-    if (is("joined_bodies_collide")) return false;
-    for (const Joint& joint : scene_.joints) {
-      const Ends e = ends(joint);
-      if ((e.a == a && e.b == b) || (e.a == b && e.b == a)) return true;
-    }
-    return false;
-  };
   for (std::size_t a = 0; a + 1 < bodies_.size(); ++a) {
     for (std::size_t b = a + 1; b + 1 < bodies_.size(); ++b) {
       if (bodies_[a].inverse_mass + bodies_[b].inverse_mass == 0 || joined(a, b)) continue;

@@ -16,6 +16,21 @@ constexpr std::pair<const char*, const char*> kScaled[] = {
     {"spring_pushes", "stiffness of a spring*-1"}};
 constexpr double kDegrees = 180 / std::numbers::pi;
 
+// Returns the vector whose dot product with another is its "x", "-x", "y", "-y" or "0".
+Vec2d axis_of(const std::string& text) {
+  const double sign = text.starts_with('-') ? -1 : 1;
+  return {text.ends_with('x') ? sign : 0, text.ends_with('y') ? sign : 0};
+}
+
+std::array<std::size_t, 2> indices(const Scene& scene, const Joint& joint) {
+  const std::size_t world = scene.bodies.size();
+  return std::visit(
+      [&](const auto& j) -> std::array<std::size_t, 2> {
+        return {find_body(scene, j.body_a).value_or(world), find_body(scene, j.body_b).value_or(world)};
+      },
+      joint);
+}
+
 }  // namespace
 
 Vec2d Rigid::to_world(Vec2d local) const {
@@ -57,11 +72,9 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
                            const Manner& manner)
     : scene_(scene), dt_(dt), mistake_(std::move(mistake)), scheme_(scheme), manner_(manner) {
   for (const auto& [name, scaled] : kScaled)
-    if (is(name)) mistake_ = scaled;
-  if (const std::size_t star = mistake_.find('*'); star != std::string::npos) {
-    quantity_ = mistake_.substr(0, star);
-    factor_ = std::stod(mistake_.substr(star + 1));
-  }
+    if (mistake_ == name) mistake_ = scaled;
+  read_mistake(mistake_);
+  for (const Joint& joint : scene_.joints) ends_.push_back(indices(scene_, joint));
   // Sweeps mend what a single answer gets wrong: these are made by who has none yet, unless asked otherwise.
   for (const char* name :
        {"one_body_only", "inverse_mass_forgotten", "masses_in_place_of_inverses",
@@ -69,7 +82,7 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
         "masses_ignored", "effective_mass_forgotten", "normal_not_unit", "whole_velocity",
         "r_cross_n_flipped", "no_rotation", "effective_mass_without_rotation", "both_corners_take_all",
         "impulse_backwards", "each_turned", "sinks", "turned_every_step"})
-    manner_.once = manner_.once || (is(name) && manner_.sweeps == Manner{}.sweeps);
+    manner_.once = manner_.once || (mistake_ == name && manner_.sweeps == Manner{}.sweeps);
   if (is("contacts_once")) manner_.once = true;
   for (const Body& body : scene_.bodies) {
     Rigid rigid{.position = body.position, .velocity = body.velocity, .force = {}, .angle = body.angle};
@@ -111,7 +124,21 @@ double StudentWorld::shown(double angle) const {
   return angle * (is("angle_in_degrees") ? kDegrees : 1);
 }
 
-double StudentWorld::times(std::string_view quantity) const { return quantity_ == quantity ? factor_ : 1; }
+void StudentWorld::read_mistake(const std::string& mistake) {
+  mistake_hash_ = Name::of(mistake);
+  if (const std::size_t star = mistake.find('*'); star != std::string::npos) {
+    scaled_hash_ = Name::of(std::string_view(mistake).substr(0, star));
+    factor_ = std::stod(mistake.substr(star + 1));
+  }
+  const std::size_t at = mistake.find('@'), comma = mistake.find(',');
+  if (at == std::string::npos || comma == std::string::npos) return;
+  mixed_hash_ = Name::of(std::string_view(mistake).substr(0, at));
+  axes_ = {axis_of(mistake.substr(at + 1, comma - at - 1)), axis_of(mistake.substr(comma + 1))};
+}
+
+Vec2d StudentWorld::mixed(Name quantity, Vec2d v) const {
+  return quantity.hash == mixed_hash_ ? Vec2d{dot(axes_[0], v), dot(axes_[1], v)} : v;
+}
 
 double StudentWorld::radius(const Rigid& body) const {
   return times("radius") * std::get<Circle>(body.body->shapes[0].geometry).radius;
@@ -119,9 +146,11 @@ double StudentWorld::radius(const Rigid& body) const {
 
 Box StudentWorld::box(const Rigid& body) const {
   Box out = std::get<Box>(body.body->shapes[0].geometry);
-  out.width *= times("size of a box");
-  out.height *= times("size of a box");
+  out.width *= times("size of a box") * times("width of a box");
+  out.height *= times("size of a box") * times("height of a box");
   if (is("width_and_height_swapped")) std::swap(out.width, out.height);
+  if (is("width_for_both")) out.height = out.width;
+  if (is("height_for_both")) out.width = out.height;
   return out;
 }
 
@@ -147,6 +176,7 @@ void StudentWorld::advance() {
   }
   push_out();
   if (is("no_position_correction") || manner_.by_positions || manner_.fed > 0) return;
+  if (scales("share of a joint's error without dt")) return;
   correct_all(std::max(1, sweeps() / 4));
 }
 

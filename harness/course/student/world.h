@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +12,18 @@
 #include "reference/backend.h"
 
 namespace plumb::course {
+
+/// The name of a mistake or a quantity. Names are compared by a hash, as a step compares many.
+struct Name {
+  std::uint64_t hash;
+
+  consteval Name(const char* text) : hash(of(text)) {}  // NOLINT: for literals
+  static constexpr std::uint64_t of(std::string_view text) {
+    std::uint64_t out = 14695981039346656037u;
+    for (const char c : text) out = (out ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return out;
+  }
+};
 
 struct Rigid {
   Vec2d position, velocity, force;
@@ -32,8 +47,9 @@ struct Touch {
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
-  /// `mistake` is a name, or a quantity and the factor by which it is wrong: "radius*0.5". `scheme` is
-  /// semi-implicit Euler, explicit Euler or velocity Verlet.
+  /// `mistake` is a name, a quantity and the factor by which it is wrong ("radius*0.5"), or a vector and
+  /// what stands for its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"). `scheme` is semi-implicit Euler,
+  /// explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -42,14 +58,17 @@ class StudentWorld {
   std::vector<BodyState> states() const;
 
  private:
-  bool is(std::string_view mistake) const { return mistake_ == mistake; }
+  bool is(Name mistake) const { return mistake.hash == mistake_hash_; }
   void advance();
   int sweeps() const;
   void answer_touches(bool with_joints);
   void move_and_project(bool moves);
   void correct_all(int sweeps);
-  std::vector<BodyState> truly() const;           ///< the states of now, whatever is answered
-  double times(std::string_view quantity) const;  ///< the factor by which a quantity is wrong, or 1
+  std::vector<BodyState> truly() const;  ///< the states of now, whatever is answered
+  bool scales(Name quantity) const { return quantity.hash == scaled_hash_; }
+  double times(Name quantity) const { return scales(quantity) ? factor_ : 1; }
+  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with its x and y as the mistake takes them
+  void read_mistake(const std::string& mistake);
   double shown(double angle) const;
   double radius(const Rigid& body) const;
   Box box(const Rigid& body) const;
@@ -70,6 +89,7 @@ class StudentWorld {
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
   void push_out();
+  Vec2d at_point(const Rigid& body, Vec2d arm) const;
   void solve(const Joint& joint);
   void correct(const Joint& joint);
   struct Arms {
@@ -83,17 +103,21 @@ class StudentWorld {
     Vec2d arm_a, arm_b, gap;
   };
   Ends ends(const Joint& joint) const;
+  bool joined(std::size_t a, std::size_t b) const;
 
   Scene scene_;
   double dt_;
-  std::string mistake_, quantity_;
+  std::string mistake_;
+  std::uint64_t mistake_hash_ = 0, scaled_hash_ = 0, mixed_hash_ = 0;
   double factor_ = 1;
+  std::array<Vec2d, 2> axes_;  ///< give the x and the y of a mixed vector
   reference::Scheme scheme_;
   Manner manner_;
   bool touched_ = false;  ///< there was a contact
   long steps_ = 0;
-  std::vector<BodyState> before_step_;  ///< the states before the last step
-  std::vector<Rigid> bodies_;           ///< the scene's, then the world
+  std::vector<BodyState> before_step_;            ///< the states before the last step
+  std::vector<Rigid> bodies_;                     ///< the scene's, then the world
+  std::vector<std::array<std::size_t, 2>> ends_;  ///< of the joints
 };
 
 }  // namespace plumb::course

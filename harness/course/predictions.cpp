@@ -1,0 +1,226 @@
+#include "harness/course/predictions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/course/likeness.h"
+
+namespace plumb::course {
+namespace {
+
+// Largest distance of two paths that count as the same, as a fraction of their distance from the right one. A
+// contact that is found a step sooner or later shifts a path by about a hundredth of it.
+constexpr double kSamePath = 0.1;
+
+// Right engines of different manners differ by this much in their paths, so that a wrong one may as well.
+constexpr double kManners = 2, kLoosePath = 0.3;
+
+// A share of the engine's distance from the right paths that a factor near the best one leaves, if it is far.
+constexpr double kHopeless = 0.2;
+
+// Paths that a mistake does not change are those of a right engine, to this distance.
+constexpr double kUnchanged = 1e-6;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::optional<Attempt> attempt(const Check& check, const reference::Backend& engine,
+                               const reference::StepSettings& settings, Lab::Watcher watcher = {}) {
+  Attempt out;
+  try {
+    const Lab lab(engine, settings, &out.runs, std::move(watcher));
+    out.finding = check.run(lab);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+struct TooFar : std::runtime_error {
+  TooFar() : std::runtime_error("too far") {}
+};
+
+// Ways to work that the learner's engines of a chapter differ in. Where one mistake makes sweeps differ from
+// each other, their number counts.
+std::vector<Manner> manners_of(int chapter) {
+  switch (chapter) {
+    case 1:
+      return {{},
+              {.once = true},
+              {.once = true, .after_move = true},
+              {.sweeps = 20},
+              {.sweeps = 10},
+              {.sweeps = 20, .deep = true}};
+    case 2:
+      return {{}};
+    case 3:
+      return {{},
+              {.once = true},
+              {.once = true, .after_move = true},
+              {.sweeps = 10},
+              {.sweeps = 20},
+              {.once = true, .share = 0.4},
+              {.once = true, .share = 0.2}};
+    case 4:
+      return {{}, {.once = true}, {.sweeps = 20}, {.sweeps = 10}, {.sweeps = 5}, {.sweeps = 30}};
+    default:
+      return {{}, {.once = true}, {.by_positions = true}, {.sweeps = 10}, {.sweeps = 20}, {.fed = 0.2}};
+  }
+}
+
+}  // namespace
+
+Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
+    : lab_(lab), chapter_(chapter), manners_(manners_of(chapter.front().chapter->number)) {
+  for (const Outcome& outcome : chapter) seen_.push_back(outcome.finding.mistake);
+}
+
+const std::optional<Attempt>& Predictions::of(const Planted& planted, std::size_t check) {
+  const auto [place, is_new] = attempts_.try_emplace({planted, check});
+  if (is_new) place->second = within(planted, check, kInfinity);
+  return place->second;
+}
+
+// Runs a check until its paths are farther than `limit` from the engine's: nullopt then.
+std::optional<Attempt> Predictions::within(const Planted& planted, std::size_t check, double limit) const {
+  const Outcome& outcome = chapter_[check];
+  const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
+  if (std::isinf(limit)) return attempt(*outcome.check, *student, lab_.plain_settings());
+  const auto right = attempts_.find({Planted{"", planted.manner}, check});
+  if (right == attempts_.end() || !right->second) return std::nullopt;
+  Distance distance(outcome.runs, right->second->runs.size());
+  return attempt(*outcome.check, *student, lab_.plain_settings(),
+                 [&](std::size_t run, std::size_t state, std::span<const BodyState> states) {
+                   if (distance.add(run, state, states) > limit) throw TooFar();
+                 });
+}
+
+const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::size_t check) {
+  static const std::optional<Attempt> none;
+  if (const auto known = attempts_.find({planted, check}); known != attempts_.end()) return known->second;
+  if (too_far_.contains({planted, check})) return none;
+  std::optional<Attempt> run = within(planted, check, farthest(check, planted.manner));
+  if (!run) {
+    too_far_.emplace(planted, check);
+    return none;
+  }
+  return attempts_.emplace(std::pair{planted, check}, std::move(run)).first->second;
+}
+
+// Returns a distance of the engine's paths from those of a mistake beyond which `near` is false. With r for
+// the right paths, w for the mistake's and e for the engine's, `near` asks |e - w| <= a |r - w| + b, and
+// |r - w| <= |r - e| + |e - w|. That holds as long as paths are compared over the same times.
+double Predictions::farthest(std::size_t check, std::size_t manner) {
+  const auto [place, is_new] = farthest_.try_emplace({check, manner}, kInfinity);
+  const auto& right = of({"", manner}, check);
+  if (!is_new || !right) return place->second;
+  const std::vector<Recorded>& seen = chapter_[check].runs;
+  const std::size_t n = right->runs.size();
+  if (ends_sooner(seen, right->runs, n)) return kInfinity;
+  const double most = kLoosePath * distance(right->runs, seen, n) + kManners * spread(check);
+  return farthest_[{check, manner}] = std::max(kUnchanged, most / (1 - kLoosePath));
+}
+
+void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {
+  for (std::size_t i = 0; i < chapter_.size(); ++i) {
+    const Finding& seen = chapter_[i].finding;
+    if (i == check || !chapter_[i].check->repeatable || seen.verdict == Verdict::NotYet ||
+        seen.verdict == Verdict::Broken)
+      continue;
+    const auto& predicted = of(planted, i);
+    if (seen.verdict == Verdict::Pass && predicted && refutes(seen, predicted->finding)) fit.refuted = true;
+    if (!predicted || predicted->finding.verdict != seen.verdict)
+      ++fit.verdicts;
+    else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
+      ++fit.readings;
+    else if (seen.verdict == Verdict::Fail)
+      fit.elsewhere = std::max(fit.elsewhere, off(i, planted.manner, predicted->runs));
+    if (predicted) fit.signs += sees_another(i, predicted->finding);
+  }
+  fit.signs += sees_another(check, of(planted, check)->finding);
+}
+
+// Returns true if a check sees a mistake in the motion that was predicted, and not in the engine's.
+bool Predictions::sees_another(std::size_t check, const Finding& predicted) const {
+  return predicted.observed && predicted.mistake != seen_[check];
+}
+
+double Predictions::off(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong) {
+  const auto& right = of({"", manner}, check);
+  if (!right) return 0;
+  const std::size_t n = right->runs.size();
+  const double way = distance(right->runs, wrong, n);
+  return way > 1e-9 ? distance(chapter_[check].runs, wrong, n) / way : 0;
+}
+
+bool Predictions::near(std::size_t check, std::size_t manner, const Attempt& wrong) {
+  const auto& right = of({"", manner}, check);
+  if (!right) return true;
+  const std::size_t n = right->runs.size();
+  const double way = distance(right->runs, wrong.runs, n),
+               far = distance(chapter_[check].runs, wrong.runs, n);
+  if (way <= 1e-9) return far <= std::max(kUnchanged, kManners * spread(check));
+  if (far <= kSamePath * way) return true;
+  return same_figures(chapter_[check].finding, wrong.finding) &&
+         far <= std::max(kSamePath * way + kManners * spread(check), kLoosePath * way);
+}
+
+// Returns the largest distance of the paths of right engines that work differently.
+double Predictions::spread(std::size_t check) {
+  const auto [place, is_new] = spreads_.try_emplace(check, 0);
+  if (!is_new) return place->second;
+  double most = 0;
+  for (std::size_t manner = 1; manner < manners_.size(); ++manner) {
+    const auto &first = of({}, check), &other = of({"", manner}, check);
+    if (first && other && other->finding.verdict == Verdict::Pass)
+      most = std::max(most, distance(first->runs, other->runs, first->runs.size()));
+  }
+  return spreads_[check] = most;
+}
+
+std::optional<double> Predictions::factor(const std::string& quantity, std::size_t manner,
+                                          std::size_t check) {
+  const auto& right = of({"", manner}, check);
+  const std::size_t right_runs = right ? right->runs.size() : 0;
+  double least = kInfinity;
+  // Returns infinity for what is farther than `limit`.
+  const auto far = [&](double factor, double limit) {
+    const auto run = within({fmt::format("{}*{:.17g}", quantity, factor), manner}, check, limit);
+    const double way = run ? distance(chapter_[check].runs, run->runs, right_runs) : kInfinity;
+    least = std::min(least, std::isfinite(way) ? way : kInfinity);
+    return std::isfinite(way) ? way : kInfinity;
+  };
+  constexpr double kFactors[] = {-2,   -1, -0.5, 0,   0.05, 0.1, 0.2, 0.35, 0.5,
+                                 0.75, 1,  1.25, 1.5, 2,    3,   5,   9,    15};
+  const auto count = static_cast<std::ptrdiff_t>(std::size(kFactors));
+  std::ptrdiff_t best = 0;
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    if (const double before = least; far(kFactors[i], before) < before) best = i;
+  if (std::isinf(least)) return std::nullopt;
+  const double all = right ? distance(right->runs, chapter_[check].runs, right_runs) : 0;
+  double low = kFactors[std::max<std::ptrdiff_t>(best - 1, 0)],
+         high = kFactors[std::min(best + 1, count - 1)];
+  constexpr double kGolden = 0.6180339887498949;
+  double lower = high - kGolden * (high - low), upper = low + kGolden * (high - low);
+  double at_lower = far(lower, kInfinity), at_upper = far(upper, kInfinity);
+  for (int i = 0; i < 24; ++i) {
+    // A twentieth of the interval changes the path by little: what is not near by then never is.
+    if (i == 7 && least > kHopeless * all) return std::nullopt;
+    if (at_lower < at_upper) {
+      high = std::exchange(upper, lower);
+      at_upper = at_lower;
+      at_lower = far(lower = high - kGolden * (high - low), kInfinity);
+    } else {
+      low = std::exchange(lower, upper);
+      at_lower = at_upper;
+      at_upper = far(upper = low + kGolden * (high - low), kInfinity);
+    }
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/course/course.h"
+#include "harness/course/student/student.h"
+
+/// Runs the checks of a chapter on the learner's engine (student/student.h) with a mistake.
+namespace plumb::course {
+
+struct Attempt {
+  Finding finding;
+  std::vector<Recorded> runs;
+};
+
+/// A mistake as the learner's engine makes it, in one of the ways in which engines work.
+struct Planted {
+  std::string mistake;
+  std::size_t manner = 0;
+
+  auto operator<=>(const Planted&) const = default;
+};
+
+/// How well a mistake fits a check.
+struct Fit {
+  std::string name, says;
+  Planted planted;
+  double off = 0;  ///< distance of the paths over that from the right ones
+  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
+  int verdicts = 0, readings = 0;
+  double elsewhere = 0;    ///< largest `off` of the other checks that fail
+  bool generated = false;  ///< one of a family
+  bool exact = false;      ///< its figures are the engine's, and its paths as good as
+  bool refuted = false;    ///< another check, which the engine passes, would clearly fail
+  int signs = 0;           ///< checks that see a mistake in its motion, and not in that of the engine
+};
+
+/// Runs each check at most once for each mistake.
+class Predictions {
+ public:
+  Predictions(const Lab& lab, const std::vector<Outcome>& chapter);
+
+  /// Returns nullopt if the check throws.
+  const std::optional<Attempt>& of(const Planted& planted, std::size_t check);
+
+  /// Returns nullopt as well if the paths are too far from the engine's for `near`. Such a run ends as soon
+  /// as that is clear, which for most mistakes is early in the first scene.
+  const std::optional<Attempt>& nearby(const Planted& planted, std::size_t check);
+
+  /// Returns the share of an overlap that a step removes.
+  double share(std::size_t manner) const { return manners_[manner].after_move ? 1 : manners_[manner].share; }
+
+  double dt() const { return lab_.dt(); }
+
+  std::size_t manners() const { return manners_.size(); }
+
+  /// Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
+  void refute(const Planted& planted, std::size_t check, Fit& fit);
+
+  /// Returns the distance of the engine's paths from those of a mistake, over that of the right ones from
+  /// them. If only velocities are wrong it is 0: readings decide alone.
+  double off(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong);
+
+  /// Returns true if the engine's paths are those of a mistake. If its figures are exactly those, paths may
+  /// differ by more: by what right engines differ in, and by how overlaps are corrected that only the mistake
+  /// causes.
+  bool near(std::size_t check, std::size_t manner, const Attempt& wrong);
+
+  /// Returns the factor with which the learner's engine comes nearest to the engine's paths, or nullopt if it
+  /// does not come near them with any.
+  std::optional<double> factor(const std::string& quantity, std::size_t manner, std::size_t check);
+
+ private:
+  bool sees_another(std::size_t check, const Finding& predicted) const;
+  double spread(std::size_t check);
+  double farthest(std::size_t check, std::size_t manner);
+  std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit) const;
+
+  const Lab& lab_;
+  const std::vector<Outcome>& chapter_;
+  std::vector<std::string> seen_;  ///< the mistakes that the checks themselves saw
+  std::vector<Manner> manners_;
+  std::map<std::pair<Planted, std::size_t>, std::optional<Attempt>> attempts_;
+  std::set<std::pair<Planted, std::size_t>> too_far_;
+  std::map<std::size_t, double> spreads_;
+  std::map<std::pair<std::size_t, std::size_t>, double> farthest_;  ///< by check and manner
+};
+
+}  // namespace plumb::course
