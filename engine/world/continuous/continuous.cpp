@@ -196,8 +196,10 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
     return;
   }
   const int other_place = other == nullptr ? kNone : w.scratch.swept_body_places[other_body];
-  const int most = restitution_between(w, next.shape, next.other) > 0 ? tuning::kImpactsInFlight
-                                                                      : tuning::kLandingsInFlight;
+  const Real restitution = restitution_between(w, next.shape, next.other);
+  const int most = restitution == 1  ? tuning::kImpactsInFlight
+                   : restitution > 0 ? tuning::kBouncesInFlight + tuning::kLandingsInFlight
+                                     : tuning::kLandingsInFlight;
   if (flight.yields && flight.impacts < most && may_rebound(w, next.shape, next.other, search.dt)) {
     const bool is_last = flight.impacts + 1 == most;
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt, is_last);

@@ -174,7 +174,7 @@ inline constexpr double kReboundTolerance = 1e-14;
 
 /// Impacts that a body may have within a step; at one more it waits for the next step, with the body it
 /// meets. From kBouncesInFlight on, impacts with restitution below 1 are inelastic: a box that lands flat has
-/// ever smaller ones, without end.
+/// ever smaller ones, without end, and has kLandingsInFlight of these.
 inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
 /// The same for an impact without restitution: the corners of a side, one after the other, and back. The last
 /// one ends the landing: no point of the side approaches after it. With 3, sharp polygons that spin by tens
