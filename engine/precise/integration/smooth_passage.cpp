@@ -138,7 +138,7 @@ double EventFreeIntegrator::accept_near_crossing(double error) {
 /// Leaves y at that end.
 double EventFreeIntegrator::try_near_crossing(double end) {
   const double h = end - start_;
-  constexpr double kLost = std::numeric_limits<double>::infinity();
+  constexpr double kRefused = std::numeric_limits<double>::infinity();
   last_near_ = true;
   last_implicit_ = false;
   all_.method.step(passage_, start_, h, y0_.value());
@@ -146,13 +146,13 @@ double EventFreeIntegrator::try_near_crossing(double end) {
   all_.method.error_vectors(h, fifth, third);
   double raw_size = 0;
   for (const double e : fifth) raw_size = std::max(raw_size, std::abs(e));
-  if (!std::isfinite(raw_size)) return kLost;
+  if (!std::isfinite(raw_size)) return kRefused;
   std::vector<double> raw(y0_.value().begin(), y0_.value().end());
   for (std::size_t i = 0; i < raw.size(); ++i) raw[i] += all_.method.increment()[i];
   try {
     take_increment(end);
   } catch (const Error&) {  // cannot be projected from so far
-    return kLost;
+    return kRefused;
   }
   equations_.keep_allowed(fifth);
   equations_.keep_allowed(third);
@@ -160,7 +160,7 @@ double EventFreeIntegrator::try_near_crossing(double end) {
     // Beyond the tolerance, the projection may have reached another branch.
     if (i % EquationsOfMotion::kPerBody < 3 &&
         !(std::abs(y_[i] - raw[i]) <= kSteps * std::max(1.0, kTight / tolerance_) * all_.error_scale[i]))
-      return kLost;
+      return kRefused;
   }
   return Dop853::error(all_.error_scale, fifth, third);
 }
