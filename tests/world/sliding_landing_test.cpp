@@ -16,7 +16,7 @@ constexpr double kDt = 1.0 / 60;
 const Material kSmooth{.friction = 0, .restitution = 0};
 
 enum class Wall { Box, Chain };
-enum class Body { Box, Polygon, Capsule };
+enum class Body { Box, Polygon, Capsule, Compound };
 
 // Throws random bodies, thin ones among them, at a tilted wall. Returns how many are ever off their place
 // along it by more than a hundredth of a step's way.
@@ -57,6 +57,10 @@ int late_bodies(Wall wall, Body body, int count) {
                                              .velocity = -speed * out + slip * along,
                                              .angular_velocity = within(-5, 5)},
                                             shape);
+    if (body == Body::Compound)
+      world.create_shape(thrown, {.geometry = plumb::Box{height, width},
+                                  .position = {0.3 * width, 0.2 * height},
+                                  .material = kSmooth});
     const Vec2d start = world.centre(thrown);
     const double rate = dot(world.velocity(thrown), along);
     double off = 0;
@@ -89,6 +93,12 @@ TYPED_TEST(SlidingLandings, OfSharpPolygonsAndCapsulesCostNoTimeButFewThatSpin) 
     EXPECT_LE(late_bodies<TypeParam>(wall, Body::Polygon, 400), 6);
     EXPECT_LE(late_bodies<TypeParam>(wall, Body::Capsule, 400), 6);
   }
+}
+
+// A body of two shapes that land by turns has more impacts in a step than are placed at their times. The last
+// of them ends the landing, and the body slides on: stopped there, 27 to 41 of 400 were late.
+TYPED_TEST(SlidingLandings, OfTwoBoxesOfABodyCostNoTime) {
+  EXPECT_LE(late_bodies<TypeParam>(Wall::Box, Body::Compound, 400), 2);
 }
 
 // A corner touches and the other one comes down: the impulse there presses on the first one, so that both
