@@ -19,7 +19,8 @@ struct ContactImpulses {
 /// round, within the impact. Newton's law with friction may gain energy (Kane and Levinson 1985): then all
 /// impulses are scaled back until none is gained.
 ///
-/// Points that do not strike have none. `wanted`: m/s.
+/// Only points in `strikes` may have one: those that touch, whether they approach or are pressed on by the
+/// other point's. `wanted`: m/s.
 template <class Real>
 ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
                           const ContactConstraint<Real>& c, const bool (&strikes)[2],

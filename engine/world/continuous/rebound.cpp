@@ -126,6 +126,7 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
     wanted[i] =
         std::max(fast ? -double(c.restitution) * double(c.approach[i]) : 0, speed_above_rounding(w, c, i));
     if (closed[i] || !(left > 0)) continue;
+    // It may come as near as it is, and no nearer, in the time left.
     wanted[i] = -double(c.separation[i]) / double(left);
     closed[i] = true;
   }

@@ -26,7 +26,8 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt);
 
 /// Resolves an impact in flight: `a` with its `shape`, and `b` with its `other` (null: it does not move),
 /// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; approaches
-/// too slow to bounce slide along the surface. Returns false and does nothing if they do not approach.
+/// too slow to bounce slide along the surface. After the last impact that the step has room for (`is_last`)
+/// no point of the contact approaches any more. Returns false and does nothing if they do not approach.
 template <class Real>
 bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction, double dt,
              bool is_last);
