@@ -124,6 +124,15 @@ bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbou
   return neighbour == side.body || (!w.is_dynamic(neighbour) && !w.is_dynamic(side.body));
 }
 
+// Returns true if a face is kept rather than another one. Decides ties too, so that the order in which
+// neighbours are asked does not matter.
+template <class Real>
+bool is_preferred(const SeamAnswer<Real>& face, const SeamAnswer<Real>& other) {
+  if (face.height != other.height) return face.height > other.height;
+  if (face.face != other.face) return face.face < other.face;
+  return face.at_start && !other.at_start;
+}
+
 // Tests a neighbour; of several faces it keeps the one that the other shape is farthest in front of.
 template <class Real>
 void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
@@ -134,9 +143,8 @@ void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
   const SeamAnswer<Real> answer =
       look_across_seam(side.touched, shape, w.forms[neighbour].chain ? 1 : shape.count,
                        pose_in(w, w.shapes[neighbour].body, side.body));
-  const bool nearer = answer.height > side.answer.height ||
-                      (answer.height == side.answer.height && answer.face < side.answer.face);
-  if (answer.kind == Kind::Hidden || (answer.kind == Kind::Face && (side.answer.kind == Kind::Own || nearer)))
+  if (answer.kind == Kind::Hidden ||
+      (answer.kind == Kind::Face && (side.answer.kind == Kind::Own || is_preferred(answer, side.answer))))
     side.answer = answer;
 }
 
@@ -192,6 +200,101 @@ bool slides_along(const WorldData<Real>& w, const ContactRecord& contact, const 
   return std::abs(cross(normal, velocity)) > std::abs(dot(normal, velocity));
 }
 
+// The two sides of a contact, each computed when its first neighbour is asked.
+template <class Real>
+struct Sides {
+  Side<Real> of_a, of_b;
+  bool looked_a = false, looked_b = false;
+};
+
+// Shapes of two dynamic bodies up to which all of them are tried as neighbours; of bodies with more, only
+// those that have contacts. Bodies of a few convex parts have fewer shapes than contacts.
+constexpr int kFewShapes = 16;
+
+// Returns true if a body has at most `most` shapes, which is reduced by their number.
+template <class Real>
+bool has_few_shapes(const WorldData<Real>& w, int body, int& most) {
+  int shape = w.bodies[body].first_shape;
+  while (shape != kNone && most > 0) shape = w.shapes[shape].next, --most;
+  return shape == kNone;
+}
+
+// Calls look_at(shape, shape it must have a contact with) for the shapes that may continue the surface of a
+// contact between two dynamic bodies: the other shapes of both.
+template <class Real, class LookAt>
+void for_each_sibling(const WorldData<Real>& w, const ContactRecord& contact, const LookAt& look_at) {
+  for (int shape = w.bodies[contact.body_a].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    if (shape != contact.shape_a) look_at(shape, contact.shape_b);
+  for (int shape = w.bodies[contact.body_b].first_shape; shape != kNone; shape = w.shapes[shape].next)
+    if (shape != contact.shape_b) look_at(shape, contact.shape_a);
+}
+
+// Calls look_at(shape, kNone) for all shapes that have a contact with one of the contact's shapes, and belong
+// to the other one's side, by the contacts of a body.
+template <class Real, class LookAt>
+void for_each_touching(const WorldData<Real>& w, const ContactRecord& contact, int asked,
+                       const LookAt& look_at) {
+  const bool asks_a = asked == contact.body_a;
+  const int own = asks_a ? contact.shape_a : contact.shape_b,
+            other = asks_a ? contact.shape_b : contact.shape_a;
+  for (int edge = w.bodies[asked].first_contact; edge != kNone;) {
+    const ContactRecord& record = w.contacts[edge / 2];
+    const bool is_a = (edge & 1) == 0;
+    edge = record.next[edge & 1];
+    const int beside = is_a ? record.shape_b : record.shape_a,
+              of_asked = is_a ? record.shape_a : record.shape_b;
+    // Only shapes that have a contact with the sliding shape count as neighbours, so its list has them all.
+    if (of_asked == own && beside != other) look_at(beside, kNone);
+    if (beside == other && of_asked != own) look_at(of_asked, kNone);
+  }
+}
+
+// Returns true if a manifold's two points are farther apart than `widest`.
+template <class Real>
+bool is_wide(const ContactManifold<Real>& manifold, Real widest) {
+  return manifold.count == 2 &&
+         length_squared(manifold.points[1].point - manifold.points[0].point) > widest * widest;
+}
+
+// Asks the neighbours of both sides of a contact.
+template <class Real>
+Sides<Real> ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
+                           const ContactManifold<Real>& manifold, Real smaller, Real way, bool both_dynamic) {
+  Sides<Real> sides;
+  const int asked = body_to_ask(w, contact);
+  int few = kFewShapes;
+  const bool by_shapes =
+      both_dynamic && has_few_shapes(w, contact.body_a, few) && has_few_shapes(w, contact.body_b, few);
+  if (!by_shapes) {
+    const int first = w.bodies[asked].first_contact;
+    if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return sides;
+  }
+  const Region<Real> region = region_of(w, contact, manifold, smaller, way);
+  // As `stays_beside` of either side, before anything is computed.
+  const auto may_be_beside = [&](int body) {
+    return body == contact.body_a || body == contact.body_b || (!both_dynamic && !w.is_dynamic(body));
+  };
+  const auto look_at = [&](int shape, int touched) {
+    const int body = w.shapes[shape].body;
+    if (!may_be_beside(body) || !w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
+    if (touched != kNone && !w.pairs.contains(shape, touched)) return;
+    if (body != contact.body_b) {
+      if (!sides.looked_a) sides.of_a = side_of(w, contact, false, b_in_a, manifold), sides.looked_a = true;
+      ask(w, sides.of_a, shape);
+    }
+    if (body != contact.body_a) {
+      if (!sides.looked_b) sides.of_b = side_of(w, contact, true, b_in_a, manifold), sides.looked_b = true;
+      ask(w, sides.of_b, shape);
+    }
+  };
+  if (by_shapes) {
+    for_each_sibling(w, contact, look_at);
+  } else {
+    for_each_touching(w, contact, asked, look_at);
+  }
+  return sides;
+}
+
 }  // namespace
 
 template <class Real>
@@ -204,60 +307,23 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     const int shape = w.bodies[body].first_shape;
     return shape == kNone || w.shapes[shape].next == kNone;
   };
-  if (w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b) && is_single(contact.body_a) &&
-      is_single(contact.body_b))
-    return manifold;
-  const int asked = body_to_ask(w, contact);
-  const int first = w.bodies[asked].first_contact;
-  if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return manifold;
+  const bool both_dynamic = w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b);
+  if (both_dynamic && is_single(contact.body_a) && is_single(contact.body_b)) return manifold;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   const Real widest = Real(tuning::kSeamDepth) * smaller;
-  if (manifold.count == 2 &&
-      length_squared(manifold.points[1].point - manifold.points[0].point) > widest * widest)
-    return manifold;
-  const Region<Real> region = region_of(w, contact, manifold, smaller, way);
-  const bool asks_a = asked == contact.body_a;
-  const int own = asks_a ? contact.shape_a : contact.shape_b,
-            other = asks_a ? contact.shape_b : contact.shape_a;
-  // As `stays_beside` of either side, before anything is computed.
-  const bool both_dynamic = w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b);
-  const auto may_be_beside = [&](int body) {
-    return body == contact.body_a || body == contact.body_b || (!both_dynamic && !w.is_dynamic(body));
-  };
-  Side<Real> sides[2];
-  bool looked = false;
-  const auto look_at = [&](int shape) {
-    const int body = w.shapes[shape].body;
-    if (!may_be_beside(body) || !w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
-    if (!looked) {
-      sides[0] = side_of(w, contact, false, b_in_a, manifold);
-      sides[1] = side_of(w, contact, true, b_in_a, manifold);
-      looked = true;
-    }
-    if (body != contact.body_b) ask(w, sides[0], shape);
-    if (body != contact.body_a) ask(w, sides[1], shape);
-  };
-  for (int edge = first; edge != kNone;) {
-    const ContactRecord& record = w.contacts[edge / 2];
-    const bool is_a = (edge & 1) == 0;
-    edge = record.next[edge & 1];
-    const int beside = is_a ? record.shape_b : record.shape_a,
-              of_asked = is_a ? record.shape_a : record.shape_b;
-    // Only shapes that have a contact with the sliding shape count as neighbours, so its list has them all.
-    if (of_asked == own && beside != other) look_at(beside);
-    if (beside == other && of_asked != own) look_at(of_asked);
-  }
-  if (!looked) return manifold;
-  if (sides[0].answer.kind == Kind::Hidden || sides[1].answer.kind == Kind::Hidden) return {};
+  if (is_wide(manifold, widest)) return manifold;
+  const Sides<Real> found_sides = ask_neighbours(w, contact, b_in_a, manifold, smaller, way, both_dynamic);
+  const Side<Real>* const sides[2] = {&found_sides.of_a, &found_sides.of_b};
+  if (sides[0]->answer.kind == Kind::Hidden || sides[1]->answer.kind == Kind::Hidden) return {};
   // Static and kinematic bodies first.
   const int order = !w.is_dynamic(contact.body_a) || w.is_dynamic(contact.body_b) ? 0 : 1;
   for (const int i : {order, 1 - order}) {
-    if (sides[i].answer.kind != Kind::Face) continue;
-    if (w.is_dynamic(sides[i].body) && !slides_along(w, contact, sides[i])) continue;
-    const ContactManifold<Real> found = on_face(w, contact, sides[i], b_in_a, reach);
+    if (sides[i]->answer.kind != Kind::Face) continue;
+    if (w.is_dynamic(sides[i]->body) && !slides_along(w, contact, *sides[i])) continue;
+    const ContactManifold<Real> found = on_face(w, contact, *sides[i], b_in_a, reach);
     if (found.count == 0) {
       // Nothing in front of the face: a body that lies in the shape keeps a contact.
-      const bool overlaps = deepest_of(manifold) < -2 * sides[i].touched.tolerance;
+      const bool overlaps = deepest_of(manifold) < -2 * sides[i]->touched.tolerance;
       return overlaps ? manifold : found;
     }
     return deepest_of(found) < -widest ? manifold : found;
