@@ -103,9 +103,9 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
   const Vec2<Real> first = segment.corners[0].point, second = segment.corners[1].point;
   const Vec2<Real> normal = segment.corners[0].normal;
   Hull<Real> hull_a, hull_b;
-  place<0>(hull_a, segment, first);
+  place<kAny>(hull_a, segment, first);
   hull_a.edges = 1;
-  place<0>(hull_b, b, b_in_a.rotation, b_in_a.position - first);
+  place<kAny>(hull_b, b, b_in_a.rotation, b_in_a.position - first);
 
   // Only shapes in front are touched.
   Vec2<Real> sum{};
@@ -116,7 +116,7 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
                              neighbour(second, after, normal, false),
                              32 * std::numeric_limits<Real>::epsilon() *
                                  (taxicab(first) + taxicab(second) + taxicab(b_in_a.position))};
-  return collide_hulls<0, 0>(
+  return collide_hulls<kAny, kAny>(
       hull_a, hull_b, [&] { return smaller_size(segment, b); }, reach, first, pivot - first, admit);
 }
 

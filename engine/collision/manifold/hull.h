@@ -68,6 +68,10 @@ struct Hull {
   int previous(int i) const { return i > 0 ? i - 1 : count - 1; }
 };
 
+/// What is known of a hull's number of corners when the code is compiled: nothing; that all of them are in
+/// one register of four, padded; that there are four.
+inline constexpr int kAny = 0, kUpToFour = 3, kFour = 4;
+
 /// Loads four corners from `first` on, as x and y of their points and of their normals. `kFull`: all four
 /// exist.
 template <bool kFull, class Real>
@@ -81,18 +85,17 @@ inline void load_corners(const Convex<Real>& shape, int first, Four<Real> (&out)
   transpose(rows, out);
 }
 
-/// Places a shape with `kCount` corners, or any number if 0.
+/// Places a shape; of its number of corners `kCount` is known.
 template <int kCount, class Real>
 inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rotation, Vec2<Real> position) {
-  const int count = kCount ? kCount : shape.count;
-  out.count = out.edges = count;
+  out.count = out.edges = kCount == kFour ? kFour : shape.count;
   out.radius = shape.radius;
   using Lanes = Four<Real>;
   const Lanes c = Lanes(rotation.c), s = Lanes(rotation.s);
   const Lanes px = Lanes(position.x), py = Lanes(position.y);
-  for (int i = 0; i < count; i += 4) {
+  for (int i = 0; i < (kCount == kAny ? shape.count : 4); i += 4) {
     Lanes in[4];
-    load_corners<kCount == 4>(shape, i, in);
+    load_corners<kCount == kFour>(shape, i, in);
     (px + (c * in[0] - s * in[1])).store(out.x + i);
     (py + (s * in[0] + c * in[1])).store(out.y + i);
     (c * in[2] - s * in[3]).store(out.nx + i);
@@ -102,14 +105,13 @@ inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rot
 
 template <int kCount, class Real>
 inline void place(Hull<Real>& out, const Convex<Real>& shape, Vec2<Real> origin) {
-  const int count = kCount ? kCount : shape.count;
-  out.count = out.edges = count;
+  out.count = out.edges = kCount == kFour ? kFour : shape.count;
   out.radius = shape.radius;
   using Lanes = Four<Real>;
   const Lanes px = Lanes(origin.x), py = Lanes(origin.y);
-  for (int i = 0; i < count; i += 4) {
+  for (int i = 0; i < (kCount == kAny ? shape.count : 4); i += 4) {
     Lanes in[4];
-    load_corners<kCount == 4>(shape, i, in);
+    load_corners<kCount == kFour>(shape, i, in);
     (in[0] - px).store(out.x + i);
     (in[1] - py).store(out.y + i);
     in[2].store(out.nx + i);

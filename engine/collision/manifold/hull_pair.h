@@ -44,19 +44,19 @@ inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull
   return {larger(most_low, most_high), first + (most_high > most_low ? high : low)};
 }
 
-/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are the hulls'
-/// numbers of corners if known at compile time, or 0. Repetitions of the last corner never win over itself.
+/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are what is
+/// known of the hulls' numbers of corners. Repetitions of the last corner never win over itself.
 template <int kCount, int kOther, class Real>
 inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
-  const int count = kOther ? kOther : other.count;
-  if (hull.edges == 1) {  // a chain's front
+  const int count = kOther == kAny ? other.count : 4;
+  if (kCount == kAny && hull.edges == 1) {  // a chain's front
     Real out = dot(hull.normal(0), other.point(0));
     for (int j = 1; j < count; ++j)
       if (const Real next = dot(hull.normal(0), other.point(j)); next < out) out = next;
     return {out - dot(hull.normal(0), hull.point(0)), 0};
   }
   Face<Real> best = farthest_of_four(hull, 0, other, count);
-  if (kCount == 4) return best;
+  if (kCount != kAny) return best;
   for (int i = 4; i < hull.count && best.separation <= limit; i += 4)
     if (const Face<Real> face = farthest_of_four(hull, i, other, count); face.separation > best.separation)
       best = face;
@@ -66,7 +66,7 @@ inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other,
 /// Returns the corner least far along a direction: the first of equals.
 template <int kCount, class Real>
 inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
-  if (kCount == 4) {
+  if (kCount != kAny) {
     using Lanes = Four<Real>;
     Real s[4];
     (Lanes(direction.x) * Lanes::load(hull.x) + Lanes(direction.y) * Lanes::load(hull.y)).store(s);
@@ -99,7 +99,7 @@ int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   return cross(normal, n_before) < cross(n_after, normal) ? before : corner;
 }
 
-/// `kOther` is the number of corners of `other`, or 0.
+/// `kOther` is what is known of the number of corners of `other`.
 template <int kOther, class Real>
 inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, const Hull<Real>& other,
                                       bool reference_is_b) {
@@ -222,7 +222,7 @@ ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, con
   const bool reference_is_b = edges.reference_is_b;
   const Hull<Real>&reference = reference_is_b ? b : a, &other = reference_is_b ? a : b;
   const Vec2<Real> normal = reference.normal(face.edge);
-  const int corner = nearest_end(edges, support<0>(other, normal));
+  const int corner = nearest_end(edges, support<kAny>(other, normal));
   const Vec2<Real> point = other.point(corner);
   const int end = along(reference, face.edge, point) < 0 ? face.edge : reference.next(face.edge);
   if (reference_is_b)
@@ -252,7 +252,7 @@ inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b
   if (edges.reference_is_b) {
     const Normal answer = admit(-edges.normal);
     if (answer == Normal::Skip) return {};
-    if (answer == Normal::Snap) edges = facing_edges<0>(a, faces.a.edge, b, false);
+    if (answer == Normal::Snap) edges = facing_edges<kAny>(a, faces.a.edge, b, false);
   }
   if (!edges.reference_is_b) admit.widen(edges);
   return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
@@ -271,9 +271,9 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   // Of two equally deep ends of parallel edges beside each other, take the nearer one if the far one may be
   // within reach: a segment has no thickness, and a rounded shape no edge, that would separate it.
   const bool either = a.count == 2 || b.count == 2 || a.radius + b.radius > 0;
-  const int deepest = support<0>(other, reference.normal(edge));
+  const int deepest = support<kAny>(other, reference.normal(edge));
   const int corner =
-      either ? nearest_end(facing_edges<0>(reference, edge, other, nearer_b), deepest) : deepest;
+      either ? nearest_end(facing_edges<kAny>(reference, edge, other, nearer_b), deepest) : deepest;
   const int place = along(reference, edge, other.point(corner));
   bool use_b = nearer_b;
   if (place != 0) {
@@ -293,13 +293,13 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
     }
   }
   FacingEdges<Real> edges =
-      use_b ? facing_edges<0>(b, faces.b.edge, a, true) : facing_edges<0>(a, faces.a.edge, b, false);
+      use_b ? facing_edges<kAny>(b, faces.b.edge, a, true) : facing_edges<kAny>(a, faces.a.edge, b, false);
   return touch_face(a, b, faces, edges, reach, origin, admit);
 }
 
 /// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame; `pivot` is in
 /// their frame. `size` returns the size of the smaller one. `admit` selects the normals allowed; a snapped
-/// one becomes that of a's first edge. `kA` and `kB` are the numbers of corners, or 0.
+/// one becomes that of a's first edge. `kA` and `kB` are what is known of the numbers of corners.
 template <int kA, int kB, class Real, class Size, class Admit>
 inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
                                            Real reach, Vec2<Real> origin, Vec2<Real> pivot,
@@ -315,9 +315,10 @@ inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>
   const bool prefer_b = faces.b.separation > faces.a.separation &&
                         faces.b.separation > faces.a.separation + Real(kPreference) * size();
   // One path for both: a branch here would be mispredicted half the time.
+  constexpr int kOther = kA == kAny || kB == kAny ? kAny : kA == kB ? kA : kUpToFour;
   const Hull<Real>&reference = prefer_b ? b : a, &other = prefer_b ? a : b;
   FacingEdges<Real> edges =
-      facing_edges < kA == kB ? kA : 0 > (reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);
+      facing_edges<kOther>(reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);
   const bool apart = faces.a.separation > 0 || faces.b.separation > 0;
   if (apart && !over_edge(edges)) return touch_apart(a, b, faces, prefer_b, size(), reach, origin, admit);
   return touch_face(a, b, faces, edges, reach, origin, admit);

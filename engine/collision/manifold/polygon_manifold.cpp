@@ -4,7 +4,7 @@ namespace plumb::narrow {
 
 namespace {
 
-/// `kA` and `kB` are the numbers of corners if known at compile time, or 0.
+/// `kA` and `kB` are what is known of the numbers of corners.
 template <int kA, int kB, class Real>
 ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                       Real reach, Vec2<Real> pivot) {
@@ -26,8 +26,9 @@ template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                        Real reach, Vec2<Real> pivot) {
   // Boxes are the most common shapes.
-  if (a.count == 4 && b.count == 4) return collide_counted<4, 4>(a, b, b_in_a, reach, pivot);
-  return collide_counted<0, 0>(a, b, b_in_a, reach, pivot);
+  if (a.count == 4 && b.count == 4) return collide_counted<kFour, kFour>(a, b, b_in_a, reach, pivot);
+  if (a.count <= 4 && b.count <= 4) return collide_counted<kUpToFour, kUpToFour>(a, b, b_in_a, reach, pivot);
+  return collide_counted<kAny, kAny>(a, b, b_in_a, reach, pivot);
 }
 
 template ContactManifold<float> collide_polygons(const Convex<float>&, const Convex<float>&,

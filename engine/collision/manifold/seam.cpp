@@ -208,10 +208,10 @@ ContactManifold<Real> collide_face(const Convex<Real>& a, int face, bool at_star
     return single_point(origin + x * tangent, normal, height, a.radius, b.radius, reach, 0);
   }
   Hull<Real> hull_a, hull_b;
-  place<0>(hull_a, a, origin);
+  place<kAny>(hull_a, a, origin);
   hull_a.edges = 1;  // the given one
-  place<0>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
-  FacingEdges<Real> edges = facing_edges<0>(hull_a, face, hull_b, false);
+  place<kAny>(hull_b, b, b_in_a.rotation, b_in_a.position - origin);
+  FacingEdges<Real> edges = facing_edges<kAny>(hull_a, face, hull_b, false);
   (at_start ? edges.slack_before : edges.slack_after) = slack;
   const Span<Real> span = span_of(edges, hull_a, hull_b, pivot - origin, reach + a.radius + b.radius);
   return points_of(span, edges, reach, origin);
