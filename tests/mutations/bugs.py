@@ -264,7 +264,7 @@ MUTATIONS = [
              "flight.stop(fraction);",
              "w.motion[flight.body].velocity *= static_cast<Real>(fraction); flight.stop(fraction);", "world"),
     Mutation("world: continuous collision leaves out what has a contact", "engine/world/continuous/toi_events.h",
-             "push_toi_event(w, way, {shape, other, constraint_in(w, contact)}, first);",
+             "push_toi_event(w, way, {shape, other, constraint_in(w, contact), false, true}, first);",
              "if (contact.home != ContactHome::Graph) push_toi_event(w, way, {shape, other}, first);", "world",
              ("world/continuous",)),
     Mutation("world: what a hinge holds is swept along a straight line", "engine/world/continuous/swept_bodies.cpp",

@@ -253,7 +253,7 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   const SweptBody pusher = w.scratch.swept_bodies[place];
   const auto note = [&](int shape, int other, const ContactConstraint<Real>* contact) {
     const int body = w.shapes[shape].body;
-    if (!pass_fast(w, body, pusher.body)) return;
+    if (!FastPassing<Real>(w, body).passes(pusher.body)) return;
     const int met = flight_place(w, body, search.dt);
     const Way way(w.scratch.swept_bodies[met], 0, search);
     ToiEvent found{.flight = met, .version = way.flight.version};

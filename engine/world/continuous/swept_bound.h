@@ -18,7 +18,6 @@ class SweptBound {
       : a_(w, shape), b_(w, other), enough_(enough) {
     between_ = (w.position[a_.body] - w.position[b_.body]).template as<Real>();
     way_ = w.motion[a_.body].moved - w.motion[b_.body].moved;
-    line_ = between_ + a_.rotation * middle(a_) - b_.rotation * middle(b_);
     // Rotation to first order.
     const auto bend = [](const Side& side) { return Real(0.5) * side.turned * side.turned * side.reach; };
     rest_ = a_.convex.radius + b_.convex.radius + bend(a_) + bend(b_);
@@ -34,6 +33,7 @@ class SweptBound {
   }
   /// Tests the normals of the edges, and the line between the centres.
   bool try_edges() {
+    line_ = between_ + a_.rotation * middle(a_) - b_.rotation * middle(b_);
     if (try_edges_of(a_, -Real(1)) || try_edges_of(b_, Real(1))) return true;
     const Real length = std::sqrt(length_squared(line_));
     return length > 0 && try_along({line_.x / length, line_.y / length});
@@ -84,7 +84,7 @@ class SweptBound {
   Side a_, b_;
   Real enough_, least_ = -std::numeric_limits<Real>::max();
   Vec2<Real> between_{}, way_{};  // m, from b's centre of mass to a's at the end of the step, and its change
-  Vec2<Real> line_{};             // m, the same between the centres of the shapes
+  Vec2<Real> line_{};             // m, the same between the centres of the shapes, for `try_edges`
   Real rest_ = 0;
 };
 

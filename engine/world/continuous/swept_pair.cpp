@@ -10,6 +10,7 @@
 #include "engine/geometry/convex_core.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bound.h"
+#include "engine/world/continuous/swept_boxes.h"
 #include "engine/world/state/constants.h"
 
 namespace plumb {
@@ -212,42 +213,15 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   return {};
 }
 
-// Returns true if the AABBs of two shapes are more than `apart` (m) from each other throughout the step,
-// along the same axis: on the solver's motions, which are straight, and with rotations bounded by their arcs.
-template <class Real>
-bool boxes_stay_apart(const WorldData<Real>& w, const SweptPair<Real>& pair, Real apart) {
-  const int a = w.shapes[pair.shape].body, b = w.shapes[pair.other].body;
-  const Vec2<Real> way = w.motion[b].moved - w.motion[a].moved;
-  const Aabb<Real>&box_a = w.boxes[pair.shape], &box_b = w.boxes[pair.other];
-  const Real turned =
-      std::abs(w.motion[a].turned) * w.extents[a] + std::abs(w.motion[b].turned) * w.extents[b];
-  // Far from the origin boxes are rounded as coarsely as positions.
-  const Real size = std::max(std::abs(box_a.lower.x), std::abs(box_a.upper.x)) +
-                    std::max(std::abs(box_a.lower.y), std::abs(box_a.upper.y));
-  const Real least = apart + turned + 8 * std::numeric_limits<Real>::epsilon() * size;
-  const auto clear = [&](Real gap, Real closed) { return std::min(gap, gap - closed) > least; };
-  return clear(box_b.lower.x - box_a.upper.x, way.x) || clear(box_a.lower.x - box_b.upper.x, -way.x) ||
-         clear(box_b.lower.y - box_a.upper.y, way.y) || clear(box_a.lower.y - box_b.upper.y, -way.y);
-}
-
 // Returns true if a quick bound shows that a pair of shapes does not collide on the solver's motions.
 template <class Real>
 bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
-  const auto is_straight = [](const SweptBody& flight) { return !flight.changed && flight.arm == Vec2d{}; };
-  // A parabola deviates from its chord by at most a quarter of its curve.
-  const auto bend = [&](int body) {
-    const BodyMotion<Real>& motion = w.motion[body];
-    const Vec2<Real> curve = static_cast<Real>(way.search.dt) * motion.velocity - motion.moved;
-    return w.is_dynamic(body) ? Real(0.25) * (std::abs(curve.x) + std::abs(curve.y)) : Real(0);
-  };
-  if (pair.stands || !is_straight(way.flight)) return false;
-  const int other_body = w.shapes[pair.other].body;
-  if (const SweptBody* flight = flight_in(w, other_body); flight != nullptr && !is_straight(*flight))
-    return false;
+  if (pair.stands) return false;
+  const SweptBoxes<Real> boxes(w, way);
+  if (!boxes.both_straight(w.shapes[pair.other].body)) return false;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
-  const Real apart = Real(4 * tuning::kImpactTolerance) * std::min(form.extent, other_form.extent) +
-                     bend(way.flight.body) + bend(other_body);
-  if (boxes_stay_apart(w, pair, apart)) return true;
+  const Real apart = boxes.apart(pair.shape, pair.other);
+  if (!pair.boxes_meet && boxes.stay_apart(pair.shape, pair.other, apart)) return true;
   const bool discs = form.count == 1 && other_form.count == 1;
   const Real depth = form.chain ? half_width_of(w, pair.other) : half_width_of(w, pair.shape);
   const Real both = half_width_of(w, pair.shape) + half_width_of(w, pair.other);

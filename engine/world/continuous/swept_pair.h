@@ -32,8 +32,9 @@ template <class Real>
 struct SweptPair {
   int shape = 0, other = 0;                          ///< `shape` belongs to the moving body
   const ContactConstraint<Real>* contact = nullptr;  ///< the solver's constraint between the two; null: none
-  bool stands = false;  ///< the other one was stopped in front of it; it may penetrate that as far as
-                        ///< either's core permits
+  bool stands = false;      ///< the other one was stopped in front of it; it may penetrate that as far as
+                            ///< either's core permits
+  bool boxes_meet = false;  ///< it is known that their AABBs do not stay apart (swept_boxes.h)
 };
 
 /// Returns the displacement that keeps a moving body out of a surface that it touched at the start of the

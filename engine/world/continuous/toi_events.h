@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/geometry/aabb.h"
+#include "engine/world/continuous/swept_boxes.h"
 #include "engine/world/continuous/swept_pair.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
@@ -12,23 +13,36 @@
 /// Finds the first impact of a flight within the step. For continuous.cpp alone.
 namespace plumb {
 
-/// Returns true if two bodies move fast relative to each other, so that one could pass through the other.
+/// Tests which bodies one passes fast: what does not depend on the other body is computed once.
 template <class Real>
-bool pass_fast(const WorldData<Real>& w, int a, int b) {
-  const Vec2<Real> way = w.motion[b].moved - w.motion[a].moved;
-  const Real turned =
-      std::abs(w.motion[a].turned) * w.extents[a] + std::abs(w.motion[b].turned) * w.extents[b];
-  return std::abs(way.x) + std::abs(way.y) + turned > Real(tuning::kFastShare) * w.bodies[a].half_width;
-}
+class FastPassing {
+ public:
+  FastPassing(const WorldData<Real>& w, int body)
+      : w_(w),
+        moved_(w.motion[body].moved),
+        turned_(turned(body)),
+        least_(Real(tuning::kFastShare) * w.bodies[body].half_width) {}
 
-/// Returns true if another body may be an obstacle: it is fast relative to this one, or its motion differs
-/// from the solver's.
-template <class Real>
-bool may_block(const WorldData<Real>& w, int body, int other) {
-  if (pass_fast(w, body, other)) return true;
-  const SweptBody* met = flight_in(w, other);
-  return met != nullptr && met->changed;
-}
+  /// Returns true if two bodies move fast relative to each other, so that one could pass through the other.
+  bool passes(int other) const {
+    const Vec2<Real> way = w_.motion[other].moved - moved_;
+    return std::abs(way.x) + std::abs(way.y) + (turned_ + turned(other)) > least_;
+  }
+  /// Returns true if another body may be an obstacle: it is fast relative to this one, or its motion differs
+  /// from the solver's.
+  bool may_be_blocked_by(int other) const {
+    if (passes(other)) return true;
+    const SweptBody* met = flight_in(w_, other);
+    return met != nullptr && met->changed;
+  }
+
+ private:
+  Real turned(int body) const { return std::abs(w_.motion[body].turned) * w_.extents[body]; }
+
+  const WorldData<Real>& w_;
+  Vec2<Real> moved_;
+  Real turned_, least_;
+};
 
 /// Returns an AABB of the body's motion until the step's end. An arc through an angle leaves the straight
 /// line between its ends, passed at the same rate, by at most arm angle^2 / 8, and by no more than two arms.
@@ -76,12 +90,15 @@ void push_toi_event(const WorldData<Real>& w, const Way& way, const SweptPair<Re
 template <class Real>
 void meet_pairs(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
   const int body = way.flight.body;
+  const FastPassing<Real> passing(w, body);
+  const SweptBoxes<Real> boxes(w, way);
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool is_a = (edge & 1) == 0;
-    if (!way.flight.expected && !may_block(w, body, is_a ? contact.body_b : contact.body_a)) return;
+    if (!way.flight.expected && !passing.may_be_blocked_by(is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    push_toi_event(w, way, {shape, other, constraint_in(w, contact)}, first);
+    if (boxes.are_clear(shape, other)) return;
+    push_toi_event(w, way, {shape, other, constraint_in(w, contact), false, true}, first);
   });
 }
 
@@ -102,15 +119,18 @@ void meet_all(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
   const bool as_solved = !way.flight.changed;
   const bool in_contact = as_solved || (way.flight.lifts > 0 && way.flight.impacts == 0);
   const Aabb<Real> swept = way_of(w, way.flight);
+  const FastPassing<Real> passing(w, body);
+  const SweptBoxes<Real> boxes(w, way);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
+      if (as_solved && !way.flight.expected && !passing.may_be_blocked_by(other_body)) return true;
+      if (boxes.are_clear(shape, other)) return true;
       if (!may_meet(w, shape, other) || go_together(w, way.flight, other_body)) return true;
-      if (as_solved && !way.flight.expected && !may_block(w, body, other_body)) return true;
-      push_toi_event(w, way, {shape, other, in_contact ? constraint_between(w, shape, other) : nullptr},
-                     first);
+      const auto* const contact = in_contact ? constraint_between(w, shape, other) : nullptr;
+      push_toi_event(w, way, {shape, other, contact, false, true}, first);
       return true;
     };
     w.static_tree.query(swept, mask, visit);
