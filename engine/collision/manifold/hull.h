@@ -68,8 +68,8 @@ struct Hull {
   int previous(int i) const { return i > 0 ? i - 1 : count - 1; }
 };
 
-/// What is known of a hull's number of corners when the code is compiled: nothing; that all of them are in
-/// one register of four, padded; that there are four.
+/// Tell what is known of a hull's number of corners when the code is compiled: nothing; that one register of
+/// four holds all of them, padded; that there are four.
 inline constexpr int kAny = 0, kUpToFour = 3, kFour = 4;
 
 /// Loads four corners from `first` on, as x and y of their points and of their normals. `kFull`: all four
