@@ -300,8 +300,10 @@ struct Scratch {
   BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on
   std::vector<ContactConstraint<Real>> left_impacts;  ///< of contacts without points, left to the solver
   std::vector<ContactRun<Real>> contact_runs;
-  std::vector<char> loaded;                    ///< by body: a contact has pressed on it: contacts.h
-  std::vector<std::uint8_t> contact_changes;   ///< by contact that is updated: near ones, then the graph's
+  std::vector<char> loaded;                   ///< by body: a contact has pressed on it: contacts.h
+  std::vector<std::uint8_t> contact_changes;  ///< by contact that is updated: near ones, then the graph's
+  std::vector<std::uint8_t>
+      separating_faces;  ///< by contact: one that separated its shapes, of those without points
   std::vector<VelocityIncrement<Real>> kicks;  ///< of the awake bodies that move by substeps
   std::vector<BodyVelocity<Real>> starts;      ///< their velocities at the start of the step
   std::vector<int> block_firsts;               ///< by block of a loop: where its results begin

@@ -15,13 +15,20 @@ struct ContactManifoldPoint {
   std::uint16_t feature = 0;  ///< the corners or edges in contact: the same while the contact persists
 };
 
+/// Stands for no face in ContactManifold::separating.
+inline constexpr std::uint8_t kNoFace = 255;
+
 /// Up to two points with one normal.
 template <class Real>
 struct ContactManifold {
   Vec2<Real> normal{};  ///< unit, from a to b
   int count = 0;
+  /// Without points: the face along whose normal the shapes are apart, if one was found. An edge of a, or
+  /// kMaxCorners more than one of b.
+  std::uint8_t separating = kNoFace;
   ContactManifoldPoint<Real> points[2];
 };
+static_assert(2 * kMaxCorners <= kNoFace);
 
 /// Computes the manifold of two rounded convex shapes. The corners of `a` are in the frame of a's body, those
 /// of `b` in the frame of b's body, which lies at `b_in_a`. Points separated by more than `reach` (m, >= 0)

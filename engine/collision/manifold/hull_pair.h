@@ -297,6 +297,14 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   return touch_face(a, b, faces, edges, reach, origin, admit);
 }
 
+/// Returns a manifold without points, of shapes that a face separates.
+template <class Real>
+ContactManifold<Real> separated_by(int face) {
+  ContactManifold<Real> out;
+  out.separating = static_cast<std::uint8_t>(face);
+  return out;
+}
+
 /// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame; `pivot` is in
 /// their frame. `size` returns the size of the smaller one. `admit` selects the normals allowed; a snapped
 /// one becomes that of a's first edge. `kA` and `kB` are what is known of the numbers of corners.
@@ -308,9 +316,9 @@ inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>
   Faces<Real> faces;
   faces.pivot = pivot;
   faces.a = farthest_face<kA, kB>(a, b, limit);
-  if (faces.a.separation > limit) return {};
+  if (faces.a.separation > limit) return separated_by<Real>(faces.a.edge);
   faces.b = farthest_face<kB, kA>(b, a, limit);
-  if (faces.b.separation > limit) return {};
+  if (faces.b.separation > limit) return separated_by<Real>(kMaxCorners + faces.b.edge);
 
   const bool prefer_b = faces.b.separation > faces.a.separation &&
                         faces.b.separation > faces.a.separation + Real(kPreference) * size();
