@@ -126,9 +126,9 @@ void meet_all(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
     if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
+      if (!may_meet(w, shape, other) || go_together(w, way.flight, other_body)) return true;
       if (as_solved && !way.flight.expected && !passing.may_be_blocked_by(other_body)) return true;
       if (boxes.are_clear(shape, other)) return true;
-      if (!may_meet(w, shape, other) || go_together(w, way.flight, other_body)) return true;
       const auto* const contact = in_contact ? constraint_between(w, shape, other) : nullptr;
       push_toi_event(w, way, {shape, other, contact, false, true}, first);
       return true;
@@ -152,8 +152,10 @@ ToiEvent first_toi_event(const WorldData<Real>& w, int place, double from, Impac
   const SweptBody& flight = w.scratch.swept_bodies[place];
   ToiEvent first{.flight = place, .version = flight.version};
   if (!w.is_dynamic(flight.body)) return first;
+  const bool meets_pairs = flight.covered && !flight.changed;
+  if (meets_pairs && w.bodies[flight.body].first_contact == kNone) return first;
   const Way way(flight, from, search);
-  if (flight.covered && !flight.changed) {
+  if (meets_pairs) {
     meet_pairs(w, way, first);
   } else {
     meet_all(w, way, first);
