@@ -109,6 +109,7 @@ void DirectRows<Real>::assemble(const BodyMotion<Real>* motion) {
   note_masses(motion);
   push_.made = relax_.made = false;
   all_.reset(first_);
+  diagonal_.resize(first_.size());
   for (int i = 0; i < all_.size(); ++i) {
     const DirectRow<Real>& row = rows[sequence_[i]];
     const auto couple = [&](int block) {
@@ -117,6 +118,7 @@ void DirectRows<Real>::assemble(const BodyMotion<Real>* motion) {
     };
     couple(row.block);
     for (const int block : order_.neighbours(row.block)) couple(block);
+    diagonal_[i] = all_.at(i, i);
   }
 }
 
@@ -168,9 +170,12 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion, bool push) {
     // number, otherwise only the last one.
     int wrong = 0;
     DirectRow<Real>* last = nullptr;
-    for (int i = 0; i < all_.size(); ++i) {
-      DirectRow<Real>& row = rows[sequence_[i]];
-      row.wrong = row.one_sided && (row.active ? double(*row.impulse) + x_[i] < 0
+    DirectRow<Real>* const all = rows.data();
+    const int* const sequence = sequence_.data();
+    const double* const x = x_.data();
+    for (int i = 0, count = all_.size(); i < count; ++i) {
+      DirectRow<Real>& row = all[sequence[i]];
+      row.wrong = row.one_sided && (row.active ? double(*row.impulse) + x[i] < 0
                                                : rate_of(motion, row) + response_of(i) < -kEntered * asked);
       if (row.wrong) ++wrong, last = &row;
     }
@@ -196,23 +201,28 @@ template <class Real>
 double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMatrix& matrix) {
   const int count = matrix.size();
   double asked = 0, load = 0;
+  const DirectRow<Real>* const all = rows.data();
+  const int* const sequence = sequence_.data();
+  const double* const diagonal = diagonal_.data();
+  double* const x = x_.data();
   for (int i = 0; i < count; ++i) {
-    const DirectRow<Real>& row = rows[sequence_[i]];
-    x_[i] = row.active ? -rate_of(motion, row) : 0;
-    asked = std::max(asked, std::abs(x_[i]));
-    load = std::max(load, all_.at(i, i) * double(*row.impulse));
+    const DirectRow<Real>& row = all[sequence[i]];
+    x[i] = row.active ? -rate_of(motion, row) : 0;
+    asked = std::max(asked, std::abs(x[i]));
+    load = std::max(load, diagonal[i] * double(*row.impulse));
   }
-  matrix.solve(x_.data());
+  matrix.solve(x);
   contradicted_ = false;
   rest_.assign(x_.begin(), x_.end());
+  double* const rests = rest_.data();
   double before = asked;
   for (int refinement = 0;; ++refinement) {
     // (A + D) x = b leaves b - A x = D x.
     double rest = 0, least = 0, most = 0;
     for (int i = 0; i < count; ++i) {
-      least = std::min(least, rest_[i]), most = std::max(most, rest_[i]);
-      rest_[i] *= sharing_ * all_.at(i, i);
-      rest = std::max(rest, std::abs(rest_[i]));
+      least = std::min(least, rests[i]), most = std::max(most, rests[i]);
+      rests[i] *= sharing_ * diagonal[i];
+      rest = std::max(rest, std::abs(rests[i]));
     }
     if (rest <= kExact * std::max(load, asked)) break;
     if (refinement == kRefinements) {
@@ -220,8 +230,8 @@ double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMat
       break;
     }
     before = rest;
-    matrix.solve(rest_.data());
-    for (int i = 0; i < count; ++i) x_[i] += rest_[i];
+    matrix.solve(rests);
+    for (int i = 0; i < count; ++i) x[i] += rests[i];
   }
   return asked;
 }
@@ -247,8 +257,10 @@ double DirectRows<Real>::response_of(int place) const {
 // Takes back the impulses of the removed rows.
 template <class Real>
 void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
-  for (int i = 0; i < all_.size(); ++i) {
-    DirectRow<Real>& row = rows[sequence_[i]];
+  DirectRow<Real>* const all = rows.data();
+  const int* const sequence = sequence_.data();
+  for (int i = 0, count = all_.size(); i < count; ++i) {
+    DirectRow<Real>& row = all[sequence[i]];
     if (row.active || *row.impulse == 0) continue;
     row.taken = *row.impulse;
     push(motion[row.a], -row.taken * row.linear_a, -row.taken * row.angular_a);
@@ -273,16 +285,20 @@ void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
 // on a light body are large and nearly cancel.
 template <class Real>
 void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
-  for (std::size_t end = 0; end < ends_.size();) {
-    const int body = ends_[end].first;
+  // Pointers of its own: velocities are written in between, and might be anything.
+  DirectRow<Real>* const all = rows.data();
+  const double* const x = x_.data();
+  const int *const place = place_.data(), *const block_first = block_first_.data();
+  const auto* end = ends_.data();
+  for (const auto* const last = end + ends_.size(); end != last;) {
+    const int body = end->first;
     Vec2d push{};
     double turning = 0;
-    for (; end < ends_.size() && ends_[end].first == body; ++end) {
-      const int block = ends_[end].second;
-      for (int i = block_first_[block]; i < block_first_[block + 1]; ++i) {
-        const DirectRow<Real>& row = rows[i];
+    for (; end != last && end->first == body; ++end) {
+      for (int i = block_first[end->second], past = block_first[end->second + 1]; i < past; ++i) {
+        const DirectRow<Real>& row = all[i];
         if (!row.active) continue;
-        const double impulse = x_[place_[i]];
+        const double impulse = x[place[i]];
         const bool is_a = row.a == body;
         push += impulse * (is_a ? row.linear_a : row.linear_b).template as<double>();
         turning += impulse * static_cast<double>(is_a ? row.angular_a : row.angular_b);
@@ -295,10 +311,8 @@ void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
     moving.angular_velocity =
         static_cast<Real>(double(moving.angular_velocity) + double(moving.inverse_inertia) * turning);
   }
-  for (int i = 0; i < all_.size(); ++i) {
-    const DirectRow<Real>& row = rows[sequence_[i]];
-    if (row.active) *row.impulse += static_cast<Real>(x_[i]);
-  }
+  for (int i = 0, count = static_cast<int>(rows.size()); i < count; ++i)
+    if (all[i].active) *all[i].impulse += static_cast<Real>(x[place[i]]);
 }
 
 template class DirectRows<float>;

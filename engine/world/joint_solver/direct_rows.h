@@ -44,6 +44,7 @@ class DirectRows {
         x_(room),
         rest_(room),
         all_(room),
+        diagonal_(room),
         push_(room),
         relax_(room) {}
 
@@ -88,7 +89,8 @@ class DirectRows {
   std::pmr::vector<std::pair<int, int>> ends_;  // body, block
   std::pmr::vector<int> block_first_;
   std::pmr::vector<double> x_, rest_;
-  EnvelopeMatrix all_;  // J M^-1 J^T of all rows
+  EnvelopeMatrix all_;                 // J M^-1 J^T of all rows
+  std::pmr::vector<double> diagonal_;  // of it
   Factors push_, relax_;
   double sharing_ = 0;  // regularisation
   bool contradicted_ = false;
