@@ -228,6 +228,10 @@ bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& p
   const Real deepest =
       both_yield(w, pair) ? Real(tuning::kInnerDepth) * both : Real(tuning::kCoreDepth) * depth;
   const Real enough = pair.contact == nullptr && discs ? apart : apart - deepest;
+  // Shapes in contact may overlap by almost a core along the axes of their AABBs, too.
+  if (enough < apart && boxes.stay_apart(pair.shape, pair.other, enough) &&
+      (pair.contact != nullptr || !may_rebound(w, pair.shape, pair.other, way.search.dt)))
+    return true;
   SweptBound<Real> bound(w, pair.shape, pair.other, enough);
   const auto try_all = [&] {
     if (pair.contact == nullptr) return bound.try_edges();

@@ -47,12 +47,88 @@ template <class Real>
 // Moved shapes per block of a shared loop: about 30 us of work.
 constexpr int kMovedOfBlock = 64;
 
+// Moved shapes of one body that are searched together, and pairs of theirs that are held until then.
+constexpr int kTogether = 8, kHeld = 256;
+
+// Consecutive shapes of the move buffer that belong to one dynamic body, with the box around their fat AABBs.
+template <class Real>
+struct MovedTogether {
+  int count = 0;
+  int shapes[kTogether];
+  Aabb<Real> boxes[kTogether];
+  Aabb<Real> around{};
+};
+
+// Returns true if moved shapes may take part in the same search.
+template <class Real>
+bool go_together(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
+  const ShapeRecord<Real>& other = w.shapes[next];
+  return other.body == shape.body && other.moved && other.proxy != kNone &&
+         seen_by(other.filter) == seen_by(shape.filter);
+}
+
+// Collects the shapes of one body from a place of the move buffer on: as long as one search in the box around
+// them enters fewer nodes than one for each, by their perimeters.
+template <class Real>
+MovedTogether<Real> moved_together(const WorldData<Real>& w, std::size_t first, std::size_t last) {
+  MovedTogether<Real> out;
+  const ShapeRecord<Real>& record = w.shapes[w.move_buffer[first]];
+  for (std::size_t i = first; i < last && out.count < kTogether; ++i) {
+    const int shape = w.move_buffer[i];
+    if (i > first && !go_together(w, record, shape)) break;
+    const Aabb<Real>& box = w.dynamic_tree.box(w.shapes[shape].proxy);
+    const Aabb<Real> around = i > first ? merged(out.around, box) : box;
+    if (i > first && around.half_perimeter() > out.around.half_perimeter() + box.half_perimeter()) break;
+    out.around = around;
+    out.shapes[out.count] = shape, out.boxes[out.count] = box;
+    ++out.count;
+  }
+  return out;
+}
+
+// Finds the pairs of several shapes of a dynamic body in one search of each tree, in the order in which one
+// search for each shape would find them. Returns false, without a result, if there are too many.
+template <class Real, class Found>
+bool find_pairs_together(const WorldData<Real>& w, const MovedTogether<Real>& moved, const Found& found) {
+  struct Held {
+    int place, other;
+  };
+  Held held[kHeld];
+  int count = 0;
+  const ShapeRecord<Real>& record = w.shapes[moved.shapes[0]];
+  const std::uint32_t mask = seen_by(record.filter);
+  const auto search = [&](const DynamicTree<Real>& tree) {
+    tree.query(moved.around, mask, [&](int other, int proxy) {
+      if (w.shapes[other].body == record.body) return true;
+      const Aabb<Real>& box = tree.box(proxy);
+      for (int i = 0; i < moved.count; ++i) {
+        if (!box.overlaps(moved.boxes[i])) continue;
+        if (count < kHeld) held[count] = {i, other};
+        ++count;
+      }
+      return count <= kHeld;
+    });
+  };
+  search(w.dynamic_tree);
+  search(w.static_tree);
+  if (count > kHeld) return false;
+  for (int i = 0; i < moved.count; ++i)
+    for (int k = 0; k < count; ++k)
+      if (held[k].place == i) found(moved.shapes[i], held[k].other);
+  return true;
+}
+
 // Finds the new pairs of a block of moved shapes.
 template <class Real>
 void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
   BlockLists<std::pair<int, int>>& found = w.scratch.found_pairs_of;
-  const std::size_t first = static_cast<std::size_t>(block) * kMovedOfBlock;
-  for (std::size_t i = first; i < std::min(first + kMovedOfBlock, w.move_buffer.size()); ++i) {
+  // Of two moved shapes, only one reports the pair.
+  const auto note = [&](int shape, int other) {
+    if (other != shape && !(w.shapes[other].moved && other < shape)) found.add(block, {shape, other});
+  };
+  const std::size_t first = static_cast<std::size_t>(block) * kMovedOfBlock,
+                    last = std::min(first + kMovedOfBlock, w.move_buffer.size());
+  for (std::size_t i = first; i < last; ++i) {
     ask_for_moved(w, i);
     const int shape = w.move_buffer[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
@@ -61,14 +137,21 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
     // without reading its body.
     if (marked && !grounds && w.scratch.meets[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
-    const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
-    const auto visit = [&](int other, int) {
-      // Of two moved shapes, only one reports the pair.
-      if (other != shape && !(w.shapes[other].moved && other < shape)) found.add(block, {shape, other});
-      return true;
-    };
     const std::uint32_t mask = seen_by(record.filter);
     if (mask == 0) continue;
+    if (!marked && type == BodyType::Dynamic && i + 1 < last &&
+        go_together(w, record, w.move_buffer[i + 1])) {
+      const MovedTogether<Real> moved = moved_together(w, i, last);
+      if (moved.count > 1 && find_pairs_together(w, moved, note)) {
+        i += static_cast<std::size_t>(moved.count - 1);
+        continue;
+      }
+    }
+    const Aabb<Real>& box = w.tree_of(type).box(record.proxy);
+    const auto visit = [&](int other, int) {
+      note(shape, other);
+      return true;
+    };
     if (type == BodyType::Static || !marked || w.scratch.meets[record.proxy] != 0)
       w.dynamic_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.static_tree.query(box, mask, visit);
