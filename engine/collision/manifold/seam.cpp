@@ -31,6 +31,16 @@ int previous_of(const Convex<Real>& shape, int i) {
   return i > 0 ? i - 1 : shape.count - 1;
 }
 
+/// Returns the middle of the shape that touches a surface, m.
+template <class Real>
+Vec2<Real> middle_of_mover(const TouchedSurface<Real>& touched) {
+  const Convex<Real>& mover = touched.mover;
+  Vec2<Real> middle{};
+  for (int i = 0; i < mover.count; ++i)
+    middle += (1 / static_cast<Real>(mover.count)) * mover.corners[i].point;
+  return touched.mover_pose.position + touched.mover_pose.rotation * middle;
+}
+
 /// The neighbour's face that continues the surface beyond a corner, if there is one.
 template <class Real>
 struct Continuation {
@@ -115,7 +125,7 @@ bool comes_out(const TouchedSurface<Real>& touched, int edge, const Convex<Real>
   const Vec2<Real> tangent = perpendicular(normal);
   const Real length = dot(tangent, shape.corners[next_of(shape, edge)].point - first);
   const Real inset = std::min(2 * kReachOver<Real> * touched.tolerance, Real(0.5) * length);
-  const Real x = std::clamp(dot(tangent, touched.mover - first), inset, length - inset);
+  const Real x = std::clamp(dot(tangent, middle_of_mover(touched) - first), inset, length - inset);
   const Vec2<Real> before = first + (shape.radius + 2 * touched.tolerance) * normal;
   return !inside(before + x * tangent, other, other_edges, pose, touched.tolerance);
 }
@@ -138,8 +148,9 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   const Convex<Real>& shape = touched.shape;
   const Vec2<Real> n = touched.normal;
   int edge = 0;
+  Real nearest = dot(n, shape.corners[0].normal);
   for (int i = 1; i < touched.edges; ++i)
-    if (dot(n, shape.corners[i].normal) > dot(n, shape.corners[edge].normal)) edge = i;
+    if (const Real along = dot(n, shape.corners[i].normal); along > nearest) nearest = along, edge = i;
   if (touched.apart && hidden(touched, neighbour, neighbour_edges, pose)) {
     const bool on_edge = shape.count > 1 && std::fabs(cross(n, shape.corners[edge].normal)) <= kAligned<Real>;
     if (!on_edge || !comes_out(touched, edge, neighbour, neighbour_edges, pose))
@@ -150,7 +161,8 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
   const Vec2<Real> own = shape.corners[edge].normal, tangent = perpendicular(own);
   const auto face_at = [&](int face, bool at_start) {
     const Corner<Real>& corner = shape.corners[face];
-    return Answer{Answer::Kind::Face, face, at_start, dot(corner.normal, touched.mover - corner.point)};
+    return Answer{Answer::Kind::Face, face, at_start,
+                  dot(corner.normal, middle_of_mover(touched) - corner.point)};
   };
   // Returns the adjacent face beyond the edge's first or second corner. The corner with the seam is the
   // second of the one and the first of the other.

@@ -10,10 +10,11 @@ namespace plumb {
 template <class Real>
 struct TouchedSurface {
   Convex<Real> shape{};
-  int edges = 0;         ///< number of edges that can be touched: all, or 1 for a chain segment
-  Vec2<Real> normal{};   ///< unit, out of the shape
-  Vec2<Real> points[2];  ///< m, on its surface
-  Vec2<Real> mover{};    ///< m, the middle of the shape that touches it
+  int edges = 0;            ///< number of edges that can be touched: all, or 1 for a chain segment
+  Vec2<Real> normal{};      ///< unit, out of the shape
+  Vec2<Real> points[2];     ///< m, on its surface
+  Convex<Real> mover{};     ///< the shape that touches it, in the frame of its own body
+  Pose<Real> mover_pose{};  ///< that frame's pose
   int count = 0;
   bool apart = false;  ///< separated by more than the tolerance
   /// Steps and gaps of the surface up to this are ignored, m; gaps may be three times as wide.

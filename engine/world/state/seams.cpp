@@ -22,21 +22,20 @@ Pose<Real> inverse(const Pose<Real>& pose) {
   return {-(back * pose.position), back};
 }
 
-// One side of a contact.
+// One side of a contact, computed when its first neighbour is asked.
 template <class Real>
 struct Side {
+  bool looked = false;      // the rest is computed
   int shape = 0, body = 0;  // of the touched shape
-  int mover = 0;            // the other shape
-  TouchedSurface<Real> touched{};
+  TouchedSurface<Real> touched;
   SeamAnswer<Real> answer{};
 };
 
 template <class Real>
-Side<Real> side_of(const WorldData<Real>& w, const ContactRecord& contact, bool of_b,
-                   const Pose<Real>& b_in_a, const ContactManifold<Real>& manifold) {
-  Side<Real> side;
+void look_at_side(const WorldData<Real>& w, const ContactRecord& contact, bool of_b, const Pose<Real>& b_in_a,
+                  const ContactManifold<Real>& manifold, Side<Real>& side) {
+  side.looked = true;
   side.shape = of_b ? contact.shape_b : contact.shape_a;
-  side.mover = of_b ? contact.shape_a : contact.shape_b;
   side.body = of_b ? contact.body_b : contact.body_a;
   TouchedSurface<Real>& touched = side.touched;
   touched.shape = w.convex(side.shape);
@@ -44,12 +43,8 @@ Side<Real> side_of(const WorldData<Real>& w, const ContactRecord& contact, bool 
   const Pose<Real> to_b = of_b ? inverse(b_in_a) : Pose<Real>{};
   touched.normal = of_b ? -(to_b.rotation * manifold.normal) : manifold.normal;
   touched.count = manifold.count;
-  const Convex<Real> mover = w.convex(side.mover);
-  Vec2<Real> middle{};
-  for (int i = 0; i < mover.count; ++i)
-    middle += (1 / static_cast<Real>(mover.count)) * mover.corners[i].point;
-  const Pose<Real> from = of_b ? to_b : b_in_a;
-  touched.mover = from.position + from.rotation * middle;
+  touched.mover = w.convex(of_b ? contact.shape_a : contact.shape_b);
+  touched.mover_pose = of_b ? to_b : b_in_a;
   Real least = manifold.points[0].separation, size = 0;
   for (int i = 0; i < manifold.count; ++i) {
     const ContactManifoldPoint<Real>& point = manifold.points[i];
@@ -62,7 +57,6 @@ Side<Real> side_of(const WorldData<Real>& w, const ContactRecord& contact, bool 
   touched.tolerance =
       Real(tuning::kSeamTolerance) * smaller + 32 * std::numeric_limits<Real>::epsilon() * size;
   touched.apart = least > 2 * touched.tolerance;
-  return side;
 }
 
 // A manifold's points in the world, and the margin within which neighbours count.
@@ -200,11 +194,9 @@ bool slides_along(const WorldData<Real>& w, const ContactRecord& contact, const 
   return std::abs(cross(normal, velocity)) > std::abs(dot(normal, velocity));
 }
 
-// The two sides of a contact, each computed when its first neighbour is asked.
 template <class Real>
 struct Sides {
   Side<Real> of_a, of_b;
-  bool looked_a = false, looked_b = false;
 };
 
 // Shapes of two dynamic bodies up to which all of them are tried as neighbours; of bodies with more, only
@@ -258,16 +250,16 @@ bool is_wide(const ContactManifold<Real>& manifold, Real widest) {
 
 // Asks the neighbours of both sides of a contact.
 template <class Real>
-Sides<Real> ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
-                           const ContactManifold<Real>& manifold, Real smaller, Real way, bool both_dynamic) {
-  Sides<Real> sides;
+void ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
+                    const ContactManifold<Real>& manifold, Real smaller, Real way, bool both_dynamic,
+                    Sides<Real>& sides) {
   const int asked = body_to_ask(w, contact);
   int few = kFewShapes;
   const bool by_shapes =
       both_dynamic && has_few_shapes(w, contact.body_a, few) && has_few_shapes(w, contact.body_b, few);
   if (!by_shapes) {
     const int first = w.bodies[asked].first_contact;
-    if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return sides;
+    if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return;
   }
   const Region<Real> region = region_of(w, contact, manifold, smaller, way);
   // As `stays_beside` of either side, before anything is computed.
@@ -279,11 +271,11 @@ Sides<Real> ask_neighbours(const WorldData<Real>& w, const ContactRecord& contac
     if (!may_be_beside(body) || !w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
     if (touched != kNone && !w.pairs.contains(shape, touched)) return;
     if (body != contact.body_b) {
-      if (!sides.looked_a) sides.of_a = side_of(w, contact, false, b_in_a, manifold), sides.looked_a = true;
+      if (!sides.of_a.looked) look_at_side(w, contact, false, b_in_a, manifold, sides.of_a);
       ask(w, sides.of_a, shape);
     }
     if (body != contact.body_a) {
-      if (!sides.looked_b) sides.of_b = side_of(w, contact, true, b_in_a, manifold), sides.looked_b = true;
+      if (!sides.of_b.looked) look_at_side(w, contact, true, b_in_a, manifold, sides.of_b);
       ask(w, sides.of_b, shape);
     }
   };
@@ -292,7 +284,6 @@ Sides<Real> ask_neighbours(const WorldData<Real>& w, const ContactRecord& contac
   } else {
     for_each_touching(w, contact, asked, look_at);
   }
-  return sides;
 }
 
 }  // namespace
@@ -312,7 +303,8 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   const Real widest = Real(tuning::kSeamDepth) * smaller;
   if (is_wide(manifold, widest)) return manifold;
-  const Sides<Real> found_sides = ask_neighbours(w, contact, b_in_a, manifold, smaller, way, both_dynamic);
+  Sides<Real> found_sides;
+  ask_neighbours(w, contact, b_in_a, manifold, smaller, way, both_dynamic, found_sides);
   const Side<Real>* const sides[2] = {&found_sides.of_a, &found_sides.of_b};
   if (sides[0]->answer.kind == Kind::Hidden || sides[1]->answer.kind == Kind::Hidden) return {};
   // Static and kinematic bodies first.
