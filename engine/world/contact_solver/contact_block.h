@@ -78,6 +78,24 @@ struct ContactRows {
   }
 };
 
+/// Reads the rolling impulses and records of a block's contacts, if it needs them, with the step's sums so
+/// far.
+template <class Number>
+[[gnu::always_inline]] inline void gather_records(const ContactRows<Number>& rows) {
+  using Block = ContactBlock<Number>;
+  using Real = typename Number::Number;
+  using Constraint = ContactConstraint<Real>;
+  static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
+                offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
+  Block& block = rows.block;
+  if (block.watched != Watch::Off || block.rolls)
+    rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
+  if (block.watched == Watch::Off) return;
+  Real sums[Block::kLanes];
+  for (int i = 0; i < Block::kLanes; ++i) sums[i] = block.contact[i]->step_impulse;
+  block.step_impulse = Number::load(sums);
+}
+
 /// Fills a block with the contacts to which it points, which are of one kind.
 template <class Number, class Real>
 [[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const BodyMotion<Real>* motion) {
@@ -110,16 +128,24 @@ template <class Number, class Real>
   const bool both = first.hardness == ContactHardness::Soft;
   block.gives_way_a = both || is_dynamic(motion[first.body_a]);
   block.gives_way_b = both || is_dynamic(motion[first.body_b]);
-  static_assert(offsetof(Constraint, peak_impulse) == offsetof(Constraint, rolling_arm) + 2 * sizeof(Real) &&
-                offsetof(Block, peak_impulse) == offsetof(Block, rolling_arm) + 2 * sizeof(Number));
-  if (block.watched != Watch::Off || block.rolls)
-    rows.load(offsetof(Constraint, rolling_arm), offsetof(Block, rolling_arm));
   block.step_impulse = Number(0);
-  if (block.watched == Watch::Off) return;
-  // A block with restitution is read again in each substep, with the step's sum so far.
-  Real sums[Block::kLanes];
-  for (int i = 0; i < Block::kLanes; ++i) sums[i] = block.contact[i]->step_impulse;
-  block.step_impulse = Number::load(sums);
+  gather_records(rows);
+}
+
+/// Reads again what impacts within the step change: normals of discs, separations, impulses and masses.
+template <class Number>
+[[gnu::always_inline]] inline void gather_again(ContactBlock<Number>& block) {
+  using Block = ContactBlock<Number>;
+  using Real = typename Number::Number;
+  using Constraint = ContactConstraint<Real>;
+  constexpr std::size_t kFirst = offsetof(Constraint, normal), kFirstRow = offsetof(Block, normal);
+  // Not the arms, from 4 on, nor the coefficients, from 24 on.
+  static_assert(offsetof(Constraint, arm_tangent_a) - kFirst == 4 * sizeof(Real) &&
+                offsetof(Constraint, separation) - kFirst == 8 * sizeof(Real) &&
+                offsetof(Constraint, friction) - kFirst == 24 * sizeof(Real));
+  const ContactRows<Number> rows{block};
+  for (const int k : {0, 8, 12, 16, 20}) rows.load(kFirst + k * sizeof(Real), kFirstRow + k * sizeof(Number));
+  gather_records(rows);
 }
 
 /// Writes the results of a block back to its contacts.

@@ -105,6 +105,7 @@ template <class Number, class Real>
 struct Loops {
   using Block = ContactBlock<Number>;
   static void gather(Block& block, const BodyMotion<Real>* motion) { plumb::gather(block, motion); }
+  static void gather_again(Block& block) { plumb::gather_again(block); }
   static void scatter(Block* block, const Block* end) {
     for (; block != end; ++block) plumb::scatter(*block);
   }
@@ -119,6 +120,7 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
   PLUMB_AVX2 static void gather(Block& block, const BodyMotion<Real>* motion) {
     plumb::gather(block, motion);
   }
+  PLUMB_AVX2 static void gather_again(Block& block) { plumb::gather_again(block); }
   PLUMB_AVX2 static void scatter(Block* block, const Block* end) {
     for (; block != end; ++block) plumb::scatter(*block);
   }
@@ -358,17 +360,16 @@ void SoftContacts<Real>::show_bounces() {
 
 template <class Real>
 template <int kBytes>
-void SoftContacts<Real>::take_bounces(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion) {
+void SoftContacts<Real>::take_bounces(Blocks<kBytes>& blocks) {
   crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
     for (Block<kBytes>* block = blocks.list.data() + first; block != blocks.list.data() + last; ++block)
-      if (block->bounces) Loops<Number<kBytes>, Real>::gather(*block, motion);
+      if (block->bounces) Loops<Number<kBytes>, Real>::gather_again(*block);
   });
 }
 
 template <class Real>
-void SoftContacts<Real>::take_bounces(const BodyMotion<Real>* motion) {
-  with_blocks(width_, blocks16_, blocks32_,
-              [this, motion](auto& blocks) { this->take_bounces(blocks, motion); });
+void SoftContacts<Real>::take_bounces() {
+  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { this->take_bounces(blocks); });
 }
 
 template <class Real>

@@ -35,7 +35,7 @@ class SoftContacts {
   void show_bounces();
 
   /// Reads these blocks again, which may have changed since `show_bounces`.
-  void take_bounces(const BodyMotion<Real>* motion);
+  void take_bounces();
 
   /// Writes the impulses back to the contacts.
   void finish();
@@ -95,7 +95,7 @@ class SoftContacts {
   template <int kBytes>
   void show_bounces(Blocks<kBytes>& blocks);
   template <int kBytes>
-  void take_bounces(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion);
+  void take_bounces(Blocks<kBytes>& blocks);
   template <class Pass>
   void sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 

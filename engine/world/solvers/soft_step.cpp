@@ -163,7 +163,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (swept) w.joint_set.warm_start(bodies, joints, &w.crew);
     if (!place_first) place();
     let_pass(std::span<Bounce>(w.scratch.bounces));
-    if (bounces) passes.take_bounces(bodies.motion);
+    if (bounces) passes.take_bounces();
     if (!repeat) passes.warm_start(bodies.motion, contacts);
     if (swept) w.joint_set.solve(bodies, joints, &w.crew);
     solve_direct_islands(w, contacts, true);
