@@ -61,7 +61,7 @@ struct MovedTogether {
 
 // Returns true if moved shapes may take part in the same search.
 template <class Real>
-bool go_together(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
+bool moves_with(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
   const ShapeRecord<Real>& other = w.shapes[next];
   return other.body == shape.body && other.moved && other.proxy != kNone &&
          seen_by(other.filter) == seen_by(shape.filter);
@@ -75,7 +75,7 @@ MovedTogether<Real> moved_together(const WorldData<Real>& w, std::size_t first, 
   const ShapeRecord<Real>& record = w.shapes[w.move_buffer[first]];
   for (std::size_t i = first; i < last && out.count < kTogether; ++i) {
     const int shape = w.move_buffer[i];
-    if (i > first && !go_together(w, record, shape)) break;
+    if (i > first && !moves_with(w, record, shape)) break;
     const Aabb<Real>& box = w.dynamic_tree.box(w.shapes[shape].proxy);
     const Aabb<Real> around = i > first ? merged(out.around, box) : box;
     if (i > first && around.half_perimeter() > out.around.half_perimeter() + box.half_perimeter()) break;
@@ -139,8 +139,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
     const BodyType type = w.bodies[record.body].type;
     const std::uint32_t mask = seen_by(record.filter);
     if (mask == 0) continue;
-    if (!marked && type == BodyType::Dynamic && i + 1 < last &&
-        go_together(w, record, w.move_buffer[i + 1])) {
+    if (!marked && type == BodyType::Dynamic && i + 1 < last && moves_with(w, record, w.move_buffer[i + 1])) {
       const MovedTogether<Real> moved = moved_together(w, i, last);
       if (moved.count > 1 && find_pairs_together(w, moved, note)) {
         i += static_cast<std::size_t>(moved.count - 1);
