@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "engine/world/continuous/rebound.h"
-#include "engine/world/continuous/swept_pair.h"
 #include "engine/world/state/constants.h"
 
 namespace plumb {
@@ -15,13 +14,13 @@ namespace plumb {
 template <class Real>
 class SweptBoxes {
  public:
-  SweptBoxes(const WorldData<Real>& w, const Way& way)
+  SweptBoxes(const WorldData<Real>& w, const SweptBody& flight, double dt)
       : w_(w),
-        dt_(static_cast<Real>(way.search.dt)),
-        moved_(w.motion[way.flight.body].moved),
-        turned_(turned(way.flight.body)),
-        bend_(bend(way.flight.body)),
-        straight_(is_straight(way.flight)) {}
+        dt_(static_cast<Real>(dt)),
+        moved_(w.motion[flight.body].moved),
+        turned_(turned(flight.body)),
+        bend_(bend(flight.body)),
+        straight_(is_straight(flight)) {}
 
   /// Returns true if the bodies of both shapes move as the solver found.
   bool both_straight(int other_body) const {

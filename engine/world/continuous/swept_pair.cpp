@@ -217,7 +217,7 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
 template <class Real>
 bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
   if (pair.stands) return false;
-  const SweptBoxes<Real> boxes(w, way);
+  const SweptBoxes<Real> boxes(w, way.flight, way.search.dt);
   if (!boxes.both_straight(w.shapes[pair.other].body)) return false;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
   const Real apart = boxes.apart(pair.shape, pair.other);

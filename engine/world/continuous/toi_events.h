@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/geometry/aabb.h"
 #include "engine/world/continuous/swept_boxes.h"
@@ -86,19 +87,23 @@ void push_toi_event(const WorldData<Real>& w, const Way& way, const SweptPair<Re
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
 }
 
-/// Finds the first impact of a body whose obstacles all have a contact with it.
+/// Finds the first impact of a body whose obstacles all have a contact with it. Computes its way once
+/// something may be in it.
 template <class Real>
-void meet_pairs(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
-  const int body = way.flight.body;
+void meet_pairs(const WorldData<Real>& w, const SweptBody& flight, double from, ImpactSearch& search,
+                ToiEvent& first) {
+  const int body = flight.body;
   const FastPassing<Real> passing(w, body);
-  const SweptBoxes<Real> boxes(w, way);
+  const SweptBoxes<Real> boxes(w, flight, search.dt);
+  std::optional<Way> way;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool is_a = (edge & 1) == 0;
-    if (!way.flight.expected && !passing.may_be_blocked_by(is_a ? contact.body_b : contact.body_a)) return;
+    if (!flight.expected && !passing.may_be_blocked_by(is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     if (boxes.are_clear(shape, other)) return;
-    push_toi_event(w, way, {shape, other, constraint_in(w, contact), false, true}, first);
+    if (!way) way.emplace(flight, from, search);
+    push_toi_event(w, *way, {shape, other, constraint_in(w, contact), false, true}, first);
   });
 }
 
@@ -120,7 +125,7 @@ void meet_all(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
   const bool in_contact = as_solved || (way.flight.lifts > 0 && way.flight.impacts == 0);
   const Aabb<Real> swept = way_of(w, way.flight);
   const FastPassing<Real> passing(w, body);
-  const SweptBoxes<Real> boxes(w, way);
+  const SweptBoxes<Real> boxes(w, way.flight, way.search.dt);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = seen_by(w.shapes[shape].filter);
     if (w.forms[shape].sensor || mask == 0) continue;
@@ -152,13 +157,10 @@ ToiEvent first_toi_event(const WorldData<Real>& w, int place, double from, Impac
   const SweptBody& flight = w.scratch.swept_bodies[place];
   ToiEvent first{.flight = place, .version = flight.version};
   if (!w.is_dynamic(flight.body)) return first;
-  const bool meets_pairs = flight.covered && !flight.changed;
-  if (meets_pairs && w.bodies[flight.body].first_contact == kNone) return first;
-  const Way way(flight, from, search);
-  if (meets_pairs) {
-    meet_pairs(w, way, first);
+  if (flight.covered && !flight.changed) {
+    meet_pairs(w, flight, from, search, first);
   } else {
-    meet_all(w, way, first);
+    meet_all(w, Way(flight, from, search), first);
   }
   return as_it_is(w, first);
 }
