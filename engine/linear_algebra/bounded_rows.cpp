@@ -17,8 +17,6 @@ namespace {
 // parallelogram of float that was flat in the middle of a substep lost 40 % of its speed at 1e-10, 0.4 % at
 // 1e-7).
 constexpr double kSharing = 1e-7;
-// Tolerated residual of a row, relative to the row with the largest energy v^2 / mobility.
-constexpr double kExact = 1e-11;
 
 // Returns the mobility of a row, J M^-1 J^T: 0 where axes are locked along it but for the rounding of its
 // direction, whose square may be as small as numbers get.
@@ -109,9 +107,9 @@ void BoundedRows::find_mobility() {
   }
 }
 
-// Finds the largest energy v^2 / mobility of a row.
+// Finds the largest energy v^2 / mobility of a row, or what the caller gave.
 void BoundedRows::find_largest() {
-  largest_ = 0;
+  largest_ = least_energy_;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double speed = std::max(std::abs(along(rows[i])), std::abs(rows[i].wanted));
     if (speed * speed > largest_ * mobility_[i] && mobility_[i] > 0) largest_ = speed * speed / mobility_[i];
@@ -222,14 +220,6 @@ double BoundedRows::residual(int i) const {
 // Returns whether a row's speed is more than a share of the largest.
 bool BoundedRows::matters(int i, double speed, double share) const {
   return speed * speed > share * share * largest_ * mobility_[i];
-}
-
-bool BoundedRows::is_held_back(int i) const {
-  const BoundedRow& row = rows[i];
-  if (row.state == BoundedRow::kFree) return false;
-  const double missing = residual(i);
-  const bool outwards = row.lower >= row.upper || (missing > 0) == (row.state == BoundedRow::kUpper);
-  return outwards && matters(i, missing, kSlack);
 }
 
 // Sets the bodies' velocities from all present impulses.
@@ -376,28 +366,53 @@ void BoundedRows::set_fixed() {
   }
 }
 
-void BoundedRows::solve() {
+void BoundedRows::solve(double energy) {
   start_.assign(bodies.begin(), bodies.end());
   find_mobility();
+  largest_ = least_energy_ = energy;
   assembled_ = false;
   solve_from_start();
 }
 
 void BoundedRows::solve_again() {
+  if (descended_) {
+    set_fixed();
+    start_from(guess_);
+    descend();
+    keep_energy(false);
+    return;
+  }
   std::copy(start_.begin(), start_.end(), bodies.begin());
   solve_from_start();
 }
 
 void BoundedRows::solve_from_start() {
+  descended_ = false;
   set_fixed();
   if (solve_small()) return;
   if (!assembled_) find_largest(), assemble();
   const bool solved = pivot();
-  if (!solved) descend();
-  // Keep the energy: where all rows are free, nothing is gained. A row at its bound may
-  // gain its impulse times the tolerated violation, and impulses that parts which jam exert have no limit.
+  if (!solved) {
+    descended_ = true;
+    start_from(best_);
+    shrink();
+    descend();
+  }
+  keep_energy(solved);
+}
+
+// Sets the impulses, within their bounds.
+void BoundedRows::start_from(std::span<const double> impulses) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].impulse = std::min(std::max(impulses[i], rows[i].lower), rows[i].upper);
+  apply_all();
+}
+
+// Keeps the energy: where all rows are free, nothing is gained. A row at its bound may gain its impulse times
+// the tolerated violation, and impulses that parts which jam exert have no limit.
+void BoundedRows::keep_energy(bool exact) {
   const auto held = [](const BoundedRow& row) { return row.state != BoundedRow::kFree && row.impulse != 0; };
-  if (!solved || shares_ || std::any_of(rows.begin(), rows.end(), held)) shrink();
+  if (!exact || shares_ || std::any_of(rows.begin(), rows.end(), held)) shrink();
 }
 
 double BoundedRows::share_of_load(std::span<const double> impulses) {

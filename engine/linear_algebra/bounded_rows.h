@@ -66,14 +66,18 @@ class BoundedRows {
   /// block, in multiplications.
   double order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes);
 
-  /// Solves for the impulses and applies them to the bodies' velocities.
-  void solve();
+  /// Solves for the impulses and applies them to the bodies' velocities. Errors are tolerated relative to the
+  /// row with the largest energy v^2 / mobility, J, or to `energy` if that is more.
+  void solve(double energy = 0);
+
+  /// Returns the energy to which errors of the last solution are relative, J.
+  double largest_energy() const { return largest_; }
 
   /// Solves again for the velocities that `solve` was given, after bounds have changed and nothing else.
   void solve_again();
 
-  /// Returns true if a row would have a larger impulse but for its bound.
-  bool is_held_back(int row) const;
+  /// Returns true if a speed along a row is more than a share of the row's with the largest energy.
+  bool is_felt(int row, double speed, double share) const { return matters(row, speed, share); }
 
   /// Returns the fraction, 0 to 1, of these impulses that leaves the bodies the least energy, given their
   /// velocities. Changes the velocities.
@@ -99,6 +103,8 @@ class BoundedRows {
   // regularisation, is a violation also before iterative refinement: refining what changes sides anyway is in
   // vain.
   static constexpr double kSlack = 1e-9, kClear = 1e-5;
+  // Residual of a row that refining leaves as it is, relative to the same.
+  static constexpr double kExact = 1e-11;
   // Steps of iterative refinement, which remove the error of the regularisation.
   static constexpr int kRefinements = 2;
 
@@ -121,10 +127,14 @@ class BoundedRows {
   void set_fixed();
   bool solve_small();
   void solve_from_start();
+  void start_from(std::span<const double> impulses);
+  void keep_energy(bool exact);
   void descend();
   void sweep(int passes);
   void minimise_free();
   void advance(double share);
+  double share_within_bounds() const;
+  bool minimise_on_face();
   struct Work {
     double wanted = 0, own = 0;  // J
   };
@@ -146,11 +156,13 @@ class BoundedRows {
   std::pmr::vector<int> first_;
   std::pmr::vector<double> x_, guess_, best_;
   std::pmr::vector<std::int8_t> wrong_;  // 0, or 1 + the state to change to
-  double largest_ = 0;                   // J, the largest v^2 / mobility of a row
+  double largest_ = 0;                   // J, the largest v^2 / mobility of a row, or what the caller gave:
+  double least_energy_ = 0;              // J
   bool assembled_ = false;               // all_ has these rows
   bool factorised_ = false;              // matrix_ has the factors of the rows free_
   bool shares_ = false;                  // free rows depend on each other: they are regularised
   bool guesses_ = false;                 // guess_ is the fraction of the guess that gains no energy
+  bool descended_ = false;               // the last solution was found by descent
 };
 
 }  // namespace plumb

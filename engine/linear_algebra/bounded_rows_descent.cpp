@@ -2,12 +2,16 @@
 
 #include "engine/linear_algebra/bounded_rows.h"
 
-// Gradient projection with subspace minimisation, for systems of which pivots do not end.
+// Gradient projection with subspace minimisation (active sets), for systems of which pivots do not end.
 namespace plumb {
 namespace {
 
 // Rounds of descent, iterations in each round, and the last iterations if the rounds do not converge.
-constexpr int kRounds = 3, kSweeps = 3, kLastSweeps = 10;
+constexpr int kRounds = 10, kSweeps = 3, kLastSweeps = 10;
+// Tolerated violation, relative to the row with the largest energy v^2 / mobility. Where bodies
+// are wedged, impulses are a thousand times the load, and what regularises dependent rows leaves 1e-7 of
+// them: at 1e-8 a third of the descents of two wedged ragdolls do not end, at 1e-6 one in twenty.
+constexpr double kSolved = 1e-6;
 
 }  // namespace
 
@@ -35,8 +39,20 @@ void BoundedRows::advance(double share) {
   }
 }
 
-// Goes to the minimum over the rows between their bounds, or towards it as far as the energy falls.
-void BoundedRows::minimise_free() {
+// Returns the largest share of the step x_, up to 1, that leaves the free rows within their bounds.
+double BoundedRows::share_within_bounds() const {
+  double share = 1;
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const BoundedRow& row = rows[free_[k]];
+    if (row.impulse + x_[k] < row.lower) share = std::min(share, (row.lower - row.impulse) / x_[k]);
+    if (row.impulse + x_[k] > row.upper) share = std::min(share, (row.upper - row.impulse) / x_[k]);
+  }
+  return share;
+}
+
+// Goes to the minimum over the rows between their bounds, or towards it as far as the energy falls. Returns
+// false if a bound was in the way: that row is at its bound now.
+bool BoundedRows::minimise_on_face() {
   for (BoundedRow& row : rows)
     row.state = row.impulse <= row.lower   ? BoundedRow::kLower
                 : row.impulse >= row.upper ? BoundedRow::kUpper
@@ -44,14 +60,14 @@ void BoundedRows::minimise_free() {
   factorise();
   x_.resize(free_.size());
   for (int refinement = 0; refinement <= kRefinements; ++refinement) {
-    for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = residual(free_[k]);
-    matrix_.solve(x_.data());
-    double share = 1;
+    bool exact = true;
     for (std::size_t k = 0; k < free_.size(); ++k) {
-      const BoundedRow& row = rows[free_[k]];
-      if (row.impulse + x_[k] < row.lower) share = std::min(share, (row.lower - row.impulse) / x_[k]);
-      if (row.impulse + x_[k] > row.upper) share = std::min(share, (row.upper - row.impulse) / x_[k]);
+      x_[k] = residual(free_[k]);
+      exact = exact && !matters(free_[k], x_[k], kExact);
     }
+    if (exact) return true;
+    matrix_.solve(x_.data());
+    const double share = share_within_bounds();
     if (share == 1) {
       advance(1);
       continue;
@@ -63,23 +79,25 @@ void BoundedRows::minimise_free() {
     for (std::size_t i = 0; i < rows.size(); ++i) std::swap(best_[i], rows[i].impulse);
     apply_all();
     advance(1);
-    if (energy() <= near) return;
+    if (energy() <= near) return false;
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = best_[i];
     apply_all();
-    return;
+    return false;
   }
+  return true;
 }
 
-// Minimises by gradient projection, from the best impulses known.
+// Goes to the minimum over the rows between their bounds, fixing each row whose bound is in the way.
+void BoundedRows::minimise_free() {
+  for (std::size_t faces = 0; faces <= rows.size() && !minimise_on_face(); ++faces) continue;
+}
+
+// Minimises the energy over the impulses within their bounds, from those that are there.
 void BoundedRows::descend() {
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    rows[i].impulse = std::min(std::max(best_[i], rows[i].lower), rows[i].upper);
-  apply_all();
-  shrink();
   for (int round = 0; round < kRounds; ++round) {
-    sweep(kSweeps);
+    if (round > 0) sweep(kSweeps);
     minimise_free();
-    if (count_wrong(kSlack) == 0) return;
+    if (count_wrong(kSolved) == 0) return;
   }
   sweep(kLastSweeps);
 }

@@ -234,7 +234,25 @@ struct RowTie {
   Real most = 0;            ///< N s, of a pair of rows
   bool pair = false;
   int first = -1, count = 0;  ///< rows whose impulses bound this one
-  double friction = 0;        ///< factor on their sum; m for torques
+  double factor = 0;          ///< on their sum; m for torques
+  Real* tangent = nullptr;    ///< N s, in the contact of which the row is a ray
+  double slope = 0;           ///< tangent impulse per impulse of the ray
+};
+
+/// The rays of a contact's friction cone, two for each point.
+template <class Real>
+struct FrictionCone {
+  const ContactConstraint<Real>* contact = nullptr;
+  int block = 0;
+  int first = 0, count = 0;   ///< rows
+  double friction = 0;        ///< coefficient
+  double slip = 0;            ///< m/s, along the tangent, for which the rows are made
+  double gain = 1, last = 0;  ///< factor on the next change of `slip`; m/s, the last one
+};
+
+/// Impulses of a contact, N s and N m s.
+struct LastImpulses {
+  double normal[2] = {0, 0}, tangent = 0, rolling = 0;
 };
 
 /// An island with joints, solved directly.
@@ -247,7 +265,9 @@ struct JointedIsland {
         blocks(room),
         sizes(room),
         ties(room),
+        cones(room),
         impulses(room),
+        last(room),
         allowed(room),
         system(room) {}
 
@@ -257,11 +277,14 @@ struct JointedIsland {
   std::pmr::vector<std::pair<int, int>> blocks;  ///< links of each joint, then of each contact
   std::pmr::vector<int> sizes;
   std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
+  std::pmr::vector<FrictionCone<Real>> cones;
   std::pmr::vector<double> impulses;    ///< N s, of the rows in this substep
+  std::pmr::vector<LastImpulses> last;  ///< by contact, of the last step
   std::pmr::vector<double> allowed;     ///< m or rad, gaps of the rows: joint_gaps.cpp
   BoundedRows system;
   int root = kNone;     ///< body that represents it
   int contact_row = 0;  ///< first row of a contact
+  double energy = 0;    ///< J, to which errors of the substep's solutions are relative
 };
 
 /// A row whose position error is fed back: see solvers/error_feedback.h.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 // Truth are the conditions of the problem itself, evaluated from the impulses: with
@@ -138,29 +139,97 @@ bool is_solved(const Problem& it, double tolerance) {
   return solved;
 }
 
-// Up to 16 rows are solved to ten times the violation of an inequality that is tolerated. So are more, up to
-// 90, but for 1 in 100 (4 of these 517) in which rows depend on each other nearly, or pivots do not end:
-// these are scaled to gain no energy.
+// All rows are solved to ten times the violation of an inequality that is tolerated.
 TEST(BoundedRows, SolvesChainsOfJointsLimitsBrakesAndSprings) {
-  int many = 0, unsolved = 0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Draw of(seed);
     Problem it;
     draw(of, it);
     it.system.solve();
-    if (it.system.rows.size() <= 16) {
-      EXPECT_TRUE(is_solved(it, 1e-8)) << "seed " << seed;
-    } else {
-      ++many, unsolved += is_solved(it, 1e-8) ? 0 : 1;
-    }
+    EXPECT_TRUE(is_solved(it, 1e-8)) << "seed " << seed;
   }
-  EXPECT_LE(100 * unsolved, many);
+}
+
+// Adds contacts of two points between any of the bodies: each has four rays n + mu t, n - mu t, whose
+// impulses are not negative, and of which one depends on the others.
+void add_contacts(Draw& of, int count, Problem& out) {
+  const int bodies = static_cast<int>(out.start.size());
+  std::vector<std::pair<int, int>> blocks;
+  std::vector<int> sizes;
+  for (const BoundedRow& row : out.system.rows) {
+    if (row.block < static_cast<int>(blocks.size())) {
+      ++sizes[row.block];
+      continue;
+    }
+    blocks.emplace_back(row.a, row.b), sizes.push_back(1);
+  }
+  for (int i = 0; i < count; ++i) {
+    const int a = of.below(bodies), b = (a + 1 + of.below(bodies - 1)) % bodies;
+    const double turn = of.in(-3, 3), friction = of.in(0.1, 1);
+    const Vec2d n{std::cos(turn), std::sin(turn)}, t{n.y, -n.x};
+    const double arm_a = of.in(-0.5, 0.5), arm_b = of.in(-0.5, 0.5), side_a = of.in(-0.5, 0.5),
+                 side_b = of.in(-0.5, 0.5);
+    for (const double point : {-0.3, 0.3}) {
+      for (const double slope : {friction, -friction}) {
+        BoundedRow row{.a = a, .b = b, .block = static_cast<int>(blocks.size())};
+        row.linear_b = n + slope * t, row.linear_a = -row.linear_b;
+        row.angular_a = -(arm_a + point + slope * side_a), row.angular_b = arm_b + point + slope * side_b;
+        row.lower = 0, row.upper = kUnbounded;
+        out.system.rows.push_back(row);
+      }
+    }
+    blocks.emplace_back(a, b), sizes.push_back(4);
+  }
+  out.system.order(blocks, sizes);
+}
+
+// Rows that depend on each other share their load by a compliance of 1e-7. It leaves errors of 1e-7 of the
+// impulses, which where bodies are wedged are many times what the velocities need. Of 20,000 such heaps 2 are
+// not solved to 1e-5.
+TEST(BoundedRows, SolvesHeapsOfJointedBodiesWithFriction) {
+  int many = 0, unsolved = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Draw of(seed);
+    Problem it;
+    const int bodies = 2 + of.below(8);
+    draw(of, bodies, of.one_in(2) ? 1 : 100, it);
+    // All may come to rest on the first body.
+    for (BoundedRow& row : it.system.rows) row.wanted = 0;
+    it.system.bodies[0].velocity = it.start[0].velocity = {}, it.system.bodies[0].spin = it.start[0].spin = 0;
+    add_contacts(of, 1 + of.below(bodies + 2), it);
+    it.system.solve();
+    ++many, unsolved += is_solved(it, 1e-5) ? 0 : 1;
+  }
+  EXPECT_LE(1000 * unsolved, many);
+}
+
+double energy(std::span<const BoundedBody> bodies) {
+  double sum = 0;
+  for (const BoundedBody& body : bodies)
+    if (body.is_dynamic())
+      sum += 0.5 * (length_squared(body.velocity) / body.inverse_mass.x +
+                    body.spin * body.spin / body.inverse_inertia);
+  return sum;
+}
+
+// Rows that want no velocity take energy, also where masses are so far apart that impulses are inexact.
+TEST(BoundedRows, GainNoEnergyWhateverTheMasses) {
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Draw of(seed);
+    Problem it;
+    const int bodies = 2 + of.below(8);
+    draw(of, bodies, std::pow(10, of.in(0, 12)), it);
+    for (BoundedRow& row : it.system.rows) row.wanted = 0;
+    it.system.bodies[0].velocity = it.start[0].velocity = {}, it.system.bodies[0].spin = it.start[0].spin = 0;
+    add_contacts(of, 1 + of.below(bodies + 2), it);
+    it.system.solve();
+    EXPECT_LE(energy(it.system.bodies), energy(it.start) * (1 + 1e-9)) << "seed " << seed;
+  }
 }
 
 // Bounds that follow other impulses, as friction's do, change between two solutions: brakes become weaker,
-// stronger, or hold nothing. Of 3,000 solutions 1 is inexact.
+// stronger, or hold nothing.
 TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
-  int solutions = 0, unsolved = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     Draw of(seed);
     Problem it;
@@ -170,10 +239,9 @@ TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
       for (BoundedRow& row : it.system.rows)
         if (std::isfinite(row.upper)) row.upper = of.one_in(3) ? 0 : of.in(0, 1), row.lower = -row.upper;
       it.system.solve_again();
-      ++solutions, unsolved += is_solved(it, 1e-8) ? 0 : 1;
+      EXPECT_TRUE(is_solved(it, 1e-8)) << "seed " << seed << ", change " << i;
     }
   }
-  EXPECT_LE(1000 * unsolved, solutions);
 }
 
 // A single row has x = (wanted - J v) / (J M^-1 J^T).

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/linear_algebra/row_coupling.h"
 #include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/island_links.h"
@@ -22,6 +23,28 @@ BoundedRow::State state_of(double impulse, double lower, double upper) {
   return impulse >= upper ? BoundedRow::kUpper : BoundedRow::kFree;
 }
 
+// Impulses along the rays n + mu t and n - mu t of a friction cone, for each point.
+struct FrictionRays {
+  double impulse[2][2] = {};
+};
+
+// Returns the rays that have a contact's impulses. Two points have four rays for three impulses: one of the
+// rays gets none, so that the rows do not depend on each other.
+FrictionRays rays_of(const LastImpulses& c, double friction) {
+  FrictionRays out;
+  if (!(friction > 0)) return out;
+  const double normal[2] = {std::max(c.normal[0], 0.0), std::max(c.normal[1], 0.0)};
+  const int small = normal[0] <= normal[1] ? 0 : 1, large = 1 - small;
+  const double sideways = c.tangent / friction;
+  const double at_small = std::copysign(normal[small], sideways);
+  const double at_large = std::clamp(sideways - at_small, -normal[large], normal[large]);
+  out.impulse[small][0] = 0.5 * (normal[small] + at_small);
+  out.impulse[small][1] = 0.5 * (normal[small] - at_small);
+  out.impulse[large][0] = 0.5 * (normal[large] + at_large);
+  out.impulse[large][1] = 0.5 * (normal[large] - at_large);
+  return out;
+}
+
 // Computes the rows of an island at the current positions, for one stage of a substep.
 template <class Real>
 class RowMaker {
@@ -30,17 +53,15 @@ class RowMaker {
       : w_(w), island_(island), h_(step.h), hold_(stage == Stage::Hold), close_(stage == Stage::Close) {}
 
   void make() {
-    island_.system.rows.clear(), island_.ties.clear();
+    island_.system.rows.clear(), island_.ties.clear(), island_.cones.clear();
     // Friction holds loads as it came to do so. Joints alone share redundant loads evenly.
     remembers_ = hold_ && std::any_of(island_.contacts.begin(), island_.contacts.end(),
                                       [](const ContactConstraint<Real>* c) { return c->friction > 0; });
     for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_)
       add_joint(island_.joints[block_]);
     island_.contact_row = static_cast<int>(island_.ties.size());
-    for (ContactConstraint<Real>* c : island_.contacts) {
-      add_contact(*c);
-      ++block_;
-    }
+    for (std::size_t i = 0; i < island_.contacts.size(); ++i, ++block_)
+      add_contact(*island_.contacts[i], island_.last[i]);
   }
 
  private:
@@ -57,29 +78,34 @@ class RowMaker {
            row.angular_b * b.spin;
   }
 
-  // `applied` is the impulse of the first solve; the second one adds to it.
-  void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper) {
+  // `applied` is the impulse of the first solve; the second one adds to it. `last` is the impulse that the
+  // row had before the step.
+  void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper, double last) {
     const std::size_t place = island_.ties.size();
     if (close_) {
-      // Springs, motors and friction correct no positions. Unilateral rows that are open and have no impulse
-      // may stay so, or close.
       const bool unilateral = lower == 0 && tie.first < 0;
       const bool pressed = unilateral && island_.impulses[place] > 0;
-      const bool holds = unilateral ? row.gap < 0 || pressed : row.gap != 0 || rigid_;
-      row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
-      if (pressed) row.gap = std::min(row.gap, 0.0);
-      row.upper = unilateral ? upper : 0;
-      row.compliance = row.coupled_compliance = 0;
-      island_.system.rows.push_back(row);
-      island_.ties.push_back(tie);
+      add_closing(row, tie, unilateral ? row.gap < 0 || pressed : row.gap != 0 || rigid_, pressed,
+                  unilateral ? upper : 0);
       return;
     }
-    if (place >= island_.impulses.size()) island_.impulses.push_back(double(*tie.impulse));
+    if (place >= island_.impulses.size()) island_.impulses.push_back(last);
     const double guess = island_.impulses[place], applied = hold_ ? 0 : guess;
     row.lower = lower - applied, row.upper = upper - applied;
     row.state = state_of(guess, lower, upper);
     row.impulse = remembers_ ? guess : 0;
     row.wanted -= row.compliance * applied;
+    island_.system.rows.push_back(row);
+    island_.ties.push_back(tie);
+  }
+
+  // Springs, motors and friction correct no positions. Unilateral rows that are open and have no impulse may
+  // stay so, or close.
+  void add_closing(BoundedRow row, const RowTie<Real>& tie, bool holds, bool pressed, double upper) {
+    row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
+    if (pressed) row.gap = std::min(row.gap, 0.0);
+    row.upper = upper;
+    row.compliance = row.coupled_compliance = 0;
     island_.system.rows.push_back(row);
     island_.ties.push_back(tie);
   }
@@ -127,7 +153,7 @@ class RowMaker {
           row.softening = kDriven;
           break;
       }
-      add(row, {.impulse = from.impulse, .most = from.most, .pair = from.pair}, lower, most);
+      add(row, {.impulse = from.impulse, .most = from.most, .pair = from.pair}, lower, most, *from.impulse);
       if (!hold_ && from.coupled_compliance != 0) {
         const std::size_t last = island_.ties.size() - 1;
         std::pmr::vector<BoundedRow>& all = island_.system.rows;
@@ -144,22 +170,29 @@ class RowMaker {
            row.angular_b * b.turn;
   }
 
-  void add_contact(ContactConstraint<Real>& c) {
+  void add_contact(ContactConstraint<Real>& c, const LastImpulses& last) {
     const auto [link_a, link_b] = island_.blocks[block_];
     const BodyMotion<Real>&a = w_.motion[c.body_a], &b = w_.motion[c.body_b];
     const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x};
-    BoundedRow row{.a = link_a, .b = link_b};
-    row.block = block_;
     const auto along = [&](Vec2d d, Real arm_a, Real arm_b) {
+      BoundedRow row{.a = link_a, .b = link_b};
+      row.block = block_;
       row.linear_a = -d, row.linear_b = d, row.angular_a = -double(arm_a), row.angular_b = arm_b;
-      row.wanted = row.gap = 0;
+      return row;
     };
     const double closed = dot(n, (b.moved - a.moved).template as<double>());
     const int first = static_cast<int>(island_.system.rows.size());
+    const double friction = std::min(double(c.friction), kSteepest);
+    const bool rubs = friction > 0;
+    BoundedRow tangent = along(t, c.arm_tangent_a, c.arm_tangent_b);
+    const double sliding = hold_ ? velocity_along(tangent) : held_along(tangent);
+    tangent.wanted = hold_ ? 2 * double(c.surface_speed) - sliding : double(c.surface_speed);
+    const double slip = std::abs(sliding - double(c.surface_speed));
+    const FrictionRays rays = rays_of(last, friction);
     double pressure = 0;
     rigid_ = false;
     for (int i = 0; i < c.count; ++i) {
-      along(n, c.arm_a[i], c.arm_b[i]);
+      BoundedRow row = along(n, c.arm_a[i], c.arm_b[i]);
       const double gap =
           double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
@@ -168,26 +201,50 @@ class RowMaker {
       // A contact that bounces is disabled until its time of impact, and a gap that nothing pressed on brakes
       // nothing at the substep's end.
       const std::size_t place = island_.ties.size();
-      const bool open = !hold_ && !close_ && gap > 0 && !(island_.impulses[place] > 0);
+      const bool pressed =
+          !hold_ && (island_.impulses[place] > 0 || (rubs && island_.impulses[place + 1] > 0));
+      const bool open = !hold_ && !close_ && gap > 0 && !pressed;
       const bool passes = open || !(c.mass[i] > 0);
-      add(row, {.impulse = &c.normal_impulse[i]}, 0, passes ? 0 : std::numeric_limits<double>::infinity());
-      if (passes) island_.impulses[island_.ties.size() - 1] = 0;
-      pressure += island_.impulses[island_.ties.size() - 1];
+      const double most = passes ? 0 : std::numeric_limits<double>::infinity();
+      for (int k = 0; k < (rubs ? 2 : 1); ++k) {
+        const double slope = k == 0 ? friction : -friction;
+        BoundedRow ray = row;
+        if (close_) {
+          // One of the two closes the gap.
+          const bool holds = k == 0 && (row.gap < 0 || pressed);
+          add_closing(ray, {.impulse = &c.normal_impulse[i]}, holds, holds && pressed, k == 0 ? most : 0);
+          continue;
+        }
+        ray.linear_a += slope * tangent.linear_a, ray.linear_b += slope * tangent.linear_b;
+        ray.angular_a += slope * tangent.angular_a, ray.angular_b += slope * tangent.angular_b;
+        ray.wanted += slope * tangent.wanted - friction * slip * (hold_ ? 2 : 1);
+        add(ray,
+            {.impulse = &c.normal_impulse[i], .tangent = rubs ? &c.tangent_impulse : nullptr, .slope = slope},
+            0, most, rubs ? rays.impulse[i][k] : last.normal[i]);
+        if (passes) island_.impulses[island_.ties.size() - 1] = 0;
+        pressure += island_.impulses[island_.ties.size() - 1];
+      }
     }
-    if (c.friction > 0) {
-      along(t, c.arm_tangent_a, c.arm_tangent_b);
-      row.wanted = hold_ ? 2 * double(c.surface_speed) - velocity_along(row) : double(c.surface_speed);
-      add(row, {.impulse = &c.tangent_impulse, .first = first, .count = c.count, .friction = c.friction},
-          -c.friction * pressure, c.friction * pressure);
+    const int count = static_cast<int>(island_.system.rows.size()) - first;
+    if (rubs) {
+      const std::span<const BoundedBody> bodies = island_.system.bodies;
+      const BoundedRow normal = along(n, c.arm_a[0], c.arm_b[0]);
+      const double across = coupling(bodies, tangent, tangent), through = coupling(bodies, normal, normal);
+      const double gain = through > 0 ? 1 + friction * friction * across / through : 1;
+      island_.cones.push_back({&c, block_, first, count, friction, slip, gain, 0});
     }
     if (c.rolling_arm > 0) {
-      along({}, 1, 1);
+      BoundedRow row = along({}, 1, 1);
       row.wanted = hold_ ? -velocity_along(row) : 0;
-      add(row, {.impulse = &c.rolling_impulse, .first = first, .count = c.count, .friction = c.rolling_arm},
-          -c.rolling_arm * pressure, c.rolling_arm * pressure);
+      const double most = c.rolling_arm * pressure;
+      add(row, {.impulse = &c.rolling_impulse, .first = first, .count = count, .factor = c.rolling_arm},
+          -most, most, last.rolling);
     }
   }
 
+  // Largest coefficient of friction that counts, an angle of 89.4 degrees. The steeper the rays of a cone,
+  // the more they depend on each other: at 1,000 normals err by 0.1 of their impulse.
+  static constexpr double kSteepest = 100;
   // Compliance of motors relative to their mobility: limits and rigid rows prevail over them.
   static constexpr double kDriven = 1e-6;
 
@@ -199,12 +256,10 @@ class RowMaker {
   bool rigid_ = false, remembers_ = false;
 };
 
-// Updates bounds that depend on other impulses: Coulomb friction, and pairs of rows bounded as a vector.
-// Returns true if a bound has changed so much that another solve is needed. Bounds of friction go a part of
-// the way: where friction decides the pressure of other contacts (a belt round a drum), bounds that follow it
-// all the way make it swing for ever.
+// Updates bounds that depend on other impulses: rolling resistance, and pairs of rows bounded as a vector.
+// Returns true if a bound has changed so much that another solve is needed.
 template <class Real>
-bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
+bool renew_bounds(JointedIsland<Real>& island, bool hold) {
   bool changed = false;
   auto& rows = island.system.rows;
   const auto total = [&](int i) { return rows[i].impulse + (hold ? 0 : island.impulses[i]); };
@@ -214,8 +269,6 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
     const double lower = -most - applied, upper = most - applied;
     constexpr double kSame = 1e-3;
     const bool matters = row.state != BoundedRow::kFree || std::abs(total(i)) > most;
-    // Take no more without slip: where parts jam, friction raises the pressure that bounds it.
-    if (upper > row.upper && !island.system.is_held_back(i)) return;
     if (matters && std::abs(upper - row.upper) > kSame * most) changed = true;
     if (row.lower >= row.upper && most > 0) row.state = BoundedRow::kFree;
     row.lower = lower, row.upper = upper;
@@ -225,8 +278,7 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
     if (tie.first >= 0) {
       double pressure = 0;
       for (int k = 0; k < tie.count; ++k) pressure += std::max(total(tie.first + k), 0.0);
-      const double last = rows[i].upper + (hold ? 0 : island.impulses[i]);
-      set(i, last + follow * (tie.friction * pressure - last));
+      set(i, tie.factor * pressure);
     } else if (tie.pair && tie.most < std::numeric_limits<Real>::infinity()) {
       const double x = total(i - 1), y = total(i), size = std::hypot(x, y), most = tie.most;
       if (size > most * 1.001) set(i - 1, most * std::abs(x) / size), set(i, most * std::abs(y) / size);
@@ -235,42 +287,68 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold, double follow) {
   return changed;
 }
 
-// Returns true if nothing in an island moves faster than forces make it in 8 substeps: friction then decides
-// what stays at rest, else only how fast it slows. With 1, one belt in 300 creeps; without a limit bodies in
-// a drum would cost three times as much.
+// Makes the rows of friction cones for the slip that has been found. Returns true if one has changed so much
+// that another solve is needed. A single contact's slip u follows the one that its rows are made for, s, by
+// du/ds = mu^2 k / (1 + mu^2 k), where k is the mobility along its tangent over that along its normal: the
+// gain 1 + mu^2 k goes to u = s at once.
 template <class Real>
-bool may_rest(const JointedIsland<Real>& island, bool hold) {
-  double speed = 0, gain = 0;
-  for (const JointedLink& link : island.links) {
-    speed = std::max(speed, length_squared(link.before));
-    gain = std::max(gain, length_squared(hold ? link.velocity - link.before : link.push));
+bool renew_slips(JointedIsland<Real>& island, bool hold) {
+  // Tolerated error of a velocity along the normal, as a share of the largest.
+  constexpr double kSame = 1e-5;
+  bool changed = false;
+  for (FrictionCone<Real>& cone : island.cones) {
+    const ContactConstraint<Real>& c = *cone.contact;
+    const auto [link_a, link_b] = island.blocks[cone.block];
+    const BoundedBody &a = island.system.bodies[link_a], &b = island.system.bodies[link_b];
+    const JointedLink &before_a = island.links[link_a], &before_b = island.links[link_b];
+    const Vec2d t{double(c.normal.y), -double(c.normal.x)};
+    const auto along = [&](Vec2d velocity, double spin_a, double spin_b) {
+      return dot(t, velocity) + double(c.arm_tangent_b) * spin_b - double(c.arm_tangent_a) * spin_a;
+    };
+    double sliding = along(b.velocity - a.velocity, a.spin, b.spin);
+    if (hold)
+      sliding = 0.5 * (sliding +
+                       along(before_b.before - before_a.before, before_a.spin_before, before_b.spin_before));
+    const double missing = std::abs(sliding - double(c.surface_speed)) - cone.slip;
+    if (missing * cone.last < 0) cone.gain = std::max(0.5 * cone.gain, 1.0);
+    cone.last = missing;
+    const double slip = std::max(cone.slip + cone.gain * missing, 0.0);
+    const double change = cone.friction * (slip - cone.slip) * (hold ? 2 : 1);
+    for (int i = cone.first; i < cone.first + cone.count; ++i) {
+      BoundedRow& row = island.system.rows[i];
+      row.wanted -= change;
+      changed = changed || (row.lower < row.upper && island.system.is_felt(i, change, kSame));
+    }
+    cone.slip = slip;
   }
-  return speed <= 64 * gain;
+  return changed;
 }
 
 template <class Real>
 void solve(JointedIsland<Real>& island, bool hold) {
-  // Of 210 belts of 2 to 16 links (masses 1:1 to 1:500, at 0.3 to 0.98 of what friction holds) 7 creep by
-  // more than 1e-8 m/s, by 7e-4 m/s at most. Renewed once and all the way 176 creep, by up to 0.14 m/s; 8
-  // times by a half 17, 24 times by a half 10; 32 times by a fifth none, but a bound that begins takes all of
-  // them.
-  constexpr int kRenewals = 32;
-  const bool rests = may_rest(island, hold);
+  constexpr int kRenewals = 8;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     BoundedBody& body = island.system.bodies[i];
     body.velocity = island.links[i].velocity, body.spin = island.links[i].spin;
   }
-  island.system.solve();
-  for (int i = 0; i < (rests ? kRenewals : 1) && renew_bounds(island, hold,
-                                                              !rests  ? 1
-                                                              : i < 8 ? 0.5
-                                                                      : 0.2);
-       ++i)
+  // At rest what is left of the velocities is rounding: errors are relative to what was solved before.
+  island.system.solve(hold ? 0 : island.energy);
+  if (hold) island.energy = island.system.largest_energy();
+  for (int i = 0; i < kRenewals; ++i) {
+    const bool slips = renew_slips(island, hold), bounds = renew_bounds(island, hold);
+    if (!slips && !bounds) break;
     island.system.solve_again();
+  }
+  for (const RowTie<Real>& tie : island.ties) {
+    *tie.impulse = 0;
+    if (tie.tangent != nullptr) *tie.tangent = 0;
+  }
   for (std::size_t i = 0; i < island.ties.size(); ++i) {
     const double x = island.system.rows[i].impulse;
     island.impulses[i] = hold ? x : island.impulses[i] + x;
-    *island.ties[i].impulse = static_cast<Real>(island.impulses[i]);
+    const RowTie<Real>& tie = island.ties[i];
+    *tie.impulse += static_cast<Real>(island.impulses[i]);
+    if (tie.tangent != nullptr) *tie.tangent += static_cast<Real>(tie.slope * island.impulses[i]);
   }
 }
 
@@ -332,7 +410,10 @@ void prepare_jointed_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.jointed[i];
     find_links(w, island);
-    island.impulses.clear();
+    island.impulses.clear(), island.last.clear();
+    for (const ContactConstraint<Real>* c : island.contacts)
+      island.last.push_back(
+          {{c->normal_impulse[0], c->normal_impulse[1]}, c->tangent_impulse, c->rolling_impulse});
   }
 }
 
