@@ -33,7 +33,7 @@ struct Dissent {
 /// An engine without a motion to judge in a case.
 struct Absence {
   std::string engine, why;
-  bool broke = false;  ///< it failed, crashed or took too long; false: it does not run such a scene
+  bool broke = false;  ///< failed, crashed or took too long; false: does not support such a scene
 };
 
 /// Which engines agree on one case, all at the same settings.
@@ -43,7 +43,7 @@ struct Agreement {
   std::vector<std::string> agree;       ///< with the truth: every check is within its bound
   std::vector<Dissent> dissents;
   std::vector<Absence> absent;
-  /// Largest sets of two or more engines in which each is within the sum of both bounds of each other.
+  /// Largest sets of two or more engines of which each pair differs by no more than the sum of their bounds.
   std::vector<std::vector<std::string>> groups;
 
   std::size_t ran() const { return agree.size() + dissents.size(); }
@@ -52,9 +52,9 @@ struct Agreement {
   std::vector<std::string> partners(std::string_view engine) const;
 };
 
-/// Derives the agreement of every case in `results`, in the order of the cases. Of an engine's results for a
-/// case it takes the last at the default settings; where no engine has one there, at those of the first
-/// result.
+/// Derives the agreement of every case in `results`, in the order of the cases. Takes the last result of each
+/// engine for a case at the default settings. If no engine has a result at these settings, takes the settings
+/// of the first result.
 std::vector<Agreement> agreements(std::span<const Result> results);
 
 enum class AgreementDetail {
@@ -62,14 +62,14 @@ enum class AgreementDetail {
   Full,   ///< also the names of those that agree, with the truth and with each other
 };
 
-/// Formats them for people: cases with misses one by one, the others together, the reasons once each.
+/// Formats agreements for people: cases with misses one by one, the others together, each reason once.
 std::string agreement_text(std::span<const Agreement> cases, AgreementDetail detail, const Style& style);
 
 /// Formats a case as one line of JSON. `agreement_from_json` reads it back; it throws `Error` (Syntax).
 std::string agreement_json(const Agreement& one);
 Agreement agreement_from_json(std::string_view text);
 
-/// Reads a file of them. Throws `Error` (Io, Syntax).
+/// Reads a file of such lines. Throws `Error` (Io, Syntax).
 std::vector<Agreement> read_agreements(const std::string& path);
 
 /// Formats cases as CSV: a line per case, engine and missed check.

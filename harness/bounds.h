@@ -30,7 +30,7 @@ class Tolerances {
   Tolerances(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,
              const reference::StepSettings& settings, const ConservationScale& scale);
 
-  /// A tolerance, or nothing if none can be derived (no truth, nothing promised).
+  /// Tolerance of a check; absent if none can be derived (no truth and no promise of the scenario).
   using Bound = std::optional<double>;
 
   Bound position(int sample, std::size_t body) const;

@@ -36,7 +36,7 @@ void measure_costs(const Case& scene_case, const CompareOptions& options, std::v
   }
 }
 
-// Compares each engine with each other: they agree if their distance never exceeds the sum of both bounds on
+// Compares each engine with every other: two agree if their distance never exceeds the sum of their bounds on
 // the distance from the truth.
 void find_agreement(std::vector<Entrant>& entrants) {
   for (Entrant& a : entrants) {

@@ -323,8 +323,8 @@ CaseFile read_case(const std::string& path) {
 bool is_case(const std::string& path) {
   try {
     if (!fs::is_regular_file(path)) return false;
-    // Looks for a key in the text: a file with a syntax error may be meant as a case, and the error then says
-    // so.
+    // Looks for the key in the text, because a file with a syntax error may be meant as a case; the error
+    // then says so.
     return read_text(path).find("\"plumb_case\"") != std::string::npos;
   } catch (const std::exception&) {
     return false;

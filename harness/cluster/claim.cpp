@@ -45,7 +45,8 @@ std::string process_names() {
   return fs::read_symlink("/proc/self/ns/pid", code).string();
 }
 
-// Returns when a process began, in ticks since the machine did; empty if there is none.
+// Returns the time at which a process began, in clock ticks since the machine started; empty if there is no
+// such process.
 std::string began(pid_t process) {
   const std::string line = first_line(fmt::format("/proc/{}/stat", process));
   std::size_t at = line.rfind(')');  // the name before it may hold spaces
@@ -75,7 +76,7 @@ std::string nonce_of(const std::string& text) {
   return json.is_object() ? json.value("nonce", "") : "";
 }
 
-// Returns true if the claim is of a process of this machine that is gone.
+// Returns true if the claim was made by a process of this machine that has ended.
 bool is_dead(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || json.value("boot", "") != boot() || json.value("names", "") != process_names())
@@ -141,7 +142,7 @@ std::unique_ptr<Claim> Claim::take(const std::string& folder, int number, double
     const std::string away = fmt::format("{}/doing/{}.expired", folder, nonce);
     if (rename(path.c_str(), away.c_str()) == 0) {
       const bool same = text_of(away) == text;
-      if (!same) link(away.c_str(), path.c_str());  // it was renewed by another in between: given back
+      if (!same) link(away.c_str(), path.c_str());  // the holder renewed the claim meanwhile, so give it back
       unlink(away.c_str());
       if (!same && !force) break;
       died = over;

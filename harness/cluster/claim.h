@@ -5,19 +5,19 @@
 
 namespace plumb::harness::cluster {
 
-/// A process's claim to a unit: a file in claims/, created by a link so that only one process gets it.
-/// Claims only save work. If two processes do the same unit after all, the results that are renamed into
-/// place first count.
+/// A process's claim to a unit: a file in claims/, created by a hard link so that only one process gets it.
+/// Claims only save work. If two processes do the same unit after all, the results that are moved into place
+/// first count.
 class Claim {
  public:
-  /// Takes the claim to a unit. Returns nothing if another process holds it: one that lives, as far as can
-  /// be known, and has renewed its claim within `expiry` s by the file system's clock. With `force` the
-  /// claim is taken from any holder. `died` is set if the previous holder was dead. Throws `Error` (Io).
+  /// Takes the claim to a unit. Returns nothing if another process holds it that is alive, as far as can be
+  /// known, and has renewed its claim within `expiry` s by the file system's clock. With `force` takes the
+  /// claim from any holder. Sets `died` if the previous holder was dead. Throws `Error` (Io).
   static std::unique_ptr<Claim> take(const std::string& folder, int number, double expiry, bool force,
                                      bool& died);
   Claim(const Claim&) = delete;
   Claim& operator=(const Claim&) = delete;
-  ~Claim();  ///< gives it up if it is still this one's
+  ~Claim();  ///< releases the claim if this process still holds it
 
   void renew() const;
   const std::string& nonce() const { return nonce_; }
@@ -31,7 +31,7 @@ class Claim {
 /// files.
 void remove_dead_claims(const std::string& folder, double expiry);
 
-/// Returns true if a unit is claimed by a process that lives, as far as this machine's clock can tell.
+/// Returns true if a unit is claimed by a process that is alive, as far as this machine's clock can tell.
 bool is_claimed(const std::string& folder, int number, double expiry);
 
 }  // namespace plumb::harness::cluster

@@ -35,7 +35,7 @@ std::string dump(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Thrown when results cannot be written, apart from what is wrong with a unit.
+/// Thrown when results cannot be written, as opposed to errors in a unit.
 class CannotWrite : public Error {
   using Error::Error;
 };
@@ -76,7 +76,7 @@ class Replacement {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Identity of a line, and the part of it that must be the same when it is done again.
+/// Identity of a line, and the part of it that must not change when the unit is repeated.
 struct Entry {
   std::string key, essence, status;
 };
@@ -243,7 +243,7 @@ void copy_files(const std::string& folder, const Done& done, const fs::path& out
     write_whole((out / name).string(), read_text(path_in(folder, "done", done.number) + "/" + name));
 }
 
-// Reports a unit whose files are not as long as when it was completed.
+// Reports a unit whose files have changed in length since it was completed.
 std::string shortened(const std::string& folder, const Done& done) {
   for (const auto& [name, bytes] : done.bytes) {
     std::error_code code;

@@ -26,7 +26,7 @@ struct Survey {
   std::vector<int> noisy;                          ///< done while others used the machine
   std::map<std::string, MachineUse> machines;      ///< by kind
   double seconds_done = 0;                         ///< wall time of all units that are done
-  double seconds_left = 0;  ///< estimate, corrected by what those done have taken, with calibrations
+  double seconds_left = 0;  ///< s, estimate, corrected by the durations of the units done and by calibrations
 
   std::vector<int> missing() const;  ///< in order
 };
@@ -40,8 +40,8 @@ struct Gathered {
       lines{};                            ///< by file: "results.jsonl", "stress.jsonl", "thresholds.jsonl"
   std::map<std::string, int> statuses{};  ///< runs of results.jsonl by status, cells by outcome
   std::size_t cut_short = 0;              ///< last lines that were truncated, and left out
-  std::size_t twice = 0;                  ///< runs that two units did: the first counts
-  std::vector<std::string> differ{};      ///< of them: those whose errors are not the same bits
+  std::size_t twice = 0;                  ///< runs that two units made; the first counts
+  std::vector<std::string> differ{};      ///< of these, the runs whose errors differ in their bits
   bool hunted = false;
   hunt::Hunted hunt{};
 };

@@ -9,7 +9,7 @@ namespace plumb::harness::cluster {
 namespace {
 
 constexpr double kMargin = 3,
-                 kExtra = 120;  // factor and s above an estimate, which is often another machine's
+                 kExtra = 120;  // factor on an estimate (often from another machine), and s added
 
 // Formats a time as D-HH:MM:SS, days and hours as schedulers want them.
 std::string clock_text(int seconds) {

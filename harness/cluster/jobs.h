@@ -20,10 +20,11 @@ struct JobOptions {
   int memory = 4096;      ///< megabytes of a unit
   std::string partition;  ///< of Slurm; empty: its default
   std::string hosts;      ///< file for --sshloginfile; empty: this machine
-  std::string exclude;    ///< Slurm's nodes that disturbed these units, parted by commas
+  std::string exclude;    ///< Slurm's nodes that disturbed these units, separated by commas
 };
 
-/// Units per task of the array, one after the other, so that there are at most `kMostTasks` tasks.
+/// Returns the units per task of the array, done one after the other, so that there are at most `kMostTasks`
+/// tasks.
 int units_a_task(std::size_t units);
 
 /// Returns the time limit, s: three times the estimate of the longest task, plus two minutes.

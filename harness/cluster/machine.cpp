@@ -18,8 +18,8 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kNoise = 1.25;
-// Pendulums that fill half of a first-level cache (16 kB), and their steps: about 2 ms on a processor of
-// 2020.
+// Pendulums that fill half of a first-level cache (16 kB), and the number of steps, which take about 2 ms on
+// a processor of 2020.
 constexpr int kPendulums = 1024, kSteps = 400;
 
 double seconds_since(Clock::time_point start) {
@@ -61,7 +61,7 @@ Machine this_machine(const std::string& kind) {
 
 Calibration calibrate(double seconds) {
   std::vector<double> angles(kPendulums, 0.5), speeds(kPendulums, 0.1), times;
-  volatile double kept = swing(angles, speeds);  // the first warms the cache up, and is not counted
+  volatile double kept = swing(angles, speeds);  // the first run warms the cache up and is not counted
   const Clock::time_point start = Clock::now();
   while (times.size() < 3 || seconds_since(start) < seconds) {
     const Clock::time_point one = Clock::now();

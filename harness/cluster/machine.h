@@ -15,21 +15,21 @@ struct Machine {
 /// Returns this machine's fingerprint; `kind` replaces the processor's name if it is not empty.
 Machine this_machine(const std::string& kind = "");
 
-/// Times of a fixed piece of arithmetic (about 2 ms), repeated.
+/// Repeated timings of a fixed computation (about 2 ms).
 struct Calibration {
   double fastest_ms = 0, median_ms = 0;
   int repetitions = 0;
 };
 
-/// Repeats the piece for `seconds`, at least three times.
+/// Repeats the computation for `seconds`, at least three times.
 Calibration calibrate(double seconds);
 
-/// Returns how far apart the times are: the largest ratio of the median to the fastest, before and after, and
-/// of the medians. 1 on a machine that nothing disturbs.
+/// Returns the scatter of the times: the largest of three ratios, of the median to the fastest before and
+/// after, and of the two medians. 1 on an undisturbed machine.
 double noise_of(const Calibration& before, const Calibration& after);
 
-/// Returns true if others used the machine at the time: a median a quarter above the fastest, or that differs
-/// by a quarter from before to after. The quarter is the spread from which a cost is called noisy.
+/// Returns true if other processes disturbed the measurement: a median is a quarter above the fastest time,
+/// or the medians before and after differ by a quarter. A cost is called noisy from the same spread on.
 bool is_noisy(const Calibration& before, const Calibration& after);
 
 std::string to_json(const Machine& machine);

@@ -9,11 +9,11 @@
 
 namespace plumb::harness::cluster {
 
-/// Units that the results so far call for, not numbered yet.
+/// Units that follow from the results so far, not numbered yet.
 struct NextRound {
   std::vector<Unit> units;
-  int further = 0;  ///< of these: those that go on from units that are done
-  int again = 0;    ///< of these: measured again, because others disturbed the first time
+  int further = 0;  ///< number of these that continue units already done
+  int again = 0;    ///< number of these that repeat measurements which other processes disturbed
 };
 
 /// Plans the next round. If all units with the same `then` are done or given up, adds the unit that `then`
@@ -21,8 +21,8 @@ struct NextRound {
 /// disturbed, on hosts that did not disturb them, at most `kAttempts` times in all.
 NextRound next_round(const std::string& folder, const Plan& plan, const Survey& survey);
 
-/// Returns by number the attempt whose results count, of a unit and its repetitions: the first that was not
-/// disturbed, or else the least disturbed. Those of which none is done are left out.
+/// Returns, by number, the attempt whose results count, of each unit and its repetitions: the first
+/// undisturbed one, else the least disturbed. Leaves out units of which no attempt is done.
 std::map<int, const Done*> least_disturbed(const Plan& plan, const Survey& survey);
 
 }  // namespace plumb::harness::cluster

@@ -30,13 +30,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kMessages = "messages.txt";
 constexpr int kInterruptedCode = 130;
-constexpr std::size_t kLookedAt = 16;  // claims of others, of which some may be dead ones'
+constexpr std::size_t kLookedAt = 16;  // claims that are checked; some may be of dead processes
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Arguments as the program gets them: this folder for "{folder}", and an --out.
+// Returns the arguments as the program gets them: "{folder}" replaced by this folder, and --out added.
 std::vector<std::string> arguments_of(const Unit& unit, const std::string& folder, const std::string& out) {
   constexpr std::string_view kFolder = "{folder}/";
   std::vector<std::string> words{"plumb"};
@@ -56,7 +56,7 @@ std::vector<std::string> arguments_of(const Unit& unit, const std::string& folde
   dup2(nothing, STDOUT_FILENO);
   dup2(messages, STDERR_FILENO);
   if (chdir(directory.c_str()) != 0)
-    errno = 0;  // a machine without it: engines' commands may fail, and say so
+    errno = 0;  // this machine lacks the folder; engine commands may fail with their own error
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -64,7 +64,7 @@ std::vector<std::string> arguments_of(const Unit& unit, const std::string& folde
   _exit(127);
 }
 
-// Waits for the child, renewing the claim; passes an interrupt on. Returns the status of waitpid.
+// Waits for the child, renews the claim meanwhile and forwards an interrupt. Returns the status of waitpid.
 int wait_for(pid_t child, const Claim& claim, double expiry) {
   Clock::time_point renewed = Clock::now();
   bool passed_on = false;
@@ -136,7 +136,7 @@ std::map<std::string, std::uintmax_t> keep_files(const fs::path& folder) {
   return out;
 }
 
-// Moves complete results to their place; false if others' are there, which stay.
+// Moves complete results into place; returns false if another process's results are there, which are kept.
 bool put_in_place(const std::string& from, const std::string& to, bool replace) {
   if (rename(from.c_str(), to.c_str()) == 0) return true;
   if (errno != ENOTEMPTY && errno != EEXIST)
@@ -173,7 +173,7 @@ Worked run(const std::string& folder, const Plan& plan, const Unit& unit, const 
            const Claim& claim) {
   const Doing doing(fmt::format("{}.{}", path_in(folder, "doing", unit.number), claim.nonce()));
   Done done{.number = unit.number, .machine = this_machine(options.kind), .began = time_text()};
-  // Times the machine briefly where no cost is measured: three repetitions tell its speed well enough.
+  // Times the machine briefly if no cost is measured: three repetitions determine its speed well enough.
   const double calibrated = unit.cost ? options.calibration / 2 : 0;
   done.before = calibrate(calibrated);
   const Clock::time_point start = Clock::now();
@@ -254,7 +254,7 @@ std::optional<int> Queue::next(Worked& worked) {
   std::vector<const Unit*> claimed;
   for (const Unit* unit : open_) {
     if (interrupted()) return {};
-    // While others are at work, one of them may be on another host.
+    // While other processes work, leave a unit that another host should do to them.
     const bool elsewhere = std::find(unit->avoid.begin(), unit->avoid.end(), host_) != unit->avoid.end();
     if (elsewhere && !claims.empty()) continue;
     if (claims.contains(unit->number)) {
@@ -263,7 +263,8 @@ std::optional<int> Queue::next(Worked& worked) {
       return unit->number;
     }
   }
-  // Looks at a few, chosen at random: otherwise a thousand waiting workers would all look at all of them.
+  // Checks a few claims chosen at random, because a thousand waiting workers would otherwise all check all of
+  // them.
   std::shuffle(claimed.begin(), claimed.end(), random_);
   claimed.resize(std::min(claimed.size(), kLookedAt));
   for (const Unit* unit : claimed) {

@@ -13,9 +13,9 @@ namespace plumb::harness::cluster {
 struct WorkOptions {
   std::string kind;        ///< of the machine; empty: its processor's name
   double calibration = 1;  ///< s, half of it before a unit that measures costs and half after
-  double expiry = 300;     ///< s without renewal after which a claim is a dead one's
+  double expiry = 300;     ///< s without renewal after which a claim's process counts as dead
   int attempts = kAttempts;
-  bool again = false;  ///< also a unit that is done: its results are replaced when the new are complete
+  bool again = false;  ///< repeats a done unit; its results are replaced once the new ones are complete
 };
 
 enum class Worked {
@@ -33,7 +33,7 @@ Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, co
                bool force);
 
 /// Chooses units one after the other: the longest first, then those whose claims may belong to dead
-/// processes. A unit that is better done on another host is left to others as long as any are at work.
+/// processes. A unit that should run on another host is left to other processes as long as any are at work.
 class Queue {
  public:
   Queue(const std::string& folder, const Plan& plan, const WorkOptions& options);
@@ -41,7 +41,7 @@ class Queue {
   /// Does the next unit that is free. Returns its number; nothing if none is free.
   std::optional<int> next(Worked& worked);
 
-  /// Returns true if a unit is neither done nor given up: another does it, and may die.
+  /// Returns true if a unit is neither done nor given up: the process that does it may still die.
   bool waits() const { return !open_.empty(); }
 
  private:

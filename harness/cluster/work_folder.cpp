@@ -59,7 +59,7 @@ Json unit_json(const Unit& unit) {
   return out;
 }
 
-/// Locks a folder for as long as it lives, where its file system has locks.
+/// Locks a folder during its lifetime, if the file system has locks.
 class Lock {
  public:
   explicit Lock(const std::string& path) : file_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {

@@ -25,16 +25,16 @@ struct Unit {
   std::vector<std::string> arguments;  ///< without the program and --out; "{folder}" is the folder of work
   double seconds = 0;                  ///< estimated wall time
   bool measured = false;               ///< the estimate is from earlier results
-  bool cost = false;                   ///< it measures costs, and wants a machine to itself
-  int repeats = 0;  ///< a unit that it measures again, because others disturbed that; 0: none
-  int attempt = 0;  ///< how often it has been measured before, of one that repeats
-  std::vector<std::string> avoid{};  ///< hosts on which it was disturbed
+  bool cost = false;                   ///< the unit measures costs and should have a machine to itself
+  int repeats = 0;  ///< the unit that this one measures again because others disturbed it; 0: none
+  int attempt = 0;  ///< of a repetition, the number of measurements before it
+  std::vector<std::string> avoid{};  ///< hosts on which the measurement was disturbed
   /// Arguments of the unit for the next round that follows this one and all others with the same `then`.
   std::vector<std::string> then{};
   double then_seconds = 0;  ///< estimated wall time of that
 };
 
-/// Program that made a plan; its units must be done with the same.
+/// Program that made a plan; the same program must do its units.
 struct Program {
   std::string path, hash, version, commit;
   std::map<std::string, std::string> engines{};  ///< version of each installed engine
@@ -42,7 +42,7 @@ struct Program {
 
 struct Plan {
   Program program;
-  std::string directory;  ///< in which it was made; commands of engines are relative to it
+  std::string directory;  ///< folder in which the plan was made; engine commands are relative to it
   std::vector<std::vector<std::string>> commands;
   std::vector<Unit> units{};
 
@@ -80,9 +80,9 @@ void require_same_program(const std::string& folder, const Plan& plan, const Pro
 /// Reads plan.json and units.jsonl. Throws `Error` (Io, Syntax).
 Plan read_plan(const std::string& folder);
 
-/// Adds the units that are not there yet (same arguments, and same attempt of one that repeats), numbered on
-/// from those that are. Creates the folder, or adds to
-/// that of the same program. Returns the number of units that were added. Throws `Error`.
+/// Adds the units that are not there yet (identical arguments, and the same attempt of a repetition),
+/// numbered after the existing ones. Creates the folder, or adds to that of the same program. Returns the
+/// number of units added. Throws `Error`.
 int add_to_plan(const std::string& folder, Plan plan);
 
 /// Numbers of the units in done/, in claims/ and in failed/.
@@ -91,7 +91,7 @@ std::set<int> numbers_in(const std::string& folder, const std::string& part);
 std::string name_of_unit(int number);  ///< "00001"
 std::string path_in(const std::string& folder, const std::string& part, int number);
 
-/// Throws `Error` (Io, Syntax) if it is not a complete unit's.
+/// Reads the facts about a unit. Throws `Error` (Io, Syntax) if the file does not describe a complete unit.
 Done read_done(const std::string& folder, int number);
 std::string to_json(const Done& done);
 

@@ -24,8 +24,8 @@ std::string hard_coded(const char* value) {
                      value);
 }
 
-// Returns the factor by which the velocity is multiplied in each step of a fall, if there is one: the
-// increments of the speed then decrease in a constant ratio.
+// Returns the factor by which each step of a fall multiplies the velocity, if there is one: successive
+// increments of the speed then have a constant ratio below 1.
 std::optional<double> kept_each_step(const Trace& trace) {
   const auto gain = [&](std::size_t k) {
     return trace.states[k + 1][0].velocity.y - trace.states[k][0].velocity.y;
@@ -114,7 +114,7 @@ Finding scene_says_gravity(const Lab& lab) {
   const double t = trace.duration();
   const Vec2d v = trace.last(0).velocity, right = v0 + t * gravity;
   const double tolerance = lab.rounding(8, t);
-  // If the gain of velocity is the same under another gravity, the engine uses a constant.
+  // If a different gravity adds the same velocity, the engine uses a constant.
   const Vec2d gain = v - v0, gain_of_other = other.last(0).velocity;
   const bool same_gain = std::hypot(gain.x - gain_of_other.x, gain.y - gain_of_other.y) < 1e-6 && gain.y != 0;
   return Judgement()
@@ -144,7 +144,7 @@ Finding scene_says_gravity(const Lab& lab) {
 // Compares the speed after one second at three step sizes.
 Finding any_step_size(const Lab& lab) {
   struct Fall {
-    double speed, way;  // over what they should be, but for the method's own offset of at most a step
+    double speed, way;  // ratios to the expected values, without the method's own offset of at most a step
   };
   const auto fall = [&](int finer) -> Fall {
     const Trace trace = lab.run(falling(), 1, finer);
@@ -179,7 +179,8 @@ Trace bounce(const Lab& lab, double r, double e = 1, double times = 1) {
   return lab.run(scene_of("bounce", {}, {ball, floor}), 1);
 }
 
-// Returns true if a step at the floor moves the ball farther down than its velocities before and after do.
+// Returns true if a step at the floor moves the ball farther down than its velocities before and after the
+// step can.
 bool pulled_into_floor(const Lab& lab, const Trace& trace) {
   for (std::size_t k = 1; k < trace.states.size(); ++k) {
     const BodyState &before = trace.states[k - 1][0], &after = trace.states[k][0];
@@ -189,8 +190,8 @@ bool pulled_into_floor(const Lab& lab, const Trace& trace) {
   return false;
 }
 
-// Returns true if the first change of vy leaves a fraction (1 - e) of it: the impulse then has e in place of
-// 1 + e.
+// Returns true if the first change of vy leaves a fraction (1 - e) of it: the impulse then has the factor e
+// instead of 1 + e.
 bool keeps_rest(const Trace& trace, double e) {
   const double v = trace.first(0).velocity.y;
   for (const auto& states : trace.states)
@@ -216,8 +217,8 @@ Finding bounces(const Lab& lab) {
   const double r = 0.4, tolerance = 0.002;
   const Trace trace = bounce(lab, r);
   const BodyState& end = trace.last(0);
-  // At e = 1 the powers of e, and 2 e and 1 + e, are the same.
-  // A speed of 2 m/s alone does not tell e times the speed from e.
+  // With e = 1 all powers of e are equal, and so are 2 e and 1 + e. A single speed of 2 m/s does not
+  // distinguish e from e times the speed.
   const double e = 0.6, quick = 1.5;
   const BodyState slower = bounce(lab, r, e, quick).last(0);
   double lowest = trace.first(0).position.y - r;
@@ -230,7 +231,7 @@ Finding bounces(const Lab& lab) {
       .read("vy after a bounce of restitution 0.6", "m/s", slower.velocity.y, 2 * quick * e, 2 * tolerance)
       .read("turn aside of balls that pass a platform", "m/s", turn_at_platform(lab), 0, tolerance);
   if (judgement.good()) return judgement.finding();
-  // With a radius of 1 m the vector from the wall to the centre is 1 m long, less the overlap of a step.
+  // With a radius of 1 m the vector from the wall to the centre has length 1 m minus the overlap of a step.
   const double off_at_1 = std::abs(bounce(lab, 1).last(0).velocity.y - 2);
   const bool right_at_1 = off_at_1 < 0.3 && off_at_1 < std::abs(end.velocity.y - 2) / 3;
   constexpr double kFaster = 5;
@@ -363,7 +364,7 @@ Finding restitution(const Lab& lab) {
       .finding();
 }
 
-// Returns a wall behind which the ball is, right and left first; empty if it is in the room.
+// Returns a wall that the ball has passed, right and left first; empty if the ball is in the room.
 std::string wall_passed(const BodyState& s, double half_width, double half_height) {
   if (s.position.x > half_width) return "right";
   if (s.position.x < -half_width) return "left";
@@ -371,9 +372,9 @@ std::string wall_passed(const BodyState& s, double half_width, double half_heigh
   return s.position.y < -half_height ? "lower" : "";
 }
 
-// Returns true if the velocity along the axis on which the ball leaves stays the same from the last state
-// before its wall on: that wall has not acted. Walls stop a centre at `x` and `y`. A ball of radius `r` that
-// may jump over a wall does not count.
+// Returns true if the velocity along the axis on which the ball leaves the room is constant from the last
+// state before the wall: the wall has then not acted. Walls stop the centre at `x` and `y`. A ball of radius
+// `r` that may jump over a wall within a step does not count.
 bool leaves_straight(const Trace& trace, double x, double y, double r) {
   const auto at = [&](std::size_t i) { return trace.states[i][0]; };
   const std::size_t last = trace.states.size() - 1;
@@ -404,7 +405,7 @@ Finding four_walls(const Lab& lab) {
   }
   const double speed = std::hypot(v.x, v.y),
                end = std::hypot(trace.last(0).velocity.x, trace.last(0).velocity.y);
-  // Unfold the room at its walls: along a straight path there is a wall every 2 (half - r).
+  // Unfold the room at its walls: the straight path then crosses a wall every 2 (half - r).
   const double t = trace.duration();
   const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
                   static_cast<int>((v.y * t / (half_height - r) + 1) / 2);
@@ -432,7 +433,7 @@ Finding settles(const Lab& lab) {
       fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
   const Body ball = make(Ball{.position = {0, 1 + r}, .radius = r, .restitution = 0.5});
   const Trace trace = lab.run(scene_of("settle", {0, -kGravity}, {ball, floor}), 5);
-  // Bounces end after sqrt(2 h/g) (1 + e)/(1 - e) = 1.35 s; twice that is tolerated.
+  // Bounces end after sqrt(2 h/g) (1 + e)/(1 - e) = 1.35 s; twice this time is tolerated.
   double high = 0, low = 0;
   for (std::size_t k = 0; k < trace.states.size(); ++k) {
     if (trace.times[k] < 2.7) continue;

@@ -68,7 +68,7 @@ Finding force_accelerates(const Lab& lab) {
 
 Finding ten_times_the_mass(const Lab& lab) {
   const double mass = 10, force = 6;
-  // Two more balls, above and below, which the force does not name.
+  // Two more balls, above and below, on which the force does not act.
   Scene scene =
       scene_of("mass", {},
                {make(Ball{.name = "above", .position = {0, 3}, .mass = mass}), make(Ball{.mass = mass}),
@@ -165,7 +165,7 @@ Finding push_ends(const Lab& lab) {
 }
 
 Finding drag(const Lab& lab) {
-  const double c = 1.5, mass = 2.5, v0 = 4;  // not 2: a mistake in the mass would look like one of a factor
+  const double c = 1.5, mass = 2.5, v0 = 4;  // not 2: a mistake in the mass must not look like a factor of 2
   Scene scene = scene_of("drag", {}, {make(Ball{.velocity = {v0, 0}, .mass = mass})});
   scene.forces.emplace_back(LinearDrag{.body = "ball", .coefficient = c});
   const Trace trace = lab.run(scene, 1);
@@ -188,7 +188,7 @@ Finding drag(const Lab& lab) {
       .finding();
 }
 
-// A spring as it acts: m dv/dt = -stiffness (x - rest) - damping v.
+// A spring fitted to the motion: m dv/dt = -stiffness (x - rest) - damping v.
 struct Acting {
   double stiffness, rest, damping;  // N/m, m, N s/m
 
@@ -196,9 +196,9 @@ struct Acting {
   bool damped(double k) const { return std::abs(damping) > 0.015 * k; }
 };
 
-// Fits a linear spring to the changes of velocity in the first seconds, by least squares; nothing if another
-// law acts. A method that evaluates the force half a step later shows h k/2 of damping, less than `damped`
-// asks.
+// Fits a linear spring to the changes of velocity in the first seconds, by least squares; returns nothing if
+// another law acts. A method that evaluates the force half a step later shows a damping of h k/2, which is
+// less than the threshold `damped`.
 std::optional<Acting> acting(const Trace& trace, double mass, double rest) {
   Matrix3 sums{};
   std::array<double, 3> right{};
@@ -228,12 +228,12 @@ std::optional<Acting> acting(const Trace& trace, double mass, double rest) {
     const double miss = row.force - slope * row.x - constant - damping * row.v;
     off += miss * miss;
   }
-  constexpr double kSame = 0.01;  // of the force, root mean square
+  constexpr double kSame = 0.01;  // largest root-mean-square residual, as a fraction of the force
   if (!(off <= kSame * kSame * square) || slope >= 0) return std::nullopt;
   return Acting{-slope, rest - constant / slope, -damping};
 }
 
-// Two balls at rest on a spring, whose distance is `first`, m. With the masses 1.6 and 0.8 kg it swings as a
+// Two balls at rest on a spring, at distance `first`, m. With the masses 1.6 and 0.8 kg they swing like a
 // reduced mass of 1.6/3 kg.
 constexpr double kFirstMass = 1.6, kSecondMass = 0.8, kReduced = 1.6 / 3, kApart = 2;  // kg; m at rest
 
@@ -275,7 +275,7 @@ Finding spring(const Lab& lab) {
   law.stiffness = k;
   scene.forces.emplace_back(law);
   const Trace trace = lab.run(scene, 10);
-  // The same, let go where it is too short.
+  // The same spring, released when it is too short.
   Scene shortened = scene;
   shortened.bodies.front().position.x = rest - amplitude;
   const double quarter = 0.2;  // s; the period is 2.1 s

@@ -57,7 +57,7 @@ constexpr const char* kNormalFlipped =
     "close. The "
     "normal is flipped: it points from a to b, and they close when (vb - va) . n < 0.";
 
-// Returns true if two balls that meet alone send each other back.
+// Returns true if two balls that collide without others reverse each other's velocity.
 bool two_bounce(const Lab& lab) {
   const Trace met =
       head_on(lab, {.position = {-1, 0}, .velocity = {1, 0}}, {.position = {1, 0}, .velocity = {-1, 0}});
@@ -123,7 +123,7 @@ Finding equal_masses_swap(const Lab& lab) {
     return head_on(lab, {.position = {-2, 0}, .velocity = {u, along}, .radius = radius},
                    {.position = {1, 0}, .velocity = {w, along}, .radius = radius}, 2);
   };
-  // A velocity that both have changes nothing.
+  // A common velocity of both balls changes nothing.
   const double drift = 0.7;
   const Trace trace = meet(r), drifting = meet(r, drift);
   const double mean = (u + w) / 2;
@@ -195,7 +195,7 @@ Finding heavy_hits_light(const Lab& lab) {
     return std::abs(t.last(0).velocity.x - after_heavy) + std::abs(t.last(1).velocity.x - after_light);
   };
   const double off_at_1 = off(meet(1 / 1.8));
-  // Changes nothing but the masses: all of a right motion is then right, along y as well.
+  // Changes only the masses: every other quantity of a correct motion stays correct, along y as well.
   const auto alike_at = [&](double mass) {
     const Trace t = head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}, .mass = mass, .radius = 1},
                             {.position = {0, 0}, .mass = mass, .radius = 0.8}, 2);
@@ -259,7 +259,7 @@ Finding restitution(const Lab& lab) {
 
 Finding oblique(const Lab& lab) {
   const double r = 0.4, v = 2, offset = r, d = 2 * r;  // line of centres at contact: 30 degrees
-  // Turned by -25 degrees, the approach, the line of centres and the axes are far from each other.
+  // Rotate by -25 degrees, so that the approach, the line of centres and the axes all differ widely.
   const double turn = -25 * std::numbers::pi / 180;
   const auto meet = [&](Rotation<double> q) {
     return head_on(lab, {.position = q * Vec2d{-2, offset}, .velocity = q * Vec2d{v, 0}, .radius = r},
@@ -274,7 +274,7 @@ Finding oblique(const Lab& lab) {
   const double tolerance = 2 * v * (v * lab.dt() * s / d) + kShare * v;
   const Vec2d a = trace.last(0).velocity, b = trace.last(1).velocity;
   const Vec2d ta = q.inverse() * turned.last(0).velocity, tb = q.inverse() * turned.last(1).velocity;
-  // Turned with the scene, but for mistakes that follow the axes.
+  // Rotated with the scene, except for mistakes that follow the coordinate axes.
   const auto gives = [](Vec2d first, Vec2d second) {
     return std::vector<double>{first.x, first.y, second.x, second.y, first.x, first.y, second.x, second.y};
   };
@@ -383,8 +383,8 @@ Finding break_shot(const Lab& lab) {
     for (std::size_t k = 0; k < two.states.size(); ++k) nearest = std::min(nearest, distance(two, k));
     return two.last(1).velocity.x > 0.1 * v && nearest > r;
   };
-  // A share of the overlap over dt is the faster the shorter the steps; a stiff spring's speed does not
-  // depend on them.
+  // Correcting a fraction of the overlap over dt is faster the shorter the step; the speed of a stiff spring
+  // does not depend on the step.
   const double parting = kick(lab, 1);
   const bool by_step = std::abs(parting) > 0.05 && kick(lab, 2) > 1.5 * parting;
   return Judgement()
@@ -416,7 +416,7 @@ Finding break_shot(const Lab& lab) {
       .finding();
 }
 
-// Lets 10 kg and 1 kg overlap at rest and measures how far each is moved: by its share of the inverse masses,
+// Lets 10 kg and 1 kg overlap at rest and measures how far each is moved: in proportion to its inverse mass,
 // which leaves the centre of mass in place.
 Finding overlap_is_shared(const Lab& lab) try {
   const double heavy = 10, light = 1, deep = 0.1, r = 0.4;
@@ -489,7 +489,7 @@ Finding pile_rests(const Lab& lab) {
            tolerance;
   };
   const bool missed = through && rests_alone() && two_bounce(lab);
-  // Tells what sinks on and on from what rests too deep.
+  // Distinguishes a ball that keeps sinking from one that rests too deep.
   const auto sinks_on = [&] {
     const Trace longer = lab.run(scene_of("pile", {0, -g}, {lower, upper, floor}), 3);
     const double low = longer.last(0).position.y, high = longer.last(1).position.y;

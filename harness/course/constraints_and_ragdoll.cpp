@@ -43,10 +43,10 @@ struct Swing {
   double last;    // rad, largest angle in the last period
 };
 
-// Returns the swing of a pendulum of length `l`, m, from `amplitude` at rest, over `time` s, whose string is
-// held by positions as in `Lab::spin_kept_by_positions`. A step then also removes the share h^2 of the
-// string's tension over m l from w: dw/dt = -g/l sin(a) - h w (w^2 + g/l cos(a)), integrated here by Runge
-// and Kutta's fourth-order rule.
+// Returns the swing of a pendulum of length `l`, m, released at `amplitude`, over `time` s, whose string is
+// held by position corrections as in `Lab::spin_kept_by_positions`. Such a step also removes h^2 times the
+// string's tension over m l from w: dw/dt = -g/l sin(a) - h w (w^2 + g/l cos(a)), integrated here by the
+// fourth-order Runge-Kutta method.
 Swing swing_by_positions(double amplitude, double l, double h, double time, double due) {
   constexpr int kSteps = 4000;
   const double dt = time / kSteps, stiffness = kGravity / l;
@@ -74,7 +74,7 @@ bool faster(const Trace& trace) {
   return false;
 }
 
-// Returns true if two bodies of equal mass that had opposite velocities still have.
+// Returns true if two bodies of equal mass that had opposite velocities still have opposite velocities.
 bool opposite(const Trace& trace) {
   return length(trace.last(0).velocity + trace.last(1).velocity) < 1e-6 * length(trace.last(0).velocity);
 }
@@ -116,7 +116,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
   const double spin = cross(trace.last(1).position - trace.last(0).position,
                             trace.last(1).velocity - trace.last(0).velocity) /
                       (end * end);
-  // Held by positions it may lose just what that method loses, to second order.
+  // With position corrections it may lose exactly as much as that method loses, to second order.
   const double slowed = w * lab.spin_kept_by_positions(w, t);
   const bool by_positions = lab.first_order() && std::abs(spin - slowed) <= wh * wh * slowed;
   return Judgement()
@@ -163,10 +163,10 @@ Finding stick_weighs_masses(const Lab& lab) {
   const double t = trace.duration(), both = force * t / (heavy + light);
   const double momentum = heavy * trace.last(0).velocity.x + light * trace.last(1).velocity.x;
   scene.forces = {push("light", {-force, 0})};
-  // Ends before a stick that gives way would be drawn out to the other side, after 0.43 s.
+  // Ends before a stick that stretches would be drawn out to the other side, after 0.43 s.
   const Trace pushed = lab.run(scene, 0.4);
   const double when_pushed = -force * pushed.duration() / (heavy + light);
-  // Two balls of 1 kg, for which ma + mb is 1/ma + 1/mb, move together, pulled and pushed.
+  // Two balls of 1 kg, for which ma + mb equals 1/ma + 1/mb, move together, first pulled, then pushed.
   const auto alike_hold = [&] {
     Scene alike = scene;
     alike.bodies[0].mass = 1;
@@ -225,8 +225,8 @@ std::optional<double> period_of(const Trace& trace, const AngleOf& angle_of) {
   return period_of(zeros);
 }
 
-// Returns the period of a pendulum of `amplitude` over that of a small swing: 1/agm(1, cos(amplitude/2))
-// (Gauss).
+// Returns the ratio of the period of a pendulum of `amplitude` to that of a small swing: 1/agm(1,
+// cos(amplitude/2)) (Gauss).
 double period_ratio(double amplitude) {
   double a = 1, g = std::cos(amplitude / 2);
   for (int i = 0; i < 6; ++i) {
@@ -262,7 +262,7 @@ Finding pendulum(const Lab& lab) {
     const Trace t = lab.run(turning_stick(), 1);
     return std::abs(length(t.last(1).position - t.last(0).position) - 1) < 0.05;
   };
-  // Held by positions it may lose just what that method loses, to second order.
+  // With position corrections it may lose exactly as much as that method loses, to second order.
   const Swing slowed = swing_by_positions(amplitude, l, lab.substep(), trace.duration(), due);
   const double share = std::pow(peak * lab.dt(), 2);
   const bool by_positions = lab.first_order() &&
@@ -362,7 +362,7 @@ Finding hinged_rod(const Lab& lab) {
   };
   const double parted = 0.02;
   const bool held = gap <= 0.01 * l * lab.coarseness();
-  // A rod without a gap stays where it is, unless its anchor is looked for elsewhere.
+  // A rod without a gap stays in place unless its anchor is computed at the wrong point.
   const auto stays = [&] {
     Scene still = scene;
     still.gravity = {};

@@ -59,7 +59,7 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
   }
 }
 
-// Names a mistake that a free flight shows: it explains a failed check better than the figures do.
+// Names a mistake that shows in free flight: it explains a failed check better than the figures do.
 void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   for (const Recorded& run : runs) {
     const std::optional<Seen> seen = seen_in_flight(run);
@@ -106,7 +106,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                              const std::function<void(const Outcome&)>& done) {
   std::vector<Outcome> out;
   int timeouts = 0;
-  bool unexplained = false;  // a check before has failed, and no mistake was named until then
+  bool unexplained = false;  // an earlier check has failed, and no mistake was named so far
   std::string named, known;  // the first mistake, and the first whose motion was computed
   for (const Chapter& chapter : chapters) {
     std::vector<Outcome> outcomes;
@@ -124,10 +124,10 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
         look_at_flights(outcome.runs, finding);
       if (!named.empty() && finding.mistake != named) finding.follows = named;
-      // After a failure that has no name, or that another has, a later one is named only for good reason: the
-      // first cause may spoil any check.
+      // After a failure without a name, or with another name, a later mistake is named only on strong
+      // evidence: the first cause may affect any check.
       const bool later = (!named.empty() && finding.mistake != named) || unexplained;
-      // An experiment with many bodies that all suffer from it proves nothing then.
+      // An experiment with many bodies that all show the mistake then proves nothing.
       const bool proven = finding.proven && (!unexplained || outcome.check->repeatable);
       const bool sure = proven || (unexplained ? finding.exact : finding.computed);
       if (later && !sure && finding.verdict == Verdict::Fail && !finding.mistake.empty()) {

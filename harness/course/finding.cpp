@@ -10,7 +10,7 @@
 namespace plumb::course {
 namespace {
 
-// Tolerance of a mistake's figure, as a fraction of its distance from the right figure.
+// Tolerance of a mistake's figure, as a fraction of its distance from the correct figure.
 constexpr double kSmallestShare = 0.03, kLargestShare = 0.1;
 
 // Returns a sentence about the first reading that is wrong, without a cause.
@@ -69,7 +69,7 @@ Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says
 }
 
 // Returns the largest distance of a reading from the mistake's figure, in units of the tolerance; above 1 the
-// mistake does not match. A mistake without a figure for any wrong reading explains nothing.
+// mistake does not match. A mistake that gives no figure for any wrong reading explains nothing.
 double Judgement::miss(const Mistake& mistake) const {
   double worst = 0;
   bool explains = false;

@@ -28,11 +28,11 @@ struct Finding {
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
   std::string symptom;    ///< a sign of several possible causes, seen besides; may be empty
-  bool observed = false;  ///< `mistake` describes what was seen, other than figures that it would give
-  bool proven = false;    ///< an experiment or a direct measurement leaves no other cause
+  bool observed = false;  ///< `mistake` describes an observation other than the figures that it would give
+  bool proven = false;    ///< an experiment or a direct measurement excludes every other cause
   bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
-  bool computed = false;  ///< the motion of `mistake` was computed, and is the engine's
-  std::string follows;  ///< name of a mistake found in an earlier check that may explain this failure as well
+  bool computed = false;  ///< the motion of `mistake` was computed, and equals the engine's
+  std::string follows;    ///< name of a mistake found in an earlier check that may also explain this failure
 };
 
 /// Returns a sentence about the first reading that is wrong, without a cause, and what was seen besides.
@@ -52,18 +52,19 @@ class Judgement {
   /// `gives` has the mistake's figure for each reading, in the order of `read`; `kAny` if undetermined.
   Judgement& mistake(std::string name, std::vector<double> gives, std::string says);
 
-  /// Adds a mistake that something other than the readings proves: a direct measurement of what it does, or
-  /// an experiment that no other cause explains. It takes precedence over all others.
+  /// Adds a mistake that evidence other than the readings proves: a direct measurement of its effect, or an
+  /// experiment that no other cause explains. It takes precedence over all others.
   Judgement& proven_if(bool seen, std::string name, std::string says);
 
-  /// Adds a mistake that something other than the readings suggests. It takes precedence over mistakes by
-  /// figures, and is named only if the motion that it gives is the engine's (prediction.h).
+  /// Adds a mistake that evidence other than the readings suggests. It takes precedence over mistakes
+  /// identified by figures, and is named only if the motion that it gives equals the engine's (prediction.h).
   Judgement& mistake_if(bool seen, std::string name, std::string says);
 
-  /// Adds a mistake that something other than the readings proves, named if nothing else matches.
+  /// Adds a mistake that evidence other than the readings proves, named if nothing else matches.
   Judgement& otherwise_if(bool seen, std::string name, std::string says);
 
-  /// Adds what was seen and has several causes: it is said, and no mistake is named, if nothing else matches.
+  /// Adds a symptom with several possible causes. If nothing else matches it is reported, and no mistake is
+  /// named.
   Judgement& symptom_if(bool seen, std::string says);
 
   /// Returns true if every reading is within its tolerance.

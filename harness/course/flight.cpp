@@ -11,7 +11,7 @@
 namespace plumb::course {
 namespace {
 
-constexpr std::size_t kFewest = 6;  // steps from which a pattern is read
+constexpr std::size_t kFewest = 6;  // fewest steps from which a pattern is inferred
 
 // Returns the radius of a circle around the body's centre that holds its shape.
 double reach(const Body& body) {
@@ -31,7 +31,8 @@ double distance(const Body& body, const BodyState& state, Vec2d point) {
   return std::hypot(std::max(x, 0.0), std::max(y, 0.0));
 }
 
-// Returns the number of first states in which the body is farther from all others than it moves in two steps.
+// Returns the number of states from the start in which the body's distance from all others is more than its
+// displacement in two steps.
 std::size_t length_of_flight(const Recorded& run, std::size_t b) {
   const auto& states = run.trace.states;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -45,8 +46,8 @@ std::size_t length_of_flight(const Recorded& run, std::size_t b) {
   return states.size();
 }
 
-// Returns the ratio of each value to the one before, if it is the same for all and not 1. A ratio so small
-// that the values vanish before it is seen again shows a stop, and no ratio.
+// Returns the ratio of each value to the one before, if it is constant and not 1. If the values vanish before
+// the ratio is seen twice, the body has stopped, and there is no ratio.
 std::optional<double> constant_ratio(std::span<const double> values) {
   constexpr double kVanishes = 1e-4;
   if (values.size() < kFewest || std::abs(values[0]) < 1e-9) return std::nullopt;
@@ -57,7 +58,8 @@ std::optional<double> constant_ratio(std::span<const double> values) {
   return ratio;
 }
 
-// Returns the speed that the last steps keep, although gravity goes on and sped the body up before.
+// Returns the speed that stays constant in the last steps, although gravity acts and accelerated the body
+// before.
 std::optional<double> largest_speed(std::span<const Vec2d> v, Vec2d gain) {
   if (v.size() < 2 * kFewest || (gain.x == 0 && gain.y == 0)) return std::nullopt;
   const auto speed = [&](std::size_t k) { return std::hypot(v[k].x, v[k].y); };
@@ -71,8 +73,9 @@ std::optional<double> largest_speed(std::span<const Vec2d> v, Vec2d gain) {
 
 bool whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
 
-// Returns the number of decimals to which all values are rounded. Their changes are then within a unit of the
-// right ones, `changes` up to `slack`, but not equal to them: a wrong change may have few decimals as well.
+// Returns the number of decimals to which all values are rounded. Their changes then differ from the correct
+// ones, `changes` up to `slack`, by at most one unit of the last decimal, but not by nothing: a wrong change
+// may have few decimals as well.
 std::optional<int> decimals(std::span<const double> values, std::span<const double> changes, double slack) {
   if (values.size() < 2 * kFewest || values.front() == values.back()) return std::nullopt;
   double unit = 10;
@@ -88,8 +91,8 @@ std::optional<int> decimals(std::span<const double> values, std::span<const doub
   return std::nullopt;
 }
 
-// Returns true if no force changes in time or with the motion: changes of velocity are then the same in each
-// step.
+// Returns true if no force changes in time or with the motion: the change of velocity is then equal in all
+// steps.
 bool forces_are_constant(const Scene& scene) {
   return std::all_of(scene.forces.begin(), scene.forces.end(), [](const ForceLaw& law) {
     if (const auto* torque = std::get_if<Torque>(&law))
@@ -99,7 +102,7 @@ bool forces_are_constant(const Scene& scene) {
   });
 }
 
-// Returns the factor by which all changes differ from the right ones; nullopt if it is not the same for all.
+// Returns the factor by which all changes differ from the correct ones; nullopt if it is not constant.
 std::optional<double> factor_of(std::span<const Vec2d> changes, std::span<const Vec2d> right) {
   double most = 0, factor = 0;
   for (std::size_t k = 0; k < right.size(); ++k)
@@ -114,7 +117,7 @@ std::optional<double> factor_of(std::span<const Vec2d> changes, std::span<const 
   return factor;
 }
 
-// Measures by which factors the changes of velocity and of position differ from g dt and v dt.
+// Measures the factors by which the changes of velocity and of position differ from g dt and v dt.
 std::optional<Seen> wrong_factor(const Recorded& run, std::size_t b, std::size_t n) {
   std::vector<Vec2d> gains, due, moves, old_speeds, new_speeds, means;
   for (std::size_t k = 1; k < n; ++k) {
@@ -153,7 +156,7 @@ std::optional<Seen> wrong_factor(const Recorded& run, std::size_t b, std::size_t
   return std::nullopt;
 }
 
-// Finds what multiplies velocities in each step: changes that should be the same shrink or grow by one ratio.
+// Finds a factor on velocities in each step: changes that should be constant then form a geometric sequence.
 std::optional<Seen> damping_of(const Recorded& run, std::size_t b, std::size_t n) {
   const auto ratio = [&](const auto& value, bool changes) {
     std::vector<double> values;

@@ -24,13 +24,13 @@ struct Trace {
   bool still(std::size_t body) const { return last(body).position == first(body).position; }
 };
 
-/// Returns the largest distance, in m, by which a step of `dt` moves a body to where none of the velocities
-/// between those before and after the step would take it. A bounce within a step moves none so; a correction
-/// of an overlap does, by its share of it.
+/// Returns the largest distance, in m, by which a step of `dt` moves a body beyond the positions that
+/// velocities between those before and after the step can reach. It is 0 for a bounce within a step. For a
+/// correction of an overlap, it is the corrected fraction of the overlap.
 double farthest_push(const Trace& trace, double dt);
 
-/// Returns true if a step that changes no velocity moves bodies apart by more than they would overlap without
-/// that. `gap` returns the distance of two surfaces, m, negative in an overlap.
+/// Returns true if a step that changes no velocity moves bodies apart by more than their overlap without that
+/// step. `gap` returns the distance of two surfaces, m, negative in an overlap.
 bool pushed_too_far(const Trace& trace, double dt,
                     const std::function<double(const std::vector<BodyState>&)>& gap);
 
@@ -49,8 +49,8 @@ class NotYet : public std::runtime_error {
 /// Runs scenes on an engine and knows how its method steps through time.
 class Lab {
  public:
-  /// Sees each state of a run as it is computed: the run's number, the state's number, and the state. It may
-  /// throw to end the run.
+  /// Called with each state of a run as it is computed: the run's number, the state's number, and the state.
+  /// It may throw to end the run.
   using Watcher = std::function<void(std::size_t, std::size_t, std::span<const BodyState>)>;
 
   /// Appends every run to `runs`, if given.
@@ -61,10 +61,10 @@ class Lab {
   /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
   Trace run(const Scene& scene, double duration, int finer = 1) const;
 
-  /// Returns settings with which another engine takes steps and substeps of the same lengths.
+  /// Returns settings with which another engine takes steps and substeps of equal length.
   reference::StepSettings plain_settings() const;
 
-  /// Returns false for engines with a tolerance: they refuse joints that begin open, and have no gaps to
+  /// Returns false for engines with a tolerance: they refuse joints with an initial gap, and have no gaps to
   /// correct.
   bool corrects_positions() const { return method_.scheme != reference::Scheme::Adaptive; }
 
@@ -74,7 +74,7 @@ class Lab {
   bool first_order() const { return method_.order == 1; }
 
   /// Returns the bound of rounding errors in a sum of the size of `scale` over `time` s: four roundings a
-  /// step, each of half an epsilon. Adaptive methods get 1e-6 `scale` more.
+  /// step, each of half an epsilon. For adaptive methods adds 1e-6 `scale`.
   double rounding(double scale, double time) const;
 
   /// Returns the bound of the method's relative error at `rate` 1/s: (rate h)^order / 2, at least `floor`.
