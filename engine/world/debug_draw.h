@@ -49,8 +49,9 @@ class DebugDraw {
 /// Draws a spring between two points: a zigzag, as wide as an eighth of its length.
 void draw_spring(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role);
 
-/// Draws a rope from `end_a` over pulleys at two points of the world to `end_b`. A wheel's radius is a tenth
-/// of the distance of the pulleys, or of the shorter end of the rope if they are at one place.
+/// Draws a rope from `end_a` over pulleys at two points of the world to `end_b`. The radius of a pulley is a
+/// tenth of the distance between the pulleys, or of the shorter end of the rope if both pulleys are at one
+/// point.
 void draw_pulleys(DebugDraw& out, Vec2d end_a, Vec2d ground_a, Vec2d ground_b, Vec2d end_b, DrawRole role);
 
 /// Selects the items to draw.

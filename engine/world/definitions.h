@@ -52,9 +52,9 @@ struct ChainDefinition {
 
 /// Mass of a body that does not follow from its shapes' densities.
 struct MassProperties {
-  double mass = 1;  ///< kg, > 0
-  Vec2d centre{};   ///< m, centre of mass in the body's frame; kinematic bodies turn about their origin all
-                    ///< the same
+  double mass = 1;     ///< kg, > 0
+  Vec2d centre{};      ///< m, centre of mass in the body's frame; kinematic bodies turn about their
+                       ///< origin instead
   double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
 };
 
@@ -89,7 +89,7 @@ struct JointDefinition {
   double break_force = 0;   ///< N, 0: never
   double break_torque = 0;  ///< N m, 0: never
   std::uint64_t user_data = 0;
-  double report_force = 0;   ///< N, beyond which its load is an event; 0: never
+  double report_force = 0;   ///< N, load above which an event is raised in each step; 0: never
   double report_torque = 0;  ///< N m, 0: never
 };
 
@@ -97,12 +97,12 @@ struct JointDefinition {
 /// arguments: a world is as deterministic as its rules.
 using CombineFunction = double (*)(double a, double b);
 
-/// Speeds at which behaviour changes, m/s. Negative: by the sizes of the shapes or by gravity, so that scenes
-/// of all sizes behave alike.
+/// Speeds at which behaviour changes, m/s. Negative selects the default, from the shapes' sizes or gravity,
+/// so that scenes of all sizes behave alike.
 struct Thresholds {
-  double hit = -1;     ///< approach from which impacts are hits; else an extent of the smaller shape a second
-  double bounce = -1;  ///< approach up to which nothing bounces; else what gravity adds in four steps
-  double sleep = -1;   ///< up to which a body may fall asleep; else 0.05 of its extents a second
+  double hit = -1;     ///< approach from which impacts are hits; default: the smaller extent a second
+  double bounce = -1;  ///< approach up to which nothing bounces; default: gravity's gain of speed in 4 steps
+  double sleep = -1;   ///< speed up to which a body may fall asleep; default: 0.05 of its extents a second
   friend bool operator==(const Thresholds&, const Thresholds&) = default;
 };
 

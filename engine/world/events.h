@@ -31,14 +31,13 @@ struct JointEvent {
   JointId joint{};  ///< invalid now: the joint broke
 };
 
-/// A joint bore more than the load from which it reports.
+/// The load of a joint exceeded its report threshold.
 struct JointLoadEvent {
   JointId joint{};
   double force = 0, torque = 0;  ///< N, N m: reaction over the last substep
 };
 
-/// Quantity of a body that was not finite, or beyond 1e12.
-/// `None`: of a body that its program disabled.
+/// Quantity of a body that was not finite or beyond 1e12. `None`: the program itself disabled the body.
 enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity, None, Position, Angle };
 inline constexpr const char* kBadFieldNames[] = {"force", "torque",   "velocity", "angular_velocity",
                                                  "none",  "position", "angle"};

@@ -14,7 +14,7 @@ struct Handle {
   std::uint32_t index = 0xFFFFFFFFu;
   std::uint32_t generation = 0;
   friend bool operator==(const Handle&, const Handle&) = default;
-  /// Orders by index, then by generation: a fixed order for maps, without a meaning.
+  /// Orders by index, then by generation: a fixed order for maps that means nothing else.
   friend auto operator<=>(const Handle&, const Handle&) = default;
 };
 

@@ -5,8 +5,7 @@
 namespace plumb {
 
 /// Integration of velocities and positions by the solvers SoftSteps and Direct; the other solvers are
-/// semi-implicit by construction. The two Euler schemes are those of textbooks; they are here to be compared
-/// with.
+/// semi-implicit by construction. The two Euler schemes are those of textbooks, included for comparison.
 enum class Integrator : std::uint8_t {
   VelocityVerlet,     ///< second order; free flight under constant force is exact
   SemiImplicitEuler,  ///< first order: v += h a, then x += h v; falls g h t / 2 too far

@@ -17,11 +17,11 @@ struct MonitorBounds {
   /// Overlap of two shapes, of the smaller one's extent. A heap of 100 rows rests with 0.2 %; 2 % can be
   /// seen.
   double overlap = 0.02;
-  /// Energy gained without a drive, of the largest kinetic energy so far. A mechanism that a step of 1/60 s
-  /// resolves (w h < 0.4, w its fastest frequency) fluctuates by (w h)^2/4 of it at most (Hairer, Lubich and
-  /// Wanner, Geometric Numerical Integration, ch. I.5).
+  /// Energy gained without a drive, as a fraction of the largest kinetic energy so far. The energy of a
+  /// mechanism that a step of 1/60 s resolves (w h < 0.4, w its fastest frequency) fluctuates by at most the
+  /// fraction (w h)^2/4 (Hairer, Lubich and Wanner, Geometric Numerical Integration, ch. I.5).
   double energy = 0.04;
-  /// Successive steps for which a bound must be missed: an impact may open a joint for some steps.
+  /// Consecutive steps for which a bound must be exceeded: an impact may open a joint for some steps.
   int lasting = 30;
 };
 
@@ -40,11 +40,11 @@ class InvariantMonitor {
   /// Records the state before a step: call it after the forces of the step were applied.
   void begin_step();
 
-  /// Returns the first bound that the step has missed for `lasting` steps on end: `Error` (Run) names the
-  /// body or the joint's bodies, the figure and the bound.
+  /// Returns the first bound that was exceeded for `lasting` consecutive steps: `Error` (Run) names the body
+  /// or the joint's bodies, the value and the bound.
   std::optional<Error> end_step();
 
-  /// Accepts the present state: after bodies were moved, or a snapshot was restored.
+  /// Accepts the current state as a new start: call it after bodies were moved, or a snapshot was restored.
   void reset();
 
  private:
@@ -54,7 +54,7 @@ class InvariantMonitor {
     Vec2d weight{};  // N
     bool moves = false;
   };
-  /// A joint or contact that misses its bound.
+  /// A joint or contact that exceeds its bound.
   struct Miss {
     std::uint64_t key = 0;
     double size = 0;
@@ -72,7 +72,7 @@ class InvariantMonitor {
   MonitorBounds bounds_;
   std::vector<State> before_;  // by body
   std::vector<Miss> gaps_, overlaps_, last_;
-  double gained_ = 0;  // J, above the least since the start
+  double gained_ = 0;  // J, above the lowest balance since the start
   double moving_ = 0;  // J, the largest kinetic energy so far
   int energy_misses_ = 0;
 };

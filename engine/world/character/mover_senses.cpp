@@ -70,7 +70,7 @@ MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, B
     if (hit.body == except) return 1.0;
     MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
     if (hit.overlapped) {
-      // It is already within the skin: it may move away from the shape or along it.
+      // The mover is already within the skin: it may move away from the shape or along it.
       const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
       if (!near || near->gap < 0) return 1.0;
       contact = *near;
@@ -99,7 +99,7 @@ std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const Mo
   constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, are slopes
   const double rise = dot(contact.normal, up_);
   if (!(rise > kUpright)) return {};
-  // The capsule's round end touches a slope, or the edge of a step. A ray behind the edge tells which.
+  // The capsule's round end touches a slope, or the edge of a step. A ray behind the edge distinguishes them.
   const Vec2d across = contact.normal - rise * up_;
   if (length(across) > kUpright && is_within_step(contact.point, position)) {
     const Vec2d inward = (-1 / length(across)) * across;

@@ -43,13 +43,13 @@ class MoverSenses {
   double radius() const { return radius_; }
   bool is_walkable(Vec2d normal) const { return dot(normal, up_) >= walkable_; }
 
-  /// Moves from `from` by `way`, and stops a skin before an obstacle. Shapes that it overlaps already, and
-  /// the body `except`, do not stop it.
+  /// Moves from `from` by `way`, and stops a skin before an obstacle. Ignores the body `except` and shapes
+  /// that the mover overlaps already.
   MoverWay go(Vec2d from, Vec2d way, BodyId except = {}) const { return go(with_skin_, from, way, except); }
   /// Does the same, but stops only a quarter of a skin before an obstacle: to leave overlaps.
   MoverWay squeeze(Vec2d from, Vec2d way) const { return go(with_quarter_, from, way, {}); }
-  /// Moves `position` down onto ground, by `most` m at most; returns nullopt and stays if there is none to
-  /// stand on.
+  /// Moves `position` down onto ground, by at most `most` m. Returns nullopt and does not move if there is no
+  /// ground to stand on.
   std::optional<MoverGround> find_ground(Vec2d& position, double most) const;
   /// Returns the ground if a contact of a mover at `position` is flat enough, or the edge of a step.
   std::optional<MoverGround> ground_at(Vec2d position, const MoverContact& contact) const;

@@ -78,8 +78,8 @@ struct ContactRows {
   }
 };
 
-/// Reads the rolling impulses and records of a block's contacts, if it needs them, with the step's sums so
-/// far.
+/// Reads the rolling impulses and records of a block's contacts, if it needs them, including the sums over
+/// the step so far.
 template <class Number>
 [[gnu::always_inline]] inline void gather_records(const ContactRows<Number>& rows) {
   using Block = ContactBlock<Number>;
@@ -132,14 +132,15 @@ template <class Number, class Real>
   gather_records(rows);
 }
 
-/// Reads again what impacts within the step change: normals of discs, separations, impulses and masses.
+/// Reloads the members that impacts within the step change: normals of discs, separations, impulses and
+/// masses.
 template <class Number>
 [[gnu::always_inline]] inline void gather_again(ContactBlock<Number>& block) {
   using Block = ContactBlock<Number>;
   using Real = typename Number::Number;
   using Constraint = ContactConstraint<Real>;
   constexpr std::size_t kFirst = offsetof(Constraint, normal), kFirstRow = offsetof(Block, normal);
-  // Not the arms, from 4 on, nor the coefficients, from 24 on.
+  // Skips the arms, from 4 on, and the coefficients, from 24 on.
   static_assert(offsetof(Constraint, arm_tangent_a) - kFirst == 4 * sizeof(Real) &&
                 offsetof(Constraint, separation) - kFirst == 8 * sizeof(Real) &&
                 offsetof(Constraint, friction) - kFirst == 24 * sizeof(Real));
@@ -155,7 +156,8 @@ template <class Number>
   using Real = typename Number::Number;
   using Constraint = ContactConstraint<Real>;
   const ContactRows<Number> rows{block};
-  // From `now` to `tangent_impulse`; not the masses, which a contact with restitution may have got back.
+  // Writes from `now` to `tangent_impulse`. Skips the masses: a contact with restitution may have got its own
+  // back.
   constexpr std::size_t kLast = offsetof(Constraint, normal_impulse) + sizeof(Real),
                         kLastRow = offsetof(Block, normal_impulse) + sizeof(Number);
   static_assert(offsetof(Constraint, tangent_impulse) == kLast + 3 * sizeof(Real) &&

@@ -38,8 +38,8 @@ struct ContactConstraint {
   Real normal_impulse[2] = {};  ///< N s, of the last substep
   Real load_estimate[2] = {};   ///< N s, low-pass filtered normal impulse
   Real tangent_impulse = 0;     ///< N s
-  /// kg: effective mass of each point alone, and the inverse of both points' K = J M^-1 J^T. With one point
-  /// the inverse is its mass, and the rest is 0.
+  /// kg: effective mass of each point alone, and the inverse of the 2 x 2 matrix K = J M^-1 J^T of both
+  /// points. With one point the inverse is that point's mass, and the rest is 0.
   Real mass[2] = {}, inverse_pp = 0, inverse_pq = 0, inverse_qq = 0;
   Real between = 0;        ///< 1/kg, K's entry between the points
   Real tangent_mass = 0;   ///< kg
@@ -49,8 +49,8 @@ struct ContactConstraint {
   ContactHardness hardness = ContactHardness::Soft;
   std::uint8_t count = 0;  ///< points in use
   bool touching = false;   ///< as found at the start of a step; events may have reported it earlier
-  /// Why approach, peaks and the step's sum are recorded. The motion reads them only where it is itself the
-  /// reason: a flag that asks for reports changes no motion.
+  /// Reasons for which approach, peaks and the step's sum are recorded. The motion uses them only if it is
+  /// itself a reason: asking for reports changes no motion.
   Watch watched = Watch::Off;
 
   // Data that the solver's passes do not need.
@@ -66,8 +66,8 @@ struct ContactConstraint {
   std::uint8_t locks = 0;  ///< locked axes of the bodies (locked_axes.h); 0 if a body has both locked
 };
 
-/// Returns true if a contact has pressed in the step, as far as the motion needs to know: one that neither
-/// bounces nor begins presses at the step's end too.
+/// Returns true if a contact has pressed in the step, as far as the motion depends on it. A contact that does
+/// not bounce and was touching at the start presses at the end of the step too if it has pressed at all.
 template <class Real>
 bool has_pressed(const ContactConstraint<Real>& c) {
   if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) return true;

@@ -89,7 +89,7 @@ class Impact {
       if (std::abs(determinant) > kRounding * std::abs(product)) {
         found.normal[0] = (m[1][1] * wanted[0] - m[0][1] * wanted[1]) / determinant;
         found.normal[1] = (m[0][0] * wanted[1] - m[1][0] * wanted[0]) / determinant;
-      } else {  // points that cannot be told apart share
+      } else {  // points too close together to be distinguished share the impulse
         for (int i = 0; i < 2; ++i) found.normal[i] = 0.5 * wanted[i] / m[i][i];
       }
     } else {
@@ -133,7 +133,7 @@ ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
   ContactImpulses found = Impact(rows, strikes, wanted, c.tangent_mass > 0 ? double(c.friction) : 0).solve();
   for (double& normal : found.normal) normal = std::max(normal, 0.0);
   const double impulses[3] = {found.normal[0], found.normal[1], found.friction};
-  // Scaled by k the impulses do the work of k `first` + k^2 `second`.
+  // If all impulses are scaled by k, they do the work k `first` + k^2 `second`.
   double first = 0, second = 0;
   for (int i = 0; i < 3; ++i) {
     first += impulses[i] * rows.rate[i];

@@ -10,17 +10,18 @@ struct ContactImpulses {
   double normal[2] = {}, friction = 0;
 };
 
-/// Returns the impulses of an impact at one or both points of a contact, by Newton's law and Coulomb's for
-/// the impulses. With u the rates along the normal after it and s the slip that is left,
+/// Returns the impulses of an impact at one or both points of a contact, by Newton's law of restitution and
+/// Coulomb's law for the impulses. With u the velocities along the normal after the impact and s the
+/// remaining slip,
 ///   u >= wanted, lambda >= 0, lambda > 0 only where u = wanted;
 ///   |tau| <= mu sum of lambda, and tau = -+mu sum of lambda where +-s > 0.
-/// Friction changes u and lambda changes s, so that they are found together: of the few ways in which points
-/// may push and the contact stick or slip the one that meets all conditions. The slip may stop, or turn
-/// round, within the impact. Newton's law with friction may gain energy (Kane and Levinson 1985): then all
-/// impulses are scaled back until none is gained.
+/// Friction changes u and lambda changes s, so both are solved together. The solver tries the few
+/// combinations of pressing points with sticking or slipping, and takes the one that meets all conditions.
+/// The slip may stop or reverse within the impact. Newton's law with friction may gain energy (Kane and
+/// Levinson 1985): in that case all impulses are scaled back until none is gained.
 ///
-/// Only points in `strikes` may have one: those that touch, whether they approach or are pressed on by the
-/// other point's. `wanted`: m/s.
+/// Only points in `strikes` may have an impulse: points that touch, and either approach or are pressed by the
+/// impulse at the other point. `wanted`: m/s.
 template <class Real>
 ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
                           const ContactConstraint<Real>& c, const bool (&strikes)[2],

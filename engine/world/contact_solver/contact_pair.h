@@ -46,7 +46,7 @@ struct Pair {
   }
 };
 
-/// Bias and softness of a point: v_n + bias = 0, softened. A point that `rests` at 1 takes no part: it has no
+/// Bias and softness of a point: v_n + bias = 0, softened. A point with `rests` = 1 is inactive: it has no
 /// impulse, and gets none.
 template <class Number>
 struct Demand {
@@ -80,8 +80,8 @@ template <class Pair, class Contact, class Number>
                  at_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
   Number new_q = (q - at_q.impulse_scale * (q - c.load_estimate[1])) -
                  at_q.mass_scale * (c.inverse_pq * rate_p + c.inverse_qq * rate_q);
-  // A gap is not softened. If only the other point is softened, the gap's impulse follows from that of the
-  // other point, so that the gap closes.
+  // A gap is not softened. If only the other point is softened, compute the gap's impulse from that point's
+  // impulse, so that the gap closes exactly.
   const auto p_gap = at_p.impulse_scale < at_q.impulse_scale, q_gap = at_q.impulse_scale < at_p.impulse_scale;
   if (any(p_gap) || any(q_gap)) [[unlikely]] {
     new_q = select(q_gap, Number(q - c.mass[1] * (rate_q + c.between * (new_p - p))), new_q);
@@ -117,7 +117,7 @@ template <class Pair, class Contact, class Number>
   pair.push(d, c.arm_a[0] * d, c.arm_b[0] * d);
 }
 
-/// Returns the normal impulse of both points, N s; that of a point without use is 0.
+/// Returns the normal impulse of both points, N s; 0 for an unused point.
 template <class Contact>
 [[gnu::always_inline]] inline auto normal_sum(const Contact& c) {
   return c.normal_impulse[0] + c.normal_impulse[1];

@@ -16,8 +16,8 @@ inline constexpr double kClosed = 1e-8;
 // not squeezed ever harder.
 inline constexpr double kLoadedPush = 3;
 
-/// Returns the depenetration speed that a load adds, m/s: a fraction of the velocity change by the last
-/// substep's impulse.
+/// Returns the part of the depenetration speed that a load adds, m/s: a fraction of the velocity change by
+/// the last substep's impulse.
 template <class Number, class Contact, class Real>
 [[gnu::always_inline]] inline Number load_push_share(const Contact& c, const Number& inverse_mass,
                                                      const ContactStep<Real>& step) {
@@ -27,8 +27,8 @@ template <class Number, class Contact, class Real>
   return min(Number(step.load_push_share * loaded), Number(Real(kLoadedPush) * c.push_speed));
 }
 
-/// Returns the bias velocity of a point at the separation s, and its softness: the maximum of three. Gaps may
-/// close, overlaps are pushed out, and at most at the speed `-fastest`.
+/// Returns the bias velocity of a point at the separation s, and its softness. The bias is the maximum of
+/// three values: gaps may close, overlaps are pushed out, and no faster than `-fastest`.
 template <class Number, class Real>
 [[gnu::always_inline]] inline Demand<Number> demand_at(const Number& s, const Number& closed,
                                                        const Number& fastest, const Softness<Real> (&soft)[2],
@@ -59,8 +59,8 @@ template <class Number, class Pair, class Contact, class Real>
   if (c.watched != Watch::Off) note_peaks(c);
 }
 
-/// Returns the target of point i without bias, at its present separation, which is updated from the start of
-/// the step to first order.
+/// Returns the target of point i without bias, at its current separation, which is updated to first order
+/// from the start of the step.
 template <class Number, class Pair, class Contact, class Real>
 [[gnu::always_inline]] inline Demand<Number> demand_now(const Pair& pair, Contact& c, int i,
                                                         const Number& closed, Real inverse_h) {
@@ -82,27 +82,28 @@ template <class Number, class Pair, class Contact>
 }
 
 /// Solves normals and friction of a contact together, in the `fresh` lanes, where friction begins to act.
-/// Solved one after the other, friction only stops the part of the sliding that a body free to rotate about
-/// the contact would have, and turns the body. If the load is close to the limit of friction, the rest takes
-/// long to stop: a block would slide for millimetres. A block near its tipping point would begin to rock.
+/// Solved one after the other, friction would stop only part of the sliding (as if the body were free to
+/// rotate about the contact) and rotate the body. If the load is close to the limit of friction, the rest of
+/// the sliding takes long to stop: a block would slide for millimetres. A block near its tipping point would
+/// begin to rock.
 template <class Number, class Real, class Pair, class Contact, class Mask>
 [[gnu::always_inline]] inline void begin_friction(Pair& pair, Contact& c, const Mask& fresh,
                                                   const Demand<Number>& at_p, const Demand<Number>& at_q) {
   using std::max, std::min;
-  // The first may end the pressure of a point, on which friction's effective mass depends; the last serves
-  // the bound, which follows from the normals.
+  // The first normal solve may release a point, on which friction's effective mass depends. The last one
+  // updates the normals, from which the bound on friction follows.
   constexpr int kRounds = 3;
   const auto coupling = [&](int i) {
     return Number(pair.a.inverse_inertia * (c.arm_a[i] * c.arm_tangent_a) +
                   pair.b.inverse_inertia * (c.arm_b[i] * c.arm_tangent_b));
   };
   const Number k_p = coupling(0), k_q = c.count == 2 ? coupling(1) : Number(0);
-  // The share of the tangential mobility that the points take which press: both, or one of them.
+  // The fraction of the tangential mobility that the pressing points have: both, or one of them.
   const Number by_both =
       k_p * (c.inverse_pp * k_p + c.inverse_pq * k_q) + k_q * (c.inverse_pq * k_p + c.inverse_qq * k_q);
   const Number by_p = k_p * k_p * c.mass[0], by_q = k_q * k_q * c.mass[1];
-  // Bound it by the mobility along t without rotation. The inverse for two points close together is lost to
-  // rounding.
+  // Limit it by the mobility along t without rotation: the inverse for two points close together is dominated
+  // by rounding.
   constexpr Real kLeast = Real(1) / 64;
   const Number straight = c.tangent_mass * (pair.a.inverse_mass + pair.b.inverse_mass);
   const Number p = c.normal_impulse[0], q = c.normal_impulse[1], f = c.tangent_impulse;

@@ -10,22 +10,23 @@
 namespace plumb {
 namespace {
 
-// Impacts closer in time than this fraction of a substep are simultaneous.
+// Impacts whose times differ by less than this fraction of a substep are simultaneous.
 constexpr double kAtOnce = 1e-3;
 // Approaches below this fraction of the fastest are left to the solver's iterations, which stop them.
 constexpr double kSlow = 1e-4;
-// Maximum number of contacts examined in all rounds of a substep, and of points solved in all their
-// iterations: kLooks and, for rebounds, kLooksToRebound times the largest e of the impacts; with e = 1 about
-// 2 ms. Impacts beyond it are left to the constraints, which lose their rebounds: the fraction e of an
-// approach. A first round that it does not suffice for is left out, with all that it would cost: its impulses
-// would be those of an iteration broken off. A stirred heap of 6000 bodies with e = 0.1 is such a crowd in
-// nearly each substep. With six times as many looks its overlaps are smaller by 3 %.
+// Limits on the work of a substep, counted in looks: contacts examined in all rounds, and points solved in
+// all their iterations. The limit is kLooks plus, for rebounds, kLooksToRebound times the largest restitution
+// e of the impacts; with e = 1 about 2 ms. Impacts beyond it are left to the constraints and lose their
+// rebounds, the fraction e of the approach. If the limit does not suffice for a first round, this round is
+// skipped at once: its impulses would be those of an unfinished iteration. A stirred heap of 6000 bodies with
+// e = 0.1 exceeds the limit in nearly every substep. With a limit six times as large its overlaps are smaller
+// by 3 %.
 constexpr int kLooks = 1 << 12, kLooksToRebound = 1 << 16;
-// Least number of iterations over the points of a round: one to solve them, and one to find that done.
+// Least number of iterations over the points of a round: one that solves them, and one that finds no change.
 constexpr int kLeastSweeps = 2;
 // Maximum number of rounds of a substep in which no time passes, plus as many for each contact of the group.
-// An impact passes to the far end and back in a few rounds. More are needed only if friction or a second wall
-// presses a body back at once.
+// An impact passes to the far end and back in a few rounds. More rounds are needed only if friction or a
+// second wall pushes a body back at once.
 constexpr int kAtOneTime = 64, kAtOneTimeEach = 8;
 
 // Returns the present separation of a point, m.
@@ -40,13 +41,13 @@ bool is_struck(const RestitutionContact<Real>& bounce) {
   return bounce.strikes[0] || bounce.strikes[1];
 }
 
-// Returns the looks that a crowd with impacts of this largest e may take.
+// Returns the limit on looks for impacts with this largest restitution e.
 template <class Real>
 int looks_for(Real restitution) {
   return kLooks + static_cast<int>(Real(kLooksToRebound) * restitution);
 }
 
-// Finds the contacts that have impacts, and how fast and elastic these are.
+// Finds the contacts that have impacts, their fastest approach and their largest restitution.
 template <class Real>
 void find_strikes(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                   ImpactScratch<Real>& room) {
@@ -66,11 +67,11 @@ void find_strikes(const BodyMotion<Real>* motion, const std::vector<RestitutionC
   }
 }
 
-// Time of a point without an impact to come.
+// Stands for the time of a point without a next impact.
 template <class Real>
 constexpr Real kNever = std::numeric_limits<Real>::infinity();
 
-// Makes room for the groups and contacts of a step, without impacts.
+// Resizes the lists for the groups and contacts of a step, without impacts.
 template <class Real>
 void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScratch<Real>& room) {
   int bodies = static_cast<int>(room.group.size());
@@ -112,7 +113,7 @@ void for_each_at(const ImpactScratch<Real>& room, int group, const Visit& visit)
   for (int edge = room.first_contact[group]; edge != -1; edge = room.next[edge]) visit(edge / 2);
 }
 
-// Adds an item to a list, unless it is in there. Lists have room for all (`clear_room`).
+// Adds an item to a list, unless the list contains it. Lists have capacity for all items (`clear_room`).
 inline void note(std::vector<int>& list, std::vector<char>& noted, int item) {
   if (noted[item]) return;
   noted[item] = 1;
@@ -162,7 +163,7 @@ template <class Real>
 // Brings the contacts of a list, all marked, into the order of all `contacts`. Clears the marks.
 template <class Real>
 void arrange_looked(int contacts, ImpactScratch<Real>& room) {
-  constexpr int kSorted = 16;  // a list of fewer than one in so many is sorted by itself
+  constexpr int kSorted = 16;  // lists shorter than 1/16 of all contacts are sorted directly
   if (kSorted * static_cast<int>(room.looked.size()) < contacts) {
     std::sort(room.looked.begin(), room.looked.end());
     for (const int i : room.looked) room.in_list[i] = 0;

@@ -6,14 +6,14 @@
 
 namespace plumb {
 
-/// Finds the impacts of a substep. Returns false if there are none, or more than the limit of
-/// `propagate_impacts` on work suffices for in a first round: then they are all left to the constraints.
+/// Finds the impacts of a substep. Returns false if there are none, or if even the first round would exceed
+/// the work limit of `propagate_impacts`: then all impacts are left to the constraints.
 template <class Real>
 bool find_impacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                   ImpactScratch<Real>& room);
 
-/// Links the contacts of each group of bodies, for the substeps of a step, whose contacts and groups are the
-/// same. `room.group` is filled in.
+/// Links the contacts of each group of bodies for all substeps of a step, which have the same contacts and
+/// groups. `room.group` must be filled in.
 template <class Real>
 void link_contacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                    ImpactScratch<Real>& room);

@@ -58,7 +58,7 @@ void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
   struck.swap(room.grouped);
 }
 
-// Returns how fast a contact's bodies slide over each other, against the surfaces' own speed, m/s.
+// Returns the relative sliding speed of a contact's bodies minus the surface speed, m/s.
 template <class Real>
 Real sliding_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c) {
   const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
@@ -73,7 +73,7 @@ void push_along(BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Real
   motion[c.body_b].apply(friction * free_of_b(t, c.locks), friction * c.arm_tangent_b);
 }
 
-// Returns the work that a round's impulses would do at the velocities before it, if these lasted.
+// Returns the work that a round's impulses would do at the velocities before the round, J.
 template <class Real>
 Real work_before(std::span<const StruckPoint<Real>> struck) {
   Real work = 0;
@@ -81,7 +81,7 @@ Real work_before(std::span<const StruckPoint<Real>> struck) {
   return work;
 }
 
-// Does the same for the present velocities.
+// Returns the same work at the current velocities, J.
 template <class Real>
 Real work_of(const BodyMotion<Real>* motion, std::span<const StruckPoint<Real>> struck) {
   Real work = 0;
@@ -93,16 +93,17 @@ Real work_of(const BodyMotion<Real>* motion, std::span<const StruckPoint<Real>> 
   return work;
 }
 
-// Returns the largest factor, at most 1, on a round's impulses with which they gain no energy, given their
-// work at the velocities before and after. Scaled by k they change it by k (before + k (after - before) / 2).
+// Returns the largest factor, at most 1, by which a round's impulses can be scaled without gaining energy,
+// from their work at the velocities before and after the round. Scaled by k they change the energy by k
+// (before + k (after - before) / 2).
 template <class Real>
 Real energy_scale(Real before, Real after) {
   return before + after > 0 ? -2 * before / (after - before) : Real(1);
 }
 
 // Solves lambda >= 0 with n.v >= wanted by sequential impulses, and Coulomb's friction with it, such that no
-// energy is gained. Friction comes after the normals, which then follow it where it turns bodies: both ends
-// of what lands flat leave at their speeds.
+// energy is gained. Friction is solved after the normals; where it rotates bodies, the normals are solved
+// again: a box that lands flat then leaves with the same speed at both ends.
 template <class Real>
 void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Real fastest, int& looks) {
   // Returns true if a normal impulse changes.
@@ -132,7 +133,7 @@ void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Rea
   bool changes = true, rubs = false;
   for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
     looks -= static_cast<int>(struck.size());
-    changes = press() && struck.size() > 1;  // one point is solved at once
+    changes = press() && struck.size() > 1;  // a single point needs no iteration
   }
   for (StruckPoint<Real>& at : struck) rubs = rubs || at.bounce->contact->friction * at.impulse > 0;
   if (rubs) rub();
@@ -190,7 +191,7 @@ class JointedRound {
                ImpactScratch<Real>& room)
       : motion_(motion), rotation_(rotation), struck_(struck), room_(room), system_(room.system) {}
 
-  // Collects the bodies and rows. Returns false if no joint takes part, or if they are too many.
+  // Collects the bodies and rows. Returns false if no joint takes part, or if there are too many rows.
   bool collect() {
     if (room_.joints.empty()) return false;
     room_.links.clear(), room_.blocks.clear(), room_.sizes.clear(), room_.taking_part.clear();
@@ -263,9 +264,9 @@ class JointedRound {
     room_.sizes.push_back(rows);
   }
 
-  // Adds the joints' rows, which must keep their rates from before the round. A limit may stop what moves
-  // away from it: kept at its rate, it would do work, and two contacts that press it in turn would open it
-  // ever faster.
+  // Adds the joints' rows, which must keep their rates from before the round. A limit only stops motion
+  // beyond it: if it kept its rate while it opens, it would do work, and two contacts that press it in turn
+  // would open it ever faster.
   void add_joint_rows() {
     system_.rows.clear();
     int block = 0;
@@ -309,7 +310,7 @@ class JointedRound {
     }
   }
 
-  // Reads the impulses of the contacts' rows, which begin with the one of index `row`.
+  // Reads the impulses of the contacts' rows, the first of which has the index `row`.
   void read_impulses(std::size_t row) {
     for (StruckPoint<Real>& at : struck_) {
       at.impulse = static_cast<Real>(system_.rows[row++].impulse);

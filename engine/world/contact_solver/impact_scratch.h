@@ -21,7 +21,7 @@ struct StruckPoint {
   Real before = 0;    ///< m/s, velocity along the normal before the round
   Real impulse = 0;   ///< N s
   Real friction = 0;  ///< N s, along the tangent
-  Real sliding = 0;   ///< m/s, along the tangent before the round, against the surfaces' own speed
+  Real sliding = 0;   ///< m/s, along the tangent before the round, relative to the surface speed
   int group = 0;      ///< the same for points that share a body, directly or through others
 };
 
@@ -78,7 +78,7 @@ struct ImpactScratch {
   std::vector<ComingImpact<Real>> coming;
   // Lists.
   std::vector<int> looked;    ///< contacts to look at
-  std::vector<int> all_seen;  ///< contacts looked at in any round
+  std::vector<int> all_seen;  ///< contacts examined in any round
   std::vector<int> groups;    ///< those whose impacts have changed
   std::vector<StruckPoint<Real>> struck, grouped;
   std::vector<int> following, latest;  ///< by struck point: the next one of its group; the last one so far
@@ -103,7 +103,7 @@ struct ImpactScratch {
   BoundedRows system;
 };
 
-/// Moves and turns a body, and adds that up.
+/// Moves and rotates a body, and adds the displacement to its sum.
 template <class Real>
 void displace(ImpactScratch<Real>& room, BodyMotion<Real>& moving, Rotation<Real>& rotation, int body,
               Vec2<Real> way, Real turn) {

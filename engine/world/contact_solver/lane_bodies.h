@@ -8,7 +8,8 @@
 
 namespace plumb {
 
-/// Units of 8 bytes of a BodyMotion: an address's largest scale. Blocks name bodies by their place in these.
+/// Units of 8 bytes of a BodyMotion: the largest scale of an x86 address. Blocks store the positions of
+/// bodies in these units.
 template <class Real>
 inline constexpr std::uint32_t kPlaceUnits = sizeof(BodyMotion<Real>) / 8;
 

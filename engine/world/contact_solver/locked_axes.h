@@ -24,8 +24,8 @@ Vec free_of_b(Vec direction, unsigned locks) {
   return free_of_a(direction, locks / kLockBX);
 }
 
-/// Returns the velocity along `row`, 1/kg, that a unit impulse along `direction` gives two bodies relative to
-/// each other, if they do not turn. Both are unit vectors, either the same or perpendicular.
+/// Returns the relative velocity along `row` that a unit impulse along `direction` gives two bodies that do
+/// not rotate, 1/kg. Both are unit vectors, either equal or perpendicular.
 template <class Number, class Real>
 Number linear_response(const BodyMotion<Real>& a, const BodyMotion<Real>& b, unsigned locks, Vec2<Number> row,
                        Vec2<Number> direction, bool same) {

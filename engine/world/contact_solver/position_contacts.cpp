@@ -19,7 +19,7 @@ Real pressure(const ContactConstraint<Real>& c) {
   return c.normal_impulse[0] + c.normal_impulse[1];
 }
 
-// Stops sliding and rolling completely if the friction cone permits, else not at all.
+// Stops sliding and rolling completely if the friction cone permits it, otherwise not at all.
 template <class Real>
 void hold_still(ContactPair<Real>& pair) {
   ContactConstraint<Real>& c = pair.c;
@@ -30,7 +30,7 @@ void hold_still(ContactPair<Real>& pair) {
   if (std::abs(torque) <= c.rolling_arm * pressure(c)) pair.roll(torque);
 }
 
-// Sets the normal velocities of pressed points: of those that bounce or close, or of all.
+// Sets the normal velocities of pressed points: of all, or only of those that bounce or approach.
 template <class Real>
 void leave(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const PositionStep<Real>& step, bool all) {
   ContactPair<Real> pair(motion, c);

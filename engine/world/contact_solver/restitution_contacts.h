@@ -8,17 +8,17 @@
 
 namespace plumb {
 
-/// A contact with restitution, or of discs that approach fast: time and speed of its bounce in the substep.
+/// Time and speed of the bounce in the substep, of a contact with restitution or of discs that approach fast.
 template <class Real>
 struct RestitutionContact {
   ContactConstraint<Real>* contact = nullptr;
   Real before[2] = {};  ///< m/s, velocity along the normal at the start of the substep
   Real speed[2] = {};   ///< m/s, separating speed of the points at the end of the substep
   bool strikes[2] = {};
-  bool closes = false;  ///< fast enough to bounce
-  bool passes = false;  ///< disabled in this substep; the impact comes in a later one
-  Real radii = 0;  ///< m, sum of the radii of two discs that were apart (centred on their centres of mass); 0
-                   ///< for other shapes
+  bool closes = false;   ///< fast enough to bounce
+  bool passes = false;   ///< disabled in this substep; the impact comes in a later one
+  Real radii = 0;        ///< m, sum of radii of two separated discs with centred shapes; else 0
+                         ///< for other shapes
   Real masses[5] = {};   ///< of the contact, while it is disabled
   Vec2<Real> between{};  ///< m, between the discs' centres (a to b), at the start of the step
 };
@@ -38,28 +38,28 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
   c.approach[i] = first ? rate : std::min(c.approach[i], rate);
 }
 
-/// Turns the normal of two separated discs to that at their contact between `from` and `h`, or else at their
-/// closest approach. With p from centre to centre and v its rate, |p + v t| = R. The present normal would
-/// deflect them by the angle by which it rotates until then. After an impact at `from` that leaves them
-/// sliding, t = `from` is a double root, and rounding could give an earlier root, at which they still
-/// approach.
+/// Rotates the normal of two separated discs to that of their contact between `from` and `h`, or else of
+/// their closest approach. With p the vector between the centres and v its rate, the contact is at |p + v t|
+/// = R. The normal rotates by an angle until then; the current one would deflect the discs by this angle.
+/// After an impact at `from` that leaves the discs sliding, t = `from` is a double root, and rounding could
+/// give an earlier root, at which they still approach.
 template <class Real>
 void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
 
 // The functions below treat each contact by itself: threads may share them.
 
-/// Records how fast points approach before any impulse acts. Contacts that separate after a bounce are not to
-/// be warm started: returns true if one of these had an impulse.
+/// Records the approach speed of points before any impulse acts. Contacts that separate after a bounce must
+/// not be warm started: returns true if one of these had an impulse.
 template <class Real>
 bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                      const ContactStep<Real>& step);
 
-/// Sets when and how fast each contact bounces in the substep, once the bodies' accelerations are known.
+/// Sets the time and speed of each contact's bounce in the substep, once the bodies' accelerations are known.
 /// Returns false if nothing bounces.
 ///
-/// A point has separation s and closes at u with acceleration a. Its impact speed is c = sqrt(u^2 + 2 a s),
-/// after t = 2 s / (u + c). From then on it moves freely: at the end of the substep it separates at e c - a
-/// (h - t). With e = 1 that conserves the energy c^2 / 2 for any h.
+/// A point has separation s and approaches at u with acceleration a. Its impact speed is c = sqrt(u^2 + 2 a
+/// s), after t = 2 s / (u + c). From then on it moves freely: at the end of the substep it separates at e c -
+/// a (h - t). With e = 1 that conserves the energy c^2 / 2 for any h.
 template <class Real>
 bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                       const ContactStep<Real>& step);

@@ -7,8 +7,8 @@
 namespace plumb {
 namespace {
 
-// Returns the minimum velocity of a point along n. A gap may close within the substep, and a fast impact
-// separates with restitution times its speed.
+// Returns the minimum velocity of a point along n. A gap may close within the substep; a fast impact
+// separates with restitution times its approach speed.
 template <class Real>
 Real least_rate(const ContactPair<Real>& pair, int i, const SequentialStep<Real>& step) {
   const ContactConstraint<Real>& c = pair.c;
@@ -44,7 +44,7 @@ template <class Real>
 void sweep_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     ContactPair<Real> pair(motion, c);
-    // Friction first: rows solved last hold best.
+    // Friction first: rows solved last are satisfied best.
     pair.rub_and_roll();
     Real least[2] = {};
     for (int i = 0; i < c.count; ++i) least[i] = least_rate(pair, i, step);

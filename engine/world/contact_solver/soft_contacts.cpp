@@ -21,8 +21,8 @@ constexpr std::size_t least_contacts(VectorWidth width) {
 // Minimum number of contacts in a block: a single one costs less alone.
 constexpr int kLeastLanes = 2;
 
-// Blocks, and single contacts, that a thread takes at a time: 1 to 2 us of work. Joining a loop, or waiting
-// for the last thread, takes about 0.3 us. Colours of one such task stay with one thread.
+// Number of blocks, and of single contacts, in a thread's task: 1 to 2 us of work. Joining a loop, or waiting
+// for the last thread, takes about 0.3 us. One thread solves colours that fit into one task alone.
 constexpr int kBlocksOfTask = 16, kAloneOfTask = 48;
 
 struct WarmStart {
@@ -41,7 +41,7 @@ struct Solve {
   }
 };
 struct Relax {
-  static constexpr bool kMoves = true;  ///< reads how far the bodies have moved
+  static constexpr bool kMoves = true;  ///< reads the bodies' displacements
   template <class Number, class Pair, class Contact, class Real>
   [[gnu::always_inline]] static void run(Pair& pair, Contact& c, const ContactStep<Real>& step) {
     relax_contact<Number>(pair, c, step);
@@ -87,7 +87,7 @@ template <class Pass, class Number, class Real>
 [[gnu::always_inline]] inline void run_blocks(BodyMotion<Real>* motion, ContactBlock<Number>* block,
                                               const ContactBlock<Number>* end,
                                               const ContactStep<Real>& settings) {
-  const ContactStep<Real> step = settings;  // a copy, which no other pointer reaches
+  const ContactStep<Real> step = settings;  // a local copy: no pointer can change it
   for (; block != end; ++block) {
     const LaneBodies<Number> a(motion, block->place_a, block->inverse_mass_a, block->inverse_inertia_a,
                                Pass::kMoves);
@@ -211,8 +211,7 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
   return blocks.count > 0;
 }
 
-// Counts the blocks and single contacts of the segments of all colours, and then fills all of them at their
-// places.
+// Counts the blocks and single contacts of the segments of all colours, then fills each at its index.
 template <class Real>
 template <int kBytes, class Fill>
 void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,

@@ -22,13 +22,15 @@ class SoftContacts {
   void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart,
              Crew& crew);
 
-  /// Applies the impulses of the last substep, which are nearly those needed now.
+  /// Warm starting: applies the impulses of the last substep.
   void warm_start(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 
-  /// Solves normal impulses with a bias that removes overlaps softly and lets gaps close: corrects positions.
+  /// Solves normal impulses with a bias that removes overlaps softly and lets gaps close. This corrects
+  /// positions.
   void solve(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 
-  /// Solves normal impulses without bias, friction and rolling resistance: corrects velocities.
+  /// Relaxation: solves normal impulses without bias, friction and rolling resistance. This corrects
+  /// velocities.
   void relax(BodyMotion<Real>* motion, const ContactStep<Real>& step);
 
   /// Writes back separations and impulses of the blocks that have contacts with restitution.
@@ -54,10 +56,10 @@ class SoftContacts {
     int count = 0;
   };
 
-  /// End of a colour's blocks and of its single contacts; they begin at the end of the last colour's.
+  /// End of a colour's blocks and of its single contacts; they begin at the end of the previous colour's.
   struct Run {
     int blocks = 0, alone = 0;
-    bool has_colour = true;  ///< else they share bodies, and are solved in order
+    bool has_colour = true;  ///< false: its contacts share bodies, and are solved in order
   };
 
   /// Contacts of a colour that one thread sorts into blocks.
@@ -65,12 +67,12 @@ class SoftContacts {
     ContactConstraint<Real>* first = nullptr;
     int count = 0;
     bool has_colour = true, ends_colour = true;
-    Run place{};  ///< of its first block, and its first contact that is alone
+    Run place{};  ///< indices of its first block and of its first single contact
   };
 
   static constexpr int kKinds = 16;      ///< of contacts that share a block
-  static constexpr int kAlone = kKinds;  ///< stands for those that share none
-  static constexpr int kSegment = 1024;  ///< contacts; of each kind a last block may be partly filled
+  static constexpr int kAlone = kKinds;  ///< stands for single contacts
+  static constexpr int kSegment = 1024;  ///< contacts; the last block of each kind may be partly filled
 
   /// Returns the kind of a contact.
   static int kind_of(const ContactConstraint<Real>& c, const BodyMotion<Real>* motion,

@@ -127,8 +127,8 @@ void for_each_tied(WorldData<Real>& w, int place, double dt, const Visit& visit)
   queue.clear();
 }
 
-// Stops a body and all bodies connected to it by joints, so that they stay together. Those that have to move
-// for that do so on the rest of their way, on which they may be stopped themselves.
+// Stops a body and all bodies connected to it by joints, so that the joints stay closed. Bodies that have to
+// move for that do so along the rest of their paths, where other impacts may stop them.
 template <class Real>
 void stop_island(WorldData<Real>& w, int place, double fraction, ImpactSearch& search) {
   std::vector<int>& stopped = w.scratch.stopped;
@@ -166,7 +166,8 @@ void push_along(WorldData<Real>& w, int place, int pusher, double fraction, Impa
   });
 }
 
-// Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if it may not.
+// Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if lifting is not
+// allowed.
 template <class Real>
 bool lift(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
   SweptBody& flight = w.scratch.swept_bodies[next.flight];
@@ -203,7 +204,7 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
   if (flight.yields && flight.impacts < most && may_rebound(w, next.shape, next.other, search.dt)) {
     const bool is_last = flight.impacts + 1 == most;
     const bool thrown = rebound(w, flight, next.shape, other, next.other, next.fraction, search.dt, is_last);
-    if (!thrown || is_last) flight.yields = false;  // they do not approach, or slide on
+    if (!thrown || is_last) flight.yields = false;  // the bodies do not approach, or they slide on
     if (thrown) insert_swept_aabb(w, flight);
     const bool other_too = thrown && other != nullptr && w.is_dynamic(other->body);
     if (other_too) insert_swept_aabb(w, *other);
@@ -226,7 +227,7 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
     look_ahead(w, next.flight, next.fraction, search);
     return;
   }
-  // The other body waits too, or it would push this one on.
+  // The other body waits too, otherwise it would push this one further.
   const bool too_many = flight.impacts >= tuning::kImpactsInFlight && other != nullptr && !pushed;
   if (too_many) stop_island(w, other_place, next.fraction, search);
   stop_island(w, next.flight, next.fraction, search);
@@ -236,7 +237,7 @@ void meet(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
 template <class Real>
 void process_toi_queue(WorldData<Real>& w, ImpactSearch& search) {
   std::vector<ToiEvent>& toi_events = w.scratch.toi_events;
-  // For four bodies that have all the impacts that a step permits: a burst seldom grows the list.
+  // Reserve for four bodies with the maximum number of impacts per step, so that the list seldom grows.
   ensure_room(toi_events, 4 * tuning::kImpactsInFlight);
   std::make_heap(toi_events.begin(), toi_events.end(), is_later);
   while (!toi_events.empty()) {
@@ -283,8 +284,7 @@ void meet_pushers(WorldData<Real>& w, int place, ImpactSearch& search) {
   for (const auto& [shape, other] : pairs) note(shape, other, constraint_between(w, shape, other));
 }
 
-// Marks the bodies that contacts have pressed on in this step, and of the others those that may be held by
-// one.
+// Marks the bodies that contacts have pressed in this step, and those that a contact may hold.
 template <class Real>
 void find_loaded_bodies(WorldData<Real>& w) {
   w.scratch.loaded.assign(w.bodies.size(), 0);
@@ -297,7 +297,7 @@ void find_loaded_bodies(WorldData<Real>& w) {
   });
 }
 
-// Collects contacts so deep that a core is near: they are checked however slowly they get deeper.
+// Collects contacts so deep that a core is near: they are checked even if their depth grows slowly.
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
   const auto is_deep = [&](const ContactConstraint<Real>& c) {
@@ -331,8 +331,8 @@ void find_deep_contacts(WorldData<Real>& w) {
   w.scratch.found_deep.for_each([&](int contact) { append(w.scratch.deep_contacts, contact); });
 }
 
-// Finds the first impacts of the dynamic bodies among the first `count` swept ones. Each block searches with
-// the whole budget of iterations. Returns false as soon as together they have taken more.
+// Finds the first impacts of the dynamic bodies among the first `count` swept ones. Each block may use the
+// whole budget of iterations. Returns false as soon as all blocks together have used more.
 template <class Real>
 bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
   const int blocks = (count + kSweptOfBlock - 1) / kSweptOfBlock;
@@ -433,7 +433,7 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
   const int fast_count = static_cast<int>(swept_bodies.size());
   if (!w.crew.shares() || !find_first_impacts(w, fast_count, search)) {
-    // Each search gets of the budget what the ones before it have left.
+    // Each search gets the part of the budget that earlier searches have left.
     ContactsAhead ahead;
     for (int i = 0; i < fast_count; ++i) {
       ahead.advance(w, static_cast<std::size_t>(i));

@@ -9,8 +9,8 @@
 namespace plumb {
 namespace {
 
-// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. The
-// solver lists bodies in the order of `awake`; what is not among them flies freely, by the mean of its
+// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. Solver
+// bodies are in the order of `awake`; a body that is not among them flies freely, with the mean of its
 // velocities.
 template <class Real>
 double twice_work_on(const WorldData<Real>& w, int body, double dt) {
@@ -32,10 +32,10 @@ double twice_work_on(const WorldData<Real>& w, int body, double dt) {
          dt;
 }
 
-// How a joint ties the anchors of its bodies together.
+// Constraint of a joint between the anchors of its bodies.
 enum class Hold { No, Length, Place };
 
-// A rod keeps a length, whatever way its ends turn; other joints a place, or a line, in the frame of a.
+// A rod fixes a length, however its ends rotate; other joints fix a point, or a line, in the frame of a.
 template <class Definition>
 constexpr Hold hold_of(const Definition&) {
   if constexpr (std::is_same_v<Definition, DistanceDefinition>) return Hold::Length;
@@ -51,7 +51,7 @@ void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, doubl
   double work = 0, after = 0;
   for (const int place : places) {
     const int body = w.scratch.swept_bodies[place].body;
-    if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is that after an impact
+    if (w.scratch.swept_bodies[place].impacts > 0) return;  // its velocity is already that after an impact
     const BodyRecord<Real>& record = w.bodies[body];
     const BodyMotion<Real>& motion = w.motion[body];
     work += twice_work_on(w, body, dt);

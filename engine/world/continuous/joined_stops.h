@@ -4,20 +4,20 @@
 
 #include "engine/world/world_data.h"
 
-/// Bodies that joints tie together and that continuous collision stops at the same time. For continuous.cpp
-/// alone.
+/// Bodies connected by joints that continuous collision stops at the same time. Only for continuous.cpp.
 namespace plumb {
 
-/// Takes from bodies that are stopped together at a fraction of the step the work of forces in the rest of
-/// it: these do none on what does not move. Otherwise a mechanism that hangs on what stops it would fall
-/// faster from step to step without falling. What contacts have given them stays, with its momentum.
+/// Removes from bodies that are stopped together at a fraction of the step the work of forces in the rest of
+/// it, because forces do no work on a body that does not move. Otherwise a mechanism that hangs on its
+/// obstacle would gain speed from step to step without moving. Keeps the impulses of contacts, and so
+/// momentum.
 template <class Real>
 void take_unmoved_work(WorldData<Real>& w, const std::vector<int>& places, double fraction, double dt);
 
-/// Sets how far bodies that are to be stopped together have to move for their joints to be as they are
-/// between the step's ends. Each was followed along its own way, turning uniformly, which opens a joint by an
-/// arm times the turn squared. The first body stays where it is, and the others follow it from joint to
-/// joint.
+/// Sets the displacements of bodies that are stopped together for which their joints are as far open or
+/// closed as at the step's ends. Each body was stopped on its own path with uniform rotation, which opens a
+/// joint by an arm times the angle squared. The first body stays in place, and the others follow it from
+/// joint to joint.
 template <class Real>
 void find_shifts(WorldData<Real>& w, const std::vector<int>& places, double fraction);
 

@@ -26,7 +26,7 @@ bool is_free(const WorldData<Real>& w, int body, double dt) {
   if (record.type != BodyType::Dynamic) return true;
   if (!record.awake || record.first_joint != kNone) return false;
   if (record.constraints == 0) return true;
-  // Most contacts of what flies in a crowd are too far to hold it, whatever its velocity.
+  // Most contacts of a body that flies in a crowd are too far away to hold it, whatever its velocity.
   if (w.scratch.loaded[body] != kMayHold) return w.scratch.loaded[body] == 0;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return false;
@@ -82,8 +82,8 @@ void set_velocity(WorldData<Real>& w, const SweptBody& flight, double fraction) 
   w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
 }
 
-// Returns a speed that rounding does not turn into an approach, m/s: velocities after an impact at a point,
-// and its arms, are rounded. Points that part at it do not meet again at once.
+// Returns a speed below which an approach may be rounding, m/s, because velocities after an impact and their
+// arms are rounded. Points that have just separated must not count as approaching again.
 template <class Real>
 double speed_above_rounding(const WorldData<Real>& w, const ContactConstraint<Real>& c, int point) {
   const Real impulse = -c.approach[point] * c.mass[point];
@@ -101,12 +101,13 @@ double speed_above_rounding(const WorldData<Real>& w, const ContactConstraint<Re
 enum class Throw { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
 
 // Resolves an impact of two bodies: Newton's law at the touching points, with friction. `left`: time in which
-// points that do not touch yet must not close, s; 0: they have impacts of their own.
+// separated points must not close, s; 0: such points have their own impacts.
 template <class Real>
 Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt, Real left) {
   ContactPair<Real> pair(w.motion.data(), c);
   const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
-  // Gaps by rounding: points that are indistinguishable in time are resolved together.
+  // Treat gaps due to rounding as touching: points whose impact times cannot be distinguished are resolved
+  // together.
   const Real rounding =
       Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
@@ -126,7 +127,7 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
     wanted[i] =
         std::max(fast ? -double(c.restitution) * double(c.approach[i]) : 0, speed_above_rounding(w, c, i));
     if (closed[i] || !(left > 0)) continue;
-    // It may come as near as it is, and no nearer, in the time left.
+    // The point may close its gap in the time left, but no more.
     wanted[i] = -double(c.separation[i]) / double(left);
     closed[i] = true;
   }
@@ -143,9 +144,8 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
   return fast ? Throw::Bounce : Throw::Slide;
 }
 
-// Reduces a contact to the shapes' nearest points, along its normal. Of an outline of nearly parallel edges
-// the manifold holds the corners on both sides of the centre of mass, and may leave out the one between them
-// that strikes.
+// Reduces a contact to the shapes' nearest points, along its normal. For nearly parallel edges the manifold
+// has the corners on both sides of the centre of mass, and may omit a corner between them that strikes first.
 template <class Real>
 void take_nearest_points(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
   const auto rotation = [&](int body) -> Rotation<double> {
@@ -166,8 +166,8 @@ void take_nearest_points(const WorldData<Real>& w, const ContactRecord& contact,
   prepare_contact(w, contact, manifold, c);
 }
 
-// Reports that the shapes touched. If they were thrown apart, they are apart again at the end of the step;
-// else the next step finds out (`update_nontouching`).
+// Reports that the shapes touched. If they bounced, they are apart again at the end of the step; otherwise
+// the next step decides (`update_nontouching`).
 template <class Real>
 void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c,
             bool thrown_apart) {
@@ -218,7 +218,7 @@ template <class Real>
 bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
   if (a.pre_solve || b.pre_solve) return false;
-  // Without restitution two dynamic bodies go on together, which their contact does for less.
+  // Without restitution two dynamic bodies move on together, which their contact handles at less cost.
   const bool both = w.is_dynamic(a.body) && w.is_dynamic(b.body);
   if (both && !(restitution_between(w, shape, other) > 0)) return false;
   return is_free(w, a.body, dt) && is_free(w, b.body, dt);
@@ -240,7 +240,8 @@ bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int othe
     take_nearest_points(w, contact, c);
     thrown = throw_back(w, c, may_bounce, static_cast<Real>(dt), left);
   }
-  // Beyond the range of numbers the bodies stop here, and the next step's solver and quarantine treat them.
+  // Velocities beyond the range of numbers: the bodies stop here, and the next step's solver and quarantine
+  // handle them.
   for (const int body : {contact.body_a, contact.body_b})
     if (w.is_dynamic(body) && !is_sound_motion(w.motion[body])) thrown = Throw::None;
   if (thrown != Throw::None) report(w, contact, c, thrown == Throw::Bounce && c.restitution > 0);
@@ -248,7 +249,7 @@ bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int othe
   const auto go_on = [&](SweptBody* flight, Kept<Real>& kept) {
     if (flight == nullptr || thrown == Throw::None || !w.is_dynamic(flight->body)) return kept.restore();
     const BodyMotion<Real>& motion = w.motion[flight->body];
-    // The surface supports the pressing acceleration.
+    // The surface supports the body against the acceleration that presses it.
     if (thrown == Throw::Slide) {
       const double side = flight->body == contact.body_a ? 1 : -1;
       flight->gain -= (side * std::max(side * dot(flight->gain, normal), 0.0)) * normal;
@@ -272,7 +273,7 @@ void land(WorldData<Real>& w, const SweptBody& flight) {
   if (flight.impacts == 0) return;
   motion.velocity = flight.velocity_at(1).template as<Real>();
   motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
-  // The sleep timer was updated with the velocity from before the impact.
+  // Recompute the sleep timer, which was updated with the velocity before the impact.
   BodyRecord<Real>& record = w.bodies[flight.body];
   if (!is_still(w, record, motion, w.extents[flight.body])) record.sleep_time = 0;
 }

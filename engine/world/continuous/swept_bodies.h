@@ -2,8 +2,8 @@
 
 #include "engine/world/world_data.h"
 
-/// Bodies that continuous collision follows, and their place in the broad phase while it does. For
-/// continuous.cpp alone.
+/// Bodies swept by continuous collision, and their AABBs in the broad phase meanwhile. Only for
+/// continuous.cpp.
 namespace plumb {
 
 /// Sets the arm of a body hinged to a non-dynamic one: it moves on an arc about the hinge, not on a straight
@@ -11,7 +11,7 @@ namespace plumb {
 template <class Real>
 void set_arm(const WorldData<Real>& w, SweptBody& flight);
 
-/// Stores the whole swept AABB of a fast body in the tree, so that queries of others find it.
+/// Stores the whole swept AABB of a fast body in the tree, so that queries for other bodies find it.
 template <class Real>
 void insert_swept_aabb(WorldData<Real>& w, SweptBody& flight);
 

@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-/// Lower bound on the separation of two shapes throughout the step, m, tested along one direction after the
-/// other; negative: largest penetration. Fast and in Real; it decides most pairs.
+/// Lower bound on the separation of two shapes throughout the step, m; negative: largest penetration. Tests
+/// one direction after the other. It is fast, computed in Real, and decides most pairs.
 template <class Real>
 class SweptBound {
  public:

@@ -9,8 +9,8 @@
 
 namespace plumb {
 
-/// Tests the AABBs of a moving body's shapes against those of others, on the solver's motions. It decides
-/// most pairs; what does not depend on the other body is computed once.
+/// Tests the AABBs of a moving body's shapes against those of others, for the motions found by the solver.
+/// This decides most pairs. Terms that do not depend on the other body are computed once.
 template <class Real>
 class SweptBoxes {
  public:
@@ -34,8 +34,8 @@ class SweptBoxes {
            bend_ + bend(w_.shapes[other].body);
   }
   /// Returns true if the AABBs of two shapes are more than `apart` (m) from each other throughout the step,
-  /// along the same axis: on the solver's motions, which are straight, and with rotations bounded by their
-  /// arcs.
+  /// along one and the same axis. Assumes the solver's motions, which are straight, and bounds rotations by
+  /// their arcs.
   bool stay_apart(int shape, int other, Real apart) const {
     const int body = w_.shapes[other].body;
     const Vec2<Real> way = w_.motion[body].moved - moved_;

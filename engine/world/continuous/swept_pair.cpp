@@ -61,8 +61,8 @@ Real half_width_of(const WorldData<Real>& w, int shape) {
   return w.bodies[w.shapes[shape].body].half_width;
 }
 
-// Returns the distance to which a fast body is brought to what it hits, m. Without a contact, which would
-// hold what slides on the surface, it is far less than the depth of a core.
+// Returns the distance at which a fast body stops before an obstacle, m. Without a contact, which would hold
+// a sliding body on the surface, it is far less than the depth of a core.
 template <class Real>
 Real tolerance_between(const WorldData<Real>& w, const SweptPair<Real>& pair) {
   Real out =
@@ -107,7 +107,7 @@ class Encountering {
   Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
     return meet(moving, standing, tolerance_, tolerance_);
   }
-  // Finds the impact with the smallest tolerance above rounding, for bounces.
+  // Finds the impact with the smallest tolerance above rounding; for restitution.
   Result meet_closely() const {
     const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
     const double bodies =
@@ -120,7 +120,7 @@ class Encountering {
   }
   // Finds the impact of shapes that may start closer than the stopping distance: these must not come closer.
   Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
-    // Without a contact they are apart, and their cores farther.
+    // Without a contact the shapes are apart, and their cores farther apart.
     if (pair_.contact == nullptr && !way_.flight.changed && !pair_.stands) return meet(moving, standing);
     const double apart = distance(moving, standing);
     if (!(apart > 0)) return {.state = Result::State::Overlapped, .fraction = 0, .exact_fraction = 0};
@@ -129,7 +129,7 @@ class Encountering {
     return meet(moving, standing, Real(kHeld) * start, Real((1 - kHeld) / 2) * start);
   }
   double fraction(const Result& result) const { return way_.from + result.exact_fraction * (1 - way_.from); }
-  // Returns true for an impact on the back of a chain's segment, which lets it pass.
+  // Returns true for an impact on the back of a chain segment, which shapes may pass from behind.
   bool passes_behind(const Result& at) const {
     const bool moves = w_.forms[pair_.shape].chain;
     if (!moves && !w_.forms[pair_.other].chain) return false;
@@ -161,8 +161,8 @@ class Encountering {
   Real tolerance_;
 };
 
-// Returns true if both bodies are dynamic and have, or will have, a contact, which separates them unless
-// their inner cores pass. In a pile that is hit, bodies stopped earlier would be overrun.
+// Returns true if both bodies are dynamic and have, or will have, a contact. It separates them unless their
+// inner cores pass. If such bodies were stopped earlier, a pile that is hit would overrun them.
 template <class Real>
 bool both_yield(const WorldData<Real>& w, const SweptPair<Real>& pair) {
   return (pair.contact != nullptr || pair.stands) && w.is_dynamic(w.shapes[pair.shape].body) &&
@@ -181,7 +181,8 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
   const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
   const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
                            : Real(tuning::kCoreDepth) * own;
-  // After an impact in flight no contact supports it: in front of a stopped body it stops at the surface.
+  // After an impact in flight no contact supports the body: in front of a stopped body it stops at the
+  // surface.
   const SweptBody* met = flight_in(w, w.shapes[pair.other].body);
   if (at.flies_on() && met != nullptr && met->stands) {
     const Core<Real> core(at.whole(), Real(tuning::kGraze) * own);
@@ -254,14 +255,14 @@ double least_along(const Convex<Real>& shape, const Pose<double>& pose, Vec2d di
   return dot(direction, pose.position) + least - static_cast<double>(shape.radius);
 }
 
-// Largest lift, as a fraction of the smaller extent: more than the tip of a resting body moves in a step.
+// Maximum lift, as a fraction of the smaller extent: more than the motion of a resting body's tip in a step.
 constexpr double kLargestLift = 0.25;
-// Lifts of a body in a step after which it is stopped: each surface that it rests on may cause one.
+// Lifts per step after which a body is stopped: each surface that it rests on may cause one.
 constexpr int kMostLifts = 8;
-// Pieces of a way, between the ends of which a corner's arc is checked, after which a body is stopped: a rod
-// a hundred times as long as wide gets there at 7 radians a step.
+// Number of pieces of a path above which a body is stopped instead of lifted; a corner's arc is checked at
+// the ends of each piece. A rod a hundred times as long as wide reaches this number at 7 radians a step.
 constexpr double kMostPieces = 64;
-// Lift that is rounding, as a fraction of the body's extent.
+// Lift below which it counts as rounding, as a fraction of the body's extent.
 constexpr double kNoLift = 1e-9;
 
 // Returns true if a body touches something that it may be lifted off.
@@ -269,7 +270,7 @@ template <class Real>
 bool may_lift(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
   const int body = way.flight.body, other = w.shapes[pair.other].body;
   if (pair.contact == nullptr || way.flight.lifts >= kMostLifts || way.flight.carrier != kNone) return false;
-  // The normal of a deep contact may be that of a wrong side.
+  // The normal of a deep contact may point to the wrong side.
   const ContactConstraint<Real>& c = *pair.contact;
   const Real touching = Real(tuning::kTouch / tuning::kPushSpeed) * c.push_speed;
   if (std::min(c.separation[0], c.separation[1]) < -touching) return false;
@@ -293,23 +294,24 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const Sw
            least_along(obstacle, pose_at(of_other.sweep, fraction), -normal);
   };
   const double core = tuning::kCoreDepth * static_cast<double>(half_width_of(w, pair.shape));
-  // Along the normal of a slender shape a wide one may overlap it far from where they touch. So what the
-  // distance loses on the way counts, if they are apart.
+  // A wide shape may overlap a slender one far from where they touch, along the slender shape's normal. So
+  // use the decrease of the distance along the path, if the shapes are apart.
   const double apart = distance_between(way.sweep, shape, of_other.sweep, obstacle);
   const double hidden = apart > 0 ? apart - separation(0) : 0;
-  // A core that enters without a loss along the normal enters elsewhere: across another side. It is held off
-  // by up to two tolerances, which is much for a needle.
+  // A core that enters although the separation along the normal does not decrease enters through another
+  // side. Stop it up to two tolerances earlier, which is much for a needle.
   const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
   const double held_off = 2 * tuning::kImpactTolerance * smaller;
   if (entered < 1 && separation(entered) + hidden > held_off - 0.5 * core) return std::nullopt;
   const double lift = -core - separation(1) - hidden;
-  // On the way there corners turn on arcs. Another impact may end the flight where they are deepest: not
-  // deeper below both ends than from a core to the inner one, which can still be held.
+  // Between the ends of the path, corners move on arcs. Another impact may end the flight where they are
+  // deepest: allow at most the depth from a core to the inner core below both ends, which contacts can still
+  // push out.
   const double half_width = static_cast<double>(half_width_of(w, pair.shape));
   const double bend = static_cast<double>(w.extents[body]) * way.sweep.turn * way.sweep.turn +
                       2 * (std::abs(way.sweep.curve.x) + std::abs(way.sweep.curve.y));
   const double room = (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
-  const double pieces = std::ceil(std::sqrt(0.25 * bend / room));  // half of the room between two samples
+  const double pieces = std::ceil(std::sqrt(0.25 * bend / room));  // arcs may use half of the room
   if (!(pieces <= kMostPieces)) return std::nullopt;
   const double ends = std::min(separation(0), separation(1));
   for (int i = 1; i < static_cast<int>(pieces); ++i)
@@ -335,7 +337,7 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   const Result through = core_impact(w, at, pair);
   if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;
   const Result first = at.meet(at.whole(), at.obstacle());
-  // Shapes that touch at the start are held by their contact until the core comes too near.
+  // Shapes that touch at the start are separated by their contact until the core comes too near.
   const bool touch = first.state == Result::State::Overlapped || first.exact_fraction == 0;
   if (touch && lift_off(w, way, pair, through.exact_fraction) == Vec2d{}) return 1;
   return touch ? at.fraction(through) : at.fraction(first);

@@ -34,21 +34,21 @@ struct SweptPair {
   const ContactConstraint<Real>* contact = nullptr;  ///< the solver's constraint between the two; null: none
   bool stands = false;      ///< the other one was stopped in front of it; it may penetrate that as far as
                             ///< either's core permits
-  bool boxes_meet = false;  ///< it is known that their AABBs do not stay apart (swept_boxes.h)
+  bool boxes_meet = false;  ///< true if their AABBs are known not to stay apart (swept_boxes.h)
 };
 
 /// Returns the displacement that keeps a moving body out of a surface that it touched at the start of the
-/// step, m; zero if its core ends outside. None if it must be stopped instead: it is deeper, or the touched
-/// body rotates or is dynamic. Without this, a thin body that turns or slides on a surface would stop for
-/// good: its core lies less deep than contacts rest. `entered`: fraction of the way at which its core enters,
-/// 1 if that is not known.
+/// step, m; zero if its core ends outside. Returns nullopt if the body must be stopped instead, because it is
+/// deeper, or because the touched body rotates or is dynamic. Without this, a thin body that turns or slides
+/// on a surface would stop for good: its core is less deep than the overlap at which contacts rest.
+/// `entered`: fraction of the path at which its core enters, 1 if that is not known.
 template <class Real>
 std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair,
                               double entered = 1);
 
 /// Returns the fraction of the step at which a moving body must be stopped, or bounces, in front of another
-/// shape; 1 if it passes nothing. The core (convex_core.h) decides, not the surface: while nothing reaches
-/// it, contacts push shapes apart on their original sides.
+/// shape; 1 if it passes through nothing. The core (convex_core.h) decides, not the surface: until something
+/// reaches the core, contacts push the shapes apart on their original sides.
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair);
 

@@ -11,10 +11,10 @@
 #include "engine/world/state/contacts.h"
 #include "engine/world/step/step.h"
 
-/// Finds the first impact of a flight within the step. For continuous.cpp alone.
+/// Finds the first impact of a flight within the step. Only for continuous.cpp.
 namespace plumb {
 
-/// Tests which bodies one passes fast: what does not depend on the other body is computed once.
+/// Tests which bodies a body passes fast. Stores the terms that do not depend on the other body.
 template <class Real>
 class FastPassing {
  public:
@@ -45,8 +45,8 @@ class FastPassing {
   Real turned_, least_;
 };
 
-/// Returns an AABB of the body's motion until the step's end. An arc through an angle leaves the straight
-/// line between its ends, passed at the same rate, by at most arm angle^2 / 8, and by no more than two arms.
+/// Returns an AABB of the body's motion until the step's end. An arc leaves its chord, passed at the same
+/// rate, by at most arm angle^2 / 8, and by no more than two arms.
 template <class Real>
 Aabb<Real> way_of(const WorldData<Real>& w, const SweptBody& flight) {
   const Vec2<Real> start = flight.start_at(flight.from).template as<Real>(),
@@ -87,8 +87,8 @@ void push_toi_event(const WorldData<Real>& w, const Way& way, const SweptPair<Re
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
 }
 
-/// Finds the first impact of a body whose obstacles all have a contact with it. Computes its way once
-/// something may be in it.
+/// Finds the first impact of a body whose obstacles all have a contact with it. Computes its trajectory only
+/// when an obstacle may be in the path.
 template <class Real>
 void meet_pairs(const WorldData<Real>& w, const SweptBody& flight, double from, ImpactSearch& search,
                 ToiEvent& first) {

@@ -52,8 +52,8 @@ class Drawing {
     const Vec2d middle = centre(body), size{reach, reach};
     return shows(Aabb<double>{middle - size, middle + size});
   }
-  // Returns true if the bounds may overlap a shape. Boxes are those after the step, so between two steps only
-  // the body's size tells.
+  // Returns true if the bounds may overlap a shape. AABBs are those after the last step, so after changes by
+  // calls only the body's size is reliable.
   bool shows_shape(int shape) const {
     if (!options_.bounds) return true;
     const Aabb<Real> box = current_aabb(w_, shape);
@@ -141,7 +141,7 @@ class Drawing {
     out_.point(at, DrawRole::Centre);
   }
 
-  // Ends of a joint: its anchors where it has them, else the centres of mass.
+  // Ends of a joint: its anchors if it has any, else the centres of mass.
   struct Ends {
     Vec2d a{}, b{};
   };

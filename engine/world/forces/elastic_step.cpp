@@ -18,18 +18,18 @@ constexpr int kRows = 4;
 constexpr int kIterations = 20;
 /// Shortest fraction of a Newton step that is tried: 2^-8.
 constexpr int kHalvings = 8;
-/// Residual, as a fraction of the motion, at which Newton's method ends but for one more step.
+/// Residual below which Newton's method ends after one more step, as a fraction of the motion.
 constexpr double kFound = 1e-12;
-/// The same, up to which what many iterations leave is taken for a solution.
+/// The same, below which the result counts as a solution after the last iteration.
 constexpr double kEnough = 1e-9;
-/// Rounding of the line of a spring, as a fraction of the places of its ends.
+/// Rounding error of a spring's direction, as a fraction of the coordinates of its ends.
 constexpr double kRounding = 1e-15;
-/// Least change of energy in a step, as a fraction of what there is, that is undone: far above rounding, and
-/// in 1e6 steps 1 %.
+/// Smallest change of energy in a step that is corrected, as a fraction of the energy: far above rounding,
+/// and 1 % in 1e6 steps.
 constexpr double kGain = 1e-8;
-/// Largest share by which a motion that loses energy is drawn away.
+/// Largest fraction by which a motion that loses energy is moved away from the reference motion.
 constexpr double kMostAway = 0.5;
-/// Halvings in the search for the least share: to 1e-9.
+/// Number of halvings in the search for the smallest fraction: to 1e-9.
 constexpr int kSearch = 30;
 
 Vec2d across(Vec2d axis) { return {-axis.y, axis.x}; }
@@ -39,18 +39,18 @@ double sinc(double x) { return std::abs(x) < 1e-2 ? 1 - x * x / 6 * (1 - x * x /
 
 double square(double x) { return x * x; }
 
-/// Returns 1 / x, and 0 for 0: of what does not move.
+/// Returns 1 / x, and 0 for x = 0: the inverse mass 0 means that nothing moves.
 double inverse_of(double x) { return x > 0 ? 1 / x : 0; }
 
 double length_of(Vec2d v) { return std::sqrt(length_squared(v)); }
 
-/// Returns the direction of a line; of one without length, any.
+/// Returns the unit vector along a line; an arbitrary one for length 0.
 Vec2d axis_of(Vec2d line) {
   const double length = length_of(line);
   return length > 0 ? (1 / length) * line : Vec2d{1, 0};
 }
 
-/// Returns the row of a pull of `a` towards `direction`, and of `b` towards its opposite.
+/// Returns the row of a force that pulls `a` along `direction` and `b` in the opposite direction.
 BoundedRow pull_row(int a, Vec2d arm_a, int b, Vec2d arm_b, Vec2d direction) {
   constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   return {.a = a,
@@ -73,8 +73,7 @@ int ElasticStep::add_body(const Body& body) {
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-/// Sums dt c / m over the springs of each body, and the squares of what rounding makes of the motion, times
-/// M.
+/// Sums dt c / m over the springs of each body, and the squares of the motion's rounding error, times M.
 void ElasticStep::find_scales(double dt) {
   damping_.assign(bodies_.size(), 0);
   rounding_ = 0;
@@ -102,9 +101,9 @@ Vec2d ElasticStep::line_after(const Spring& spring) const {
          (bodies_[spring.a].position + a.way + rotation_of(a.turn) * spring.arm_a);
 }
 
-/// Returns the damping of a spring over the step, N s/m. With dt c / m = z in sum it leaves 1 / (1 + z + z^2
-/// / 2) of a velocity: as exp(-z) to second order, and of a large z nothing. c itself, with the mean
-/// velocity, would reverse it.
+/// Returns the effective damping of a spring over the step, N s/m. With dt c / m = z in sum a fraction 1 / (1
+/// + z + z^2 / 2) of a velocity remains: exp(-z) to second order, and nothing for large z. c itself, applied
+/// to the mean velocity, would reverse the velocity.
 double ElasticStep::damping_of(const Spring& spring) const {
   const double z = damping_[spring.a] + damping_[spring.b];
   return spring.damping * (4 + 2 * z) / (4 + 2 * z + z * z);
@@ -131,8 +130,8 @@ ElasticStep::Line ElasticStep::line_of(const Spring& spring, double dt) const {
   return line;
 }
 
-/// Computes the springs' wrenches for the motion in `moved_`, and the residual free + dt^2/2 M^-1 F - moved
-/// into the bodies of the system. Returns the sum of its squares times M, kg m^2.
+/// Computes the springs' wrenches for the motion in `moved_`. Writes the residual, free + dt^2/2 M^-1 F -
+/// moved, into the bodies of the system. Returns the sum of its squares times M, kg m^2.
 double ElasticStep::evaluate(double dt) {
   wrenches_.assign(bodies_.size(), {});
   lines_.clear();
@@ -161,7 +160,7 @@ ElasticStep::Motion ElasticStep::moved_by(int body, double dt) const {
           free_[body].turn + share * b.inverse_inertia * w.torque};
 }
 
-/// Returns M motion^2 of a body.
+/// Returns M motion^2 of a body, kg m^2.
 double ElasticStep::energy_of(int body, const Motion& motion) const {
   const Body& b = bodies_[body];
   return inverse_of(b.inverse_mass.x) * square(motion.way.x) +
@@ -169,7 +168,7 @@ double ElasticStep::energy_of(int body, const Motion& motion) const {
          inverse_of(b.inverse_inertia) * square(motion.turn);
 }
 
-/// Makes a row for each restoring part of the derivative. One of the stiffness k has the impulse x that
+/// Makes a row for each restoring part of the derivative. A row with stiffness k has the impulse x that
 /// solves J step + x / (dt^2/4 k) = 0.
 void ElasticStep::make_rows(double dt) {
   system_.rows.clear();
@@ -195,7 +194,7 @@ void ElasticStep::make_rows(double dt) {
   }
 }
 
-/// Orders the elimination anew if other bodies are connected than in the last step.
+/// Reorders the elimination if the pairs of connected bodies differ from the last step's.
 void ElasticStep::order() {
   connected_.clear();
   for (const Spring& spring : springs_) connected_.emplace_back(spring.a, spring.b);
@@ -236,8 +235,8 @@ double ElasticStep::newton(double dt) {
   return residual;
 }
 
-/// Returns the residual of which a motion is found to within a fraction: that of M times the squares of the
-/// motion, free and in `moved_`, and rounding.
+/// Returns the residual at which the motion is accurate to a given fraction: computed from M times the
+/// squares of the free motion and of the motion in `moved_`, plus rounding.
 double ElasticStep::bound(double fraction) const {
   double sum = 0;
   for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
@@ -245,8 +244,8 @@ double ElasticStep::bound(double fraction) const {
   return square(fraction) * sum + rounding_;
 }
 
-/// Adds what one more Newton step changes to the wrenches. Those of a very stiff spring, computed from the
-/// motion alone, would be k times its rounding.
+/// Adds the change of the wrenches by one more Newton step. If the wrenches of a very stiff spring were
+/// computed from the motion alone, their error would be k times its rounding.
 void ElasticStep::refine(double dt) {
   find_step(dt);
   for (const BoundedRow& row : system_.rows) {
@@ -260,8 +259,8 @@ void ElasticStep::solve(double dt) {
   find_scales(dt);
   order();
   double least = std::numeric_limits<double>::infinity();
-  // From rest, the first step is the linearly implicit one: of several solutions it leads to the one that
-  // shorter steps have as well.
+  // Starting from rest makes the first step the linearly implicit one. If there are several solutions, it
+  // leads to the one that shorter steps find, too.
   for (const double start : {0.0, 1.0, 0.5}) {
     moved_.clear();
     for (const Motion& free : free_) moved_.push_back({start * free.way, start * free.turn});
@@ -269,7 +268,7 @@ void ElasticStep::solve(double dt) {
     if (std::isfinite(residual) && residual <= bound(kEnough)) return refine(dt);
     if (residual < least) least = residual, best_ = moved_;
   }
-  if (!std::isfinite(least)) return;  // nor are the wrenches, which is for the caller to report
+  if (!std::isfinite(least)) return;  // the wrenches are not finite either, and the caller reports this
   moved_ = best_;
   evaluate(dt);
   hold_energy(dt);
@@ -307,8 +306,8 @@ void ElasticStep::find_groups(double dt) {
   }
 }
 
-/// Computes what the motion in `moved_` adds to the energy of each group: the work of the wrenches that lead
-/// to it, the elastic energy, and what dampers take.
+/// Computes the energy change of each group by the motion in `moved_`: the work of the wrenches that lead to
+/// it, the elastic energy, and the loss in dampers.
 void ElasticStep::find_gains(double dt) {
   for (Group& group : groups_) group.gain = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -328,9 +327,9 @@ void ElasticStep::find_gains(double dt) {
   }
 }
 
-/// Makes the motion of groups keep their energy: it is drawn towards one that does or, if it loses energy,
-/// away from it, by the least share. That one is the motion of their centre of mass or, if they are held,
-/// none.
+/// Corrects the motion of groups so that they conserve energy. The motion is moved towards a reference motion
+/// that does, or away from it if energy was lost, by the smallest sufficient fraction. The reference is the
+/// motion of the group's centre of mass or, if the group is held, no motion.
 void ElasticStep::hold_energy(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) moved_[i] = moved_by(static_cast<int>(i), dt);
   best_ = moved_;
@@ -360,7 +359,8 @@ void ElasticStep::hold_energy(double dt) {
   }
 }
 
-/// Sets the motion in `moved_` to that in `best_`, drawn by the groups' shares, and finds its gains.
+/// Sets the motion in `moved_` to that in `best_`, moved by the groups' fractions, and computes the energy
+/// gains.
 void ElasticStep::draw(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Group& group = groups_[group_of_[i]];

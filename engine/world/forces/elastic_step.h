@@ -9,15 +9,15 @@
 
 namespace plumb {
 
-/// A step of bodies that springs connect, by the energy-conserving method of discrete gradients (Gonzalez,
+/// A step of bodies connected by springs, by the energy-conserving method of discrete gradients (Gonzalez,
 /// Journal of Nonlinear Science 6, 1996; Simo, Tarnow and Wong, Computer Methods in Applied Mechanics and
 /// Engineering 100, 1992). With d the vector between the ends of a spring, l its length, 0 and 1 the start
 /// and the end of the step, its pull
 ///     k (1 - 2 rest_length / (l0 + l1)) (d0 + d1) / 2
-/// does the work of its loss of elastic energy exactly, however stiff it is and however far its bodies move
-/// or turn. All springs are solved together, by Newton's method with the parts of the derivative that
-/// restore: along the line, across it, and of the levers. If that does not converge, the motion is drawn
-/// towards one that keeps the energy.
+/// does work equal to its loss of elastic energy exactly, however stiff the spring is and however far its
+/// bodies move or rotate. All springs are solved together, by Newton's method with the restoring parts of the
+/// derivative: along the line, across it, and of the levers. If that does not converge, the motion is moved
+/// towards one that conserves energy.
 class ElasticStep {
  public:
   /// A body at the start of the step.
@@ -39,9 +39,9 @@ class ElasticStep {
   void add(const Spring& spring) { springs_.push_back(spring); }
   const Body& body(int index) const { return bodies_[index]; }
 
-  /// Sets a body's displacement (m) and turn (rad) over the step without the springs.
+  /// Sets a body's displacement (m) and rotation (rad) over the step without the springs.
   void set_free_motion(int body, Vec2d way, double turn) { free_[body] = {way, turn}; }
-  /// Finds the springs' mean wrenches over a step of `dt` s. They are not finite where no motion is.
+  /// Computes the springs' mean wrenches over a step of `dt` s. They are not finite if no motion was found.
   void solve(double dt);
   const Wrench<double>& wrench(int body) const { return wrenches_[body]; }
 
@@ -53,19 +53,19 @@ class ElasticStep {
   };
   /// A spring over the step.
   struct Line {
-    Vec2d arm_a{}, arm_b{};        ///< m, such that torques do the work of their pulls
+    Vec2d arm_a{}, arm_b{};        ///< m, effective arms, for which torques do the work of the pulls
     Vec2d axis{};                  ///< mean direction, of unit length
     Vec2d pull{};                  ///< N, on a
     double along = 0, across = 0;  ///< N/m, restoring derivative of the pull along the axis and across it
   };
-  /// Bodies that springs connect. Energies are in kg m^2: times dt^2 / 2.
+  /// Group of bodies connected by springs. Energies are multiplied by dt^2 / 2, in kg m^2.
   struct Group {
     Vec2d mass{}, moment{};                 ///< kg along x and y, and times the free motion: kg m
     bool differs = false;                   ///< its motion is drawn
     bool held = false;                      ///< one of its bodies is not moved by forces
     double size = 0;                        ///< energy that there is
     double gain = 0;                        ///< energy that the motion adds
-    double least = 0, most = 1, share = 0;  ///< of the motion that is drawn back, while it is searched
+    double least = 0, most = 1, share = 0;  ///< fraction of the correction, and its bounds during the search
   };
 
   Vec2d line_before(const Spring& spring) const;
@@ -91,9 +91,9 @@ class ElasticStep {
   BoundedRows system_;
   std::vector<Body> bodies_;
   std::vector<Spring> springs_;
-  std::vector<double> damping_;           // by body: dt c / m of all its springs
-  double rounding_ = 0;                   // kg m^2, square of the residual that rounding makes
-  std::vector<Wrench<double>> wrenches_;  // by body
+  std::vector<double> damping_;                            // by body: dt c / m of all its springs
+  double rounding_ = 0;                                    // kg m^2, squared residual due to rounding
+  std::vector<Wrench<double>> wrenches_;                   // by body
   std::vector<Motion> free_, moved_, step_, last_, best_;  // by body
   std::vector<Line> lines_;                                // by spring
   std::vector<std::pair<int, int>> connected_,

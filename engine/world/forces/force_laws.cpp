@@ -31,8 +31,8 @@ LawBody view_of(const WorldData<Real>& w, int body) {
           w.body_data.get(body)};
 }
 
-// Returns weight and applied forces of a body in free flight. A body with constraints gets none, because
-// their forces are not known before the step.
+// Returns weight and applied forces of a body in free flight; zero for a body with constraints, whose forces
+// are not known before the step.
 template <class Real>
 Wrench<double> known_load(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];

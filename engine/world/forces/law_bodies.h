@@ -70,7 +70,7 @@ void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrenc
 /// neither gain nor lose energy. Under a constant acceleration a, a step leads to x + dt v + c dt^2 a. In
 /// free flight c = 1/2; for bodies in contact c = (1 + 1/n)/2 with n substeps. With the force at x + s dt v,
 /// phase-space area is conserved for s = 1 - c. With s = 1/2 in contact, a spring of omega dt = 1/6 would
-/// lose three quarters of its energy in ten periods. The next step is assumed to have the substeps of the
+/// lose three quarters of its energy in ten periods. Assumes that the next step has as many substeps as the
 /// last.
 template <class Real>
 double place_share(const WorldData<Real>& w, int body, double dt) {
@@ -112,8 +112,8 @@ void for_each_law_body(WorldData<Real>& w, bool wakes, Visit&& visit) {
   });
 }
 
-/// Adds the wrenches to the loads of the next step. Bodies with a wrench that is not sound are quarantined
-/// first.
+/// Adds the wrenches to the loads of the next step. First quarantines bodies whose wrench is not finite or
+/// beyond the limits.
 template <class Real>
 void add_wrenches(WorldData<Real>& w, const WrenchList& list) {
   for (const BodyWrench& item : list) {
@@ -138,8 +138,8 @@ void apply_to_bodies(WorldData<Real>& w, bool wakes, Law&& wrench_of) {
 }
 
 /// Returns a drag wrench, scaled down so that it stops the relative motion within `dt` at most. Its power
-/// falls by W M^-1 W dt, and may not change sign. `power` (W) is that of the wrench in the motion that it
-/// opposes.
+/// decreases by W M^-1 W dt in the step, and must not change sign. `power` (W) is that of the wrench for the
+/// motion that it opposes.
 template <class Real>
 Wrench<double> bounded_drag(const BodyMotion<Real>& motion, const Wrench<double>& wrench, double power,
                             double dt) {

@@ -23,9 +23,9 @@ double decay(double x) {
   return sum;
 }
 
-// Means over a time t, as fractions, with damping c and x = c t: phi_1 = (1 - e^-x) / x for a velocity that
-// decays, and phi_2 = (1 - phi_1) / x for one that grows from 0. Under a constant acceleration a, v' = e^-x v
-// + phi_1 t a and the displacement is t (phi_1 v + phi_2 t a).
+// Means over a time t, as fractions, with damping c and x = c t: phi_1 = (1 - e^-x) / x for a decaying
+// velocity, and phi_2 = (1 - phi_1) / x for a velocity that grows from 0. Under a constant acceleration a, v'
+// = e^-x v + phi_1 t a and the displacement is t (phi_1 v + phi_2 t a).
 struct DampedMeans {
   double first, second;
 };
@@ -69,13 +69,13 @@ void apply(const VelocityIncrement<Real>& kick, BodyMotion<Real>& motion) {
   if (kick.locked_y) motion.velocity.y = 0;
 }
 
-// Returns the weight of the velocity before the increment in the velocity that moves a body.
+// Returns the weight of the velocity before the increment in the mean velocity that moves a body.
 constexpr double share_before(Integrator integrator) {
   return integrator == Integrator::VelocityVerlet ? 0.5 : integrator == Integrator::ExplicitEuler ? 1 : 0;
 }
 
-// Advances a velocity under a constant acceleration, which would add `gain`, and damping, which leaves the
-// fraction `keep`; `x` is c times the time. Returns the displacement.
+// Advances a velocity under a constant acceleration and damping. The acceleration alone would add `gain`;
+// damping leaves the fraction `keep` of a velocity; `x` is c times the time. Returns the displacement.
 template <class Value, class Real>
 Value coast(Value& velocity, Value gain, Real keep, double x, Real time) {
   const Value before = velocity;
@@ -104,7 +104,7 @@ void fly(WorldData<Real>& w, int body, double dt) {
   if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
 }
 
-// Returns true if gravity alone acts on a body in free flight, unless it has a load.
+// Returns true if a body is in free flight under gravity alone, without an applied load.
 template <class Real>
 bool falls_only(const BodyRecord<Real>& record) {
   return record.type == BodyType::Dynamic && record.uncommon == kNone && !record.lock_x && !record.lock_y;
@@ -128,13 +128,13 @@ template <class Real, class Visit>
 void for_each_kick(WorldData<Real>& w, const Visit& visit) {
   std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   w.crew.ranges(static_cast<int>(kicks.size()), kBodies, [&](int first, int last) {
-    const Visit own = visit;  // a copy, which no other pointer reaches
+    const Visit own = visit;  // a local copy: no pointer can change it
     VelocityIncrement<Real>* const list = kicks.data();
     for (int i = first; i < last; ++i) own(list[i]);
   });
 }
 
-// Returns true if the body at a place of the awake ones moves by substeps.
+// Returns true if the body at an index of the awake ones moves by substeps.
 template <class Real>
 bool moves_by_substeps(const BodyRecord<Real>& record, Integrator integrator) {
   return integrator != Integrator::VelocityVerlet || record.constraints != 0;

@@ -16,19 +16,19 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w);
 
-/// Integrates velocities, and adds again everything that constraints gave each body in the last substep.
-/// While normals and lever arms are constant, that warm starts all of them at the cost of a loop over the
-/// bodies.
+/// Integrates velocities, and adds again the velocity that constraints gave each body in the last substep.
+/// This warm starts all constraints, as long as normals and lever arms are constant, at the cost of one loop
+/// over the bodies.
 template <class Real>
 void integrate_and_warm_start(WorldData<Real>& w);
 
-/// Integrates positions: x += h v. A body without joints that had no impulse in the substep moves by the
-/// integrator's mean of the velocities before and after the increment. So bodies with separated contacts fall
-/// like bodies without.
+/// Integrates positions: x += h v. A body without joints that had no impulse in the substep moves with the
+/// integrator's mean of the velocities before and after the increment, so that bodies with separated contacts
+/// fall like bodies without contacts.
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator);
 
-/// Resets displacement and velocity along locked axes, which projections may have changed.
+/// Resets displacement and velocity along locked axes, which position projections may have changed.
 template <class Real>
 void enforce_motion_locks(WorldData<Real>& w);
 

@@ -17,21 +17,22 @@ constexpr double kSharing = 1e-4;
 // largest, and in a tower 5 / rows^2.
 constexpr double kFarApart = 100, kMany = 96;
 // Number of iterative refinements, which remove the error of the rates due to the regularisation, and the
-// residual at which they end, as a fraction of the rate due to the load. More would wedge redundant rows.
+// residual at which they end, as a fraction of the rate due to the load. More refinements would wedge
+// redundant rows.
 constexpr int kRefinements = 2;
 constexpr double kExact = 1e-8;
 // Rows contradict each other (a body is pushed out of two walls at once) if the last refinement leaves more
 // than kInVain of the previous residual, while no impulse falls by more than kPulls times the largest rise:
-// all rows press, and more refinements would not end it. Redundant supports that are not level leave a
-// residual too, but some of their impulses fall, until those rows no longer press.
+// all rows press, and more refinements do not help. Redundant supports that are not level leave a residual
+// too, but some of their impulses fall until those rows no longer press.
 constexpr double kInVain = 0.5, kPulls = 0.1;
 // Maximum number of times that rows are removed or come back before giving up.
 constexpr int kTries = 10;
-// Number of attempts that may fail to reduce the number of wrong rows, before rows are changed one by one.
+// Number of attempts that may fail to reduce the number of wrong rows, before rows are changed one at a time.
 constexpr int kPatience = 3;
 // Velocity at which a removed row counts as violated, relative to the largest requested velocity: rounding.
 constexpr double kEntered = 1e-5;
-// Returns J_r M^-1 J_s^T: the part of one body that both rows act on.
+// Returns J_r M^-1 J_s^T: the coupling of two rows through one body that both act on.
 template <class Real>
 double coupling(const BodyMotion<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,
                 Real angular_s) {
@@ -122,7 +123,7 @@ void DirectRows<Real>::assemble(const BodyMotion<Real>* motion) {
   }
 }
 
-// Factorises for the active rows. Those before the place `from` are as they were.
+// Factorises the matrix of the active rows. Rows before the index `from` are unchanged.
 template <class Real>
 void DirectRows<Real>::factorise(Factors& factors, int from) {
   EnvelopeMatrix& matrix = factors.matrix;
@@ -135,7 +136,7 @@ void DirectRows<Real>::factorise(Factors& factors, int from) {
   matrix.factorise(from);
 }
 
-// Removes or restores the rows on the wrong side. Returns the first place that changed.
+// Removes or restores the rows on the wrong side. Returns the index of the first row that changed.
 template <class Real>
 int DirectRows<Real>::change_sides(Factors& factors) {
   int from = factors.matrix.size();
@@ -236,7 +237,7 @@ double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMat
   return asked;
 }
 
-// Returns the velocity that a row misses, m/s: J v + bias.
+// Returns the velocity error of a row, m/s: J v + bias.
 template <class Real>
 double DirectRows<Real>::rate_of(const BodyMotion<Real>* motion, const DirectRow<Real>& row) const {
   const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
@@ -244,7 +245,7 @@ double DirectRows<Real>::rate_of(const BodyMotion<Real>* motion, const DirectRow
                 dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias);
 }
 
-// Returns the velocity that the solution causes along the row at a place, m/s.
+// Returns the velocity that the solution causes along a row, m/s.
 template <class Real>
 double DirectRows<Real>::response_of(int place) const {
   double sum = 0;
@@ -254,7 +255,7 @@ double DirectRows<Real>::response_of(int place) const {
   return sum;
 }
 
-// Takes back the impulses of the removed rows.
+// Removes the impulses of inactive rows from the bodies.
 template <class Real>
 void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
   DirectRow<Real>* const all = rows.data();
@@ -269,7 +270,7 @@ void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
   }
 }
 
-// Applies them again, so that rows solved by iterations instead keep their load.
+// Applies them again, so that rows keep their load if iterations solve them instead.
 template <class Real>
 void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
   for (DirectRow<Real>& row : rows) {
@@ -285,7 +286,7 @@ void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
 // on a light body are large and nearly cancel.
 template <class Real>
 void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
-  // Pointers of its own: velocities are written in between, and might be anything.
+  // Local pointers: the compiler must assume that a write to velocities changes any other pointer.
   DirectRow<Real>* const all = rows.data();
   const double* const x = x_.data();
   const int *const place = place_.data(), *const block_first = block_first_.data();

@@ -54,9 +54,9 @@ class DirectRows {
   double order(const BodyMotion<Real>* motion);
   /// Computes J M^-1 J^T for the present masses and Jacobians, and forgets all factorisations.
   void assemble(const BodyMotion<Real>* motion);
-  /// Solves for the missing impulses of the pass with depenetration (`push`) or that without. Returns false,
-  /// having changed nothing but `active`, if a few tries found no set of pressing rows, or if the rows
-  /// contradict each other.
+  /// Solves for the missing impulses of the pass with depenetration (`push`) or of the pass without it.
+  /// Returns false, having changed nothing but `active`, if a few attempts found no valid set of pressing
+  /// rows, or if the rows contradict each other.
   bool find(BodyMotion<Real>* motion, bool push);
   /// Returns true if the rows in `find` were infeasible, such as those of a body pushed out of two walls at
   /// once. Its result is then invalid.

@@ -13,13 +13,13 @@ namespace {
 // eighth of its square.
 constexpr double kTurn = 0.125;
 constexpr int kMostParts = 64;
-// Hinges are closed to this fraction of the arms, in up to so many Newton steps.
+// Tolerance of closing hinges, as a fraction of the arms, and the maximum number of Newton steps for it.
 constexpr double kClosed = 1e-11;
 constexpr int kMostNewtonSteps = 16;
 // Maximum closing speed of a gap that existed before, in arms per second. A scene that starts with its joints
 // open is pulled together without a burst.
 constexpr double kGapSpeed = 4;
-// Ratio of demanded to present inertia above which a link gets more within a substep.
+// Ratio of demanded to current inertia above which a link's inertia is raised within a substep.
 constexpr double kHeavier = 1.01;
 // Growth of the gap in a Newton step above which the iteration diverges.
 constexpr double kDiverges = 2;
@@ -244,7 +244,7 @@ bool hold(std::span<TreeLink> tree, double h, double share) {
   return heavier;
 }
 
-// Solves for velocities that keep them closed.
+// Solves for velocities that keep the hinges closed.
 void fit(std::span<TreeLink> tree) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
     TreeLink& link = tree[i];
@@ -255,8 +255,8 @@ void fit(std::span<TreeLink> tree) {
   solve(tree);
 }
 
-// Sets the part of each gap that is too large to close in one substep; it stays open. No warm start: when a
-// light link under a heavy load has rotated a little, the old impulse would spin it up.
+// Sets the part of each gap that stays open, because it is too large to close in one substep. No warm start:
+// when a light link under a heavy load has rotated a little, the old impulse would spin it up.
 void begin(std::span<TreeLink> tree, double h) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
     TreeLink& link = tree[i];
@@ -294,7 +294,7 @@ void move_tree(std::span<TreeLink> tree, double h, int substeps) {
       link.keep = std::sqrt(link.keep), link.keep_spin = std::sqrt(link.keep_spin);
   }
   place(tree);
-  bool fits = true;  // velocities and poses belong to the same time
+  bool fits = true;  // velocities and poses are those of the same time
   for (int left = parts * substeps; left > 0; --left) {
     const double share = fits ? 0.5 : 1;
     find_demands(tree, t, 1, &TreeLink::impulse);

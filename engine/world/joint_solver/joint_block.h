@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-/// N rigid rows solved together: K = J M^-1 J^T = L D L^T. A row that depends on those before it is left out.
+/// N rigid rows solved together: K = J M^-1 J^T = L D L^T. A row that depends on previous rows is left out.
 template <class Real, int N>
 struct JointBlock {
   JointRow<Real> row[N]{};

@@ -27,9 +27,9 @@ struct LaneAngles {
   Real start = 0;
 };
 
-/// A joint of kind `Kind`, prepared for solving; with Lanes for `Real`, the numbers of several joints side by
-/// side, whose rules have the same roles. Only the parts that the kind has take memory. They are solved in
-/// the order turn, axial, block, point, so that rigid rows hold best.
+/// A joint of kind `Kind`, prepared for solving. With Lanes for `Real` it holds several joints side by side,
+/// whose rules have the same roles. Only the parts that the kind has take memory. They are solved in the
+/// order turn, axial, block, point, so that rigid rows are satisfied best.
 template <class Real, template <class> class Kind>
 struct JointConstraint {
   using Rows = Kind<Real>;
@@ -68,7 +68,7 @@ struct JointConstraint {
   using Point = std::conditional_t<kSoftPoint, SoftPoint<Real>, RigidPoint<Real>>;
   [[no_unique_address]] If<Rows::kPoint, Point, 4> point{};
 
-  // Functions that are called less than once a step are compiled once for each form: their callers are many.
+  // Functions that are called less than once a step are not inlined, because they have many callers.
   /// Loads the definition's parameters; keeps impulses and memory that are still valid.
   [[gnu::noinline]] void load(const Definition& definition, Vec2d centre_a, Vec2d centre_b) {
     const Rows last = kind;
@@ -89,14 +89,14 @@ struct JointConstraint {
       if (kind.reference != last.reference || kind.tooth != last.tooth) memory = {};
     }
     if constexpr (kPulley) {
-      // A given length may differ from the placed one.
+      // A given length may differ from the distance at which the bodies were placed.
       if (definition.length) memory = {*definition.length, 1};
     }
     recall();
     known_h = 0;
   }
 
-  /// Sets the rule that follows from the memory. A joint that sleeps is read before a step does so.
+  /// Sets the rule that follows from the stored state. A sleeping joint may be read before a step sets it.
   void recall() {
     if constexpr (kRatchet)
       if (memory.known != 0) turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
@@ -187,7 +187,7 @@ struct JointConstraint {
     if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, part);
   }
 
-  /// Does the same for a joint that is alone. Compiled once, and called: the larger part of a joint's code.
+  /// Does the same for a joint that is alone. Not inlined: it is the larger part of a joint's code.
   [[gnu::noinline]] void evaluate_single(const JointPose<Real>& at, const JointRows<Real>& rows,
                                          const JointVelocities<Real>& v, const Step& step,
                                          JointShare<Real> part) {
@@ -271,10 +271,11 @@ struct JointConstraint {
   }
 
   /// Solves all rows once. Rigid rows beside a spring are solved before and after it: the spring then sees
-  /// the velocity that they leave, and its response includes them. Before it they hold exactly, as that
-  /// response presumes: softly held they would let go of a part of their load, for which stiff springs
-  /// overcompensate, more from substep to substep. After it they hold exactly too, if the joint is alone: the
-  /// part that they let go would turn a body whose inertia is small about its centre, not about the joint.
+  /// the velocity that they leave, and its response includes them. Before the spring they are solved exactly,
+  /// as its response assumes: with softness they would lose a part of their load, for which stiff springs
+  /// overcompensate, more from substep to substep. After the spring they are solved exactly too, if the joint
+  /// is alone: a lost part of their load would rotate a body whose inertia is small about its centre but not
+  /// about the joint.
   [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
                                                 Real part) {
     Softness<Scalar<Real>> soft = step.softness;
@@ -318,10 +319,10 @@ struct JointConstraint {
   }
   JointPose<Real> pose(const SolverBodies<Real>& bodies) const { return pose(motion_of(bodies, a, b)); }
 
-  /// Keeps the angles, from which turns are counted on.
+  /// Stores the angles from which turns are counted.
   [[gnu::always_inline]] void remember(const JointMotion<Real>& now) {
     if constexpr (kIsLanes<Real>) {
-      return;  // at the end of the step: `end_step`
+      return;  // done at the end of the step, by `end_step`
     } else if constexpr (kAngle == AngleUse::Geared) {
       angle.a = angle.start_a + now.turned_a;
       angle.b = angle.start_b + now.turned_b;
@@ -330,7 +331,7 @@ struct JointConstraint {
     }
   }
 
-  /// Returns the present pose and rows, at any time; counts turns from the last evaluation.
+  /// Returns the current pose and rows, at any time; counts turns since the last evaluation.
   std::pair<JointPose<Real>, JointRows<Real>> look(const SolverBodies<Real>& bodies) const {
     JointConstraint now = *this;
     const Vec2<Real> moved_a = bodies.motion[a].moved, moved_b = bodies.motion[b].moved;
@@ -373,8 +374,8 @@ struct JointConstraint {
     if constexpr (Rows::kPoint) point.impulse *= factor;
   }
 
-  /// Clears impulses, counts and rows. A step that failed may have left what is no number, which no factor
-  /// clears, and whose sign depends on how many joints were solved side by side.
+  /// Clears impulses, counts and rows. A failed step may have left NaNs, which remain NaN when multiplied by
+  /// 0, and whose sign depends on how many joints were solved side by side.
   void forget() {
     if constexpr (kHasRows) arm_b = {};
     if constexpr (Rows::kTurn) turn.forget();
@@ -388,7 +389,7 @@ struct JointConstraint {
     if constexpr (kAngle != AngleUse::None) angle = {};
     if constexpr (kRatchet) memory = {};
   }
-  /// Clears impulses and keeps counted turns, because a pose does not contain them.
+  /// Clears impulses but keeps counted turns, because a pose does not contain them.
   void put_elsewhere() {
     scale(0);
     if constexpr (kRatchet) memory = {};
@@ -489,7 +490,7 @@ struct JointConstraint {
     angle.count = TurnCount::Counted;
   }
 
-  /// Advances the ratchet past a tooth; it will not go back behind it.
+  /// Advances the ratchet past a tooth; it will not go back behind that tooth.
   void click(Real now) requires kRatchet {
     const double tooth = kind.tooth_at(now);
     if (tooth > memory.value) memory.value = tooth;

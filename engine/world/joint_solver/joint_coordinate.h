@@ -79,8 +79,8 @@ struct JointCoordinate {
     inverse_mass = mobility(v);
     evaluate(q, inverse_mass, step, part);
   }
-  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`. The reduced value is
-  /// its response if the joint is solved alone, with these rows before and after the spring.
+  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`. `held` is its
+  /// response if the joint is solved alone, with these rows before and after the spring.
   [[gnu::always_inline]] void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held,
                                                     const JointStep<Scalar<Real>>& step,
                                                     JointShare<Real> part) {

@@ -15,7 +15,7 @@ constexpr int kLeastLanes = 3;
 // kinds are solved one at a time.
 constexpr int kKinds = 8;
 
-// Calls a function that is inlined, compiled for registers of so many bytes.
+// Calls a function that is inlined and compiled for registers of this many bytes.
 template <int kBytes>
 struct Compiled {
   template <class Run>
@@ -42,7 +42,8 @@ template <class Joint, class Act>
   };
 }
 
-/// Returns what joints of a block have in common: the rules' roles, and whether they are alone.
+/// Returns the properties that joints of a block have in common: the rules' roles, and whether they are
+/// alone.
 template <class Joint>
 std::uint64_t kind_of_lanes(const Joint& joint) {
   std::uint64_t key = joint.alone ? 1 : 0;
@@ -56,7 +57,7 @@ std::uint64_t kind_of_lanes(const Joint& joint) {
   return key;
 }
 
-/// Takes over what joints of the kind have in common.
+/// Sets the properties that joints of the kind have in common.
 template <class Lanes, class Joint>
 void take_kind(Lanes& block, const Joint& from) {
   block.alone = from.alone;
@@ -68,7 +69,7 @@ void take_kind(Lanes& block, const Joint& from) {
   for (int i = 0; i < Joint::kAxial; ++i) take(block.axial[i], from.axial[i]);
 }
 
-/// Visits the numbers that a step starts with, of a block and of one of its joints.
+/// Visits the numbers needed at the start of a step, of a block and of one of its joints.
 template <class Lanes, class Joint, class Visit>
 [[gnu::always_inline]] inline void visit_inputs(Lanes& block, Joint& one, const Visit& visit) {
   const auto pair = [&](auto& x, auto& y) __attribute__((always_inline)) {
@@ -264,7 +265,7 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
         // Evaluates twice if the joints are under-relaxed: the factor follows from their rows, and their
-        // effective masses from the factor. A loop, so that it is compiled once.
+        // effective masses from the factor. A loop keeps the code small.
         for (bool has_share = false;; has_share = true) {
           block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
           if (has_share) return;
@@ -284,7 +285,7 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
 template <class Joint>
 void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& of,
                                const JointStep<Real>& settings) {
-  const SolverBodies<Real> bodies = of;  // copies, which no other pointer reaches
+  const SolverBodies<Real> bodies = of;  // local copies: no pointer can change them
   const JointStep<Real> step = settings;
   switch (pass) {
     case JointSweep::WarmStart:

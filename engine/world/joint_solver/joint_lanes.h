@@ -10,9 +10,9 @@
 
 namespace plumb {
 
-/// A joint of one colour, form and kind in each lane, for the time of a step: the same type as a single joint
-/// has, of lanes. Lanes that are left over repeat the last joint: they come to the same results, which are
-/// stored twice.
+/// A block of joints, one per lane, for the time of a step: joints of one colour, form and kind. It has the
+/// same type as a single joint, with Lanes as numbers. Unused lanes repeat the last joint: they get the same
+/// results, which are stored twice.
 template <class Joint, class Number>
 struct JointLanes;
 template <class Real, class Number, template <class> class Kind>
@@ -30,8 +30,8 @@ struct LanesOfJoints {
   typename JointLanes<Joint, Number>::Type joint;
 };
 
-/// Registers that joints of a precision have side by side on this target. A narrow one has two doubles:
-/// moving them there costs more than it saves.
+/// Registers used for joints side by side, by precision, on this target. A narrow register holds two doubles:
+/// moving them costs more than the block saves.
 template <class Real>
 inline constexpr bool kNarrowLanes = kWidestRegister >= 16 && sizeof(Real) == 4;
 template <class Real>
@@ -40,12 +40,12 @@ inline constexpr bool kWideLanes = kWidestRegister >= 32;
 /// The passes over joints: apply the last impulses; solve with a bias; evaluate and solve without.
 enum class JointSweep { WarmStart, Solve, Relax };
 
-/// Joints that are solved one at a time, and blocks of them: how many.
+/// Numbers of single joints and of blocks.
 struct JointCounts {
   int blocks = 0, alone = 0;
 };
 
-/// The joints of one form, side by side. Kept from step to step is only the memory.
+/// The blocks of joints of one form. Between steps only the memory is kept.
 template <class Joint>
 class JointBlocks {
  public:
@@ -57,17 +57,18 @@ class JointBlocks {
 
   /// Begins a step with no joints.
   void begin(VectorWidth width);
-  /// Sorts joints of a colour, whose step has begun, into blocks and those that stay alone: who are few of
-  /// their kind, or marked in `apart` (by slot), because something else reads or changes them until `finish`.
+  /// Sorts joints of a colour, whose step has begun, into blocks and single joints. Joints stay single if
+  /// there are few of their kind, or if they are marked in `apart` (by slot) because other code reads or
+  /// changes them until `finish`.
   void sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
   /// Returns how many there are now.
   JointCounts counts() const { return {count_, static_cast<int>(alone_.size())}; }
   Joint& alone(int place) const { return *alone_[place]; }
-  /// Returns their places in memory, from `place` on.
+  /// Returns the addresses of its single joints, from index `place` on.
   Joint* const* alone_from(int place) const { return alone_.data() + place; }
 
-  /// Fills blocks and evaluates their joints. `share(joint)` returns the under-relaxation factor of a joint
-  /// that was evaluated.
+  /// Fills blocks and evaluates their joints. `share(joint)` returns the under-relaxation factor of an
+  /// evaluated joint.
   template <class Share>
   void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
                const Share& share) {
@@ -78,13 +79,14 @@ class JointBlocks {
   }
   void sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& bodies,
              const JointStep<Real>& step);
-  /// Calls `act(joint)` for the joints of blocks of which one is turned beyond a limit by more than `slack`.
+  /// Calls `act(joint)` for each joint of a block in which some joint is rotated beyond a limit by more than
+  /// `slack`.
   template <class Act>
   void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, const Act& act) {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
     beyond_limits(first, last, motion, slack, call, &act);
   }
-  /// Calls `act(joint)` for the joints of blocks that are open (joint_opening.h), some of them twice.
+  /// Calls `act(joint)` for the joints of blocks that are open (joint_opening.h); some are visited twice.
   template <class Act>
   void open(int first, int last, Real share, const Act& act) {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
@@ -120,7 +122,7 @@ class JointBlocks {
   void for_each(int first, int last, const Run& run);
 
   VectorWidth width_ = VectorWidth::None;
-  int count_ = 0, narrow_ = 0;  ///< blocks; those of 16 bytes among them
+  int count_ = 0, narrow_ = 0;  ///< number of blocks; of these, blocks of 16 bytes
   std::vector<Joint*> alone_;
   std::vector<int> places_;  ///< of the blocks: in blocks32_, or from -1 on downwards in blocks16_
   std::vector<Block<16>> blocks16_;

@@ -18,8 +18,8 @@
 
 namespace plumb {
 
-/// Number of joint colours. One more list, the last, is the overflow, solved in order; another holds joints
-/// that are not active.
+/// Number of joint colours. One more list is the overflow, solved in order; the last one holds inactive
+/// joints.
 inline constexpr int kJointColours = 24;
 inline constexpr int kOverflowColour = kJointColours, kParked = kJointColours + 1;
 

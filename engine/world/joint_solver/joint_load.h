@@ -94,7 +94,7 @@ JointLoad<Real> joint_load(const JointRow<Real> (&rows)[N], const JointVelocitie
     for (int root = 0; root < 4; ++root) a = std::sqrt(std::max(a, 0.0));
     return static_cast<Real>(std::min(sum * a, 1.0));
   };
-  // The eigenvalues of K^-1 K_b are 1 minus these, where rows count.
+  // The eigenvalues of K^-1 K_b are 1 minus these, except for rows left out.
   const double n = rank, of_three = rank == 3 ? 1 - first + second - third : 0;
   return {largest(first, second, third),
           largest(n - first, n * (n - 1) / 2 - (n - 1) * first + second, of_three)};

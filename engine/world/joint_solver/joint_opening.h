@@ -4,14 +4,14 @@
 
 namespace plumb {
 
-/// Compares how far rigid rows and limits of a joint are open with its link: the radius of gyration about the
-/// joint of the body for which it is shorter, or the length of a joint that is a link itself (rod, rope), if
-/// that is longer. For angles the link is 1. Takes no root.
-/// With Lanes, of several joints side by side.
+/// Compares the gaps of rigid rows and limits of a joint with its link length: the radius of gyration about
+/// the joint, of the body for which it is shorter. For a joint that is itself a link (rod, rope) it is at
+/// least the joint's length. For angles the link length is 1. Takes no square root. With Lanes it handles
+/// several joints side by side.
 template <class Number>
 struct JointOpening {
   const PairMobility<Number> p{};
-  const Scalar<Number> share = 0;  ///< of its link by which a joint may be open
+  const Scalar<Number> share = 0;  ///< fraction of the link by which a joint may be open
   Number most = -1;                ///< positive if a row is open by more than is allowed
 
   [[gnu::always_inline]] void add(Number error_squared, Number length, Number linear_a, Number angular_a,
@@ -32,8 +32,8 @@ struct JointOpening {
 };
 
 /// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than
-/// `share` of its link when it was last evaluated. It reads what the evaluation has left, so that a look at
-/// all joints costs little. Limits of angles have a pass of their own (`project_angular_limits`).
+/// `share` of its link at the last evaluation. Reads the stored residuals, so that testing all joints costs
+/// little. Limits of angles have a pass of their own (`project_angular_limits`).
 template <class Number, template <class> class Kind>
 [[gnu::always_inline]] inline Number joint_opening(const JointConstraint<Number, Kind>& joint,
                                                    const PairMobility<Number>& p, Scalar<Number> share) {

@@ -19,7 +19,7 @@ struct JointSlot {
   bool used = false, dynamic_a = false, dynamic_b = false, active = false;
   JointForm form = kHinge;
   int colour = 0, index = 0;  ///< colour and index of its constraint
-  double carry = 1;           ///< fraction of its impulses with which iterations start if they take it over
+  double carry = 1;           ///< fraction of its impulses that iterations start from if they take it over
 
   /// A mouse joint does not move body a.
   bool moves_a() const { return dynamic_a && form != kMouse; }
@@ -37,7 +37,7 @@ struct BodyJoints {
 struct JointRun {
   JointForm form;
   int colour;
-  bool sorted = false;  ///< into blocks and those that are alone, from `first` to `last`
+  bool sorted = false;  ///< split into blocks and single joints, from `first` to `last`
   JointCounts first{}, last{};
 };
 
@@ -61,7 +61,7 @@ template <class Constraint>
 inline constexpr bool kSideBySide =
     has_blocks<Constraint>(static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
 
-/// Functions that are told what to visit by an address: compiled once, not for each form and pass.
+/// Functions that take their visitor by address, so that they are compiled once, not for each form and pass.
 using VisitRange = void (*)(const void* it, int first, int last);
 using VisitCounts = void (*)(const void* it, JointCounts first, JointCounts last);
 void share_range(int count, int grain, Crew* crew, VisitRange visit, const void* it);
@@ -87,7 +87,7 @@ void share_run(const JointRun& run, int count, Crew* crew, const Visit& visit) {
   share_run(run, count, crew, call, &visit);
 }
 
-/// Calls `visit(first, last)` for ranges of a sorted run's blocks and of its joints that are alone.
+/// Calls `visit(first, last)` for ranges of a sorted run's blocks and of its single joints.
 template <class Visit>
 void share_blocks(const JointRun& run, Crew* crew, const Visit& visit) {
   const auto call = [](const void* it, JointCounts first, JointCounts last) {

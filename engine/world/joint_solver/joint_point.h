@@ -132,7 +132,7 @@ struct SoftPoint {
       impulse_scale[pass] = term[pass].scale;
     }
   }
-  /// Evaluates likewise a spring beside a rigid angle, which reduces the point's mobility to `held`.
+  /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `held`.
   void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
                              const Symmetric2<Real>& held, const JointStep<Real>& step,
                              JointShare<Real> part) {
@@ -167,7 +167,7 @@ struct SoftPoint {
     const Real gives = std::max(compliance.xx + compliance.yy, trace / kFirmest);
     if (!(trace > part.stiffest(step.stiffest) * gives)) {
       const Real xx = k.xx + compliance.xx, xy = k.xy + compliance.xy, yy = k.yy + compliance.yy;
-      // If proportional to K, as without rigid rows beside the spring, nothing cancels.
+      // If proportional to K, as without rigid rows beside the spring, use the form without cancellation.
       const Real times = 1 + rule.spring.compliance;
       const bool in_proportion = held.xx == k.xx && held.xy == k.xy && held.yy == k.yy;
       mass =

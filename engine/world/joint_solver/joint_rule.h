@@ -14,8 +14,8 @@ namespace plumb {
 /// The two solutions of a substep: with bias, or without.
 enum JointPass { kSolve = 0, kRelax = 1 };
 
-// Inlined by force are the functions of a substep, as `Real` may be Lanes: several joints side by side, whose
-// rules have the same roles.
+// These functions of a substep are always inlined, because `Real` may be Lanes: several joints side by side,
+// whose rules have the same roles.
 
 /// Coefficients of a row in one solution: delta = -mass (J v + bias) - scale impulse.
 template <class Real>
@@ -60,8 +60,8 @@ SpringTerm<Real> spring_term(const Spring& spring, double h) {
 
 /// A spring too stiff for sequential impulses: h (c + h k) times the mobility is above `JointStep::stiffest`.
 /// The error of an iteration would return through the gap with equal force, and grow from substep to substep.
-/// So it is held like rigid rows: bias limited to theirs and relaxed. While it is softer than they are, it
-/// rests at the deflection of its load.
+/// So the spring is treated like rigid rows: its bias is limited to theirs, and it is relaxed. While it is
+/// softer than they are, it rests at the deflection of its load.
 template <class Real>
 struct StiffSpring {
   Real rate = 0, mass_scale = 1, impulse_scale = 0;
@@ -97,7 +97,7 @@ struct SolverRule {
   Real most = std::numeric_limits<Scalar<Real>>::infinity();  ///< N s or N m s, in a substep
   SpringTerm<Real> spring{};
   Real impulse = 0;
-  /// Of a motor, m or rad: deviation from its target motion, added up while its force sufficed.
+  /// m or rad: deviation of a motor from its target motion, summed while its force suffices.
   Real drift = 0;
   Real last = 0;  ///< of a motor: coordinate at the last update of `drift`
 

@@ -47,14 +47,14 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
   });
 }
 
-/// Evaluates a joint that is alone. Compiled once for each form: its callers are many.
+/// Evaluates a joint that is alone. Not inlined, because it has many callers.
 template <class Joint, class Real>
 [[gnu::noinline]] void evaluate(Joint& joint, const SolverBodies<Real>& bodies,
                                 const JointVelocities<Real>& v, const JointStep<Real>& step, JointTime time) {
   joint.evaluate(motion_of(bodies, joint.a, joint.b), v, step, time);
 }
 
-/// Joints to solve in turn: those from `first` on, or those that `places` points to.
+/// Joints to solve one after the other: from `first` on, or those that `places` refers to.
 template <class Joint>
 struct JointRange {
   Joint* first = nullptr;
@@ -111,8 +111,8 @@ void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& 
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(parts.lanes);
           const auto visit = [&](JointCounts first, JointCounts last) {
-            // Those that are alone come first: blocks of the next colour, which load a body's velocity as
-            // one, would wait for what was just stored in pieces.
+            // Single joints come first. Otherwise blocks of the next colour, which load a body's velocity as
+            // one value, would stall on a velocity that was just stored in parts.
             if (first.alone < last.alone)
               sweep_range<One>(pass, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
                                bodies, step);
@@ -480,7 +480,7 @@ void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
                 [&](int first, int last) { blocks.finish(first, last, bodies); });
   };
   std::apply([&](auto&... blocks) { (finish(blocks), ...); }, p.lanes);
-  // Those that are not side by side likewise: gaps were closed since they were evaluated.
+  // Does the same for joints not in blocks: gaps were closed since they were evaluated.
   for (const JointRun& run : p.runs) {
     p.with(run.form, [&](auto& lists) {
       using One = typename std::decay_t<decltype(lists[0])>::value_type;

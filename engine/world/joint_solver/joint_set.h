@@ -26,15 +26,16 @@ struct JointStep {
   Real stiffest = std::numeric_limits<Real>::infinity();
   Real stiff_rate = 0;  ///< 1/s, at which such springs close their error
   Real warm_start = 1;  ///< ratio of this substep's length to the previous step's: impulses scale with it
-  /// Evaluates joints that are solved with their island, too: what reads a step's joints needs the last pose.
+  /// Also evaluates joints that are solved with their island, because a reader of the step's joints needs
+  /// them at the last pose.
   bool looks = true;
 };
 
-/// Returns the stiffest spring that sequential impulses with warm starting solve as it is: h (c + h k) over
-/// its effective mass. Stiffer ones are held like rigid rows (StiffSpring in joint_rule.h): the substep is
-/// too long for them to oscillate. Linear models of chains and stars of 2 to 100 bodies, hub down to a
-/// thousandth, are stable at 2 for one iteration per pass. They are stable at 12 for 6 and more, with any
-/// stiffness and damping; from 4 on chains explode.
+/// Returns the limit of h (c + h k) over the effective mass up to which sequential impulses with warm
+/// starting solve a spring as it is. Stiffer springs are held like rigid rows (StiffSpring in joint_rule.h):
+/// the substep is too long for them to oscillate. Linear models of chains and stars of 2 to 100 bodies, with
+/// a hub down to a thousandth of their mass, are stable at 2 with one iteration per pass. At 12 they are
+/// stable with 6 and more iterations, for any stiffness and damping; from 4 on chains explode with fewer.
 template <class Real>
 Real stiffest_spring(int sweeps) {
   return static_cast<Real>(2 * std::min(sweeps, 6));
@@ -50,15 +51,15 @@ struct JointError {
 /// One row of a joint, for the solver of a whole island.
 template <class Real>
 struct JointSolverRow {
-  JointRow<Real> row{};  ///< its target residual is 0, or at least 0 for a limit
+  JointRow<Real> row{};  ///< its target residual is 0; for a limit, at least 0
   RowRole role = RowRole::Rigid;
   bool pair = false;  ///< `most` bounds the vector of this impulse and that of the previous row
   Real speed = 0;     ///< m/s or rad/s, of a motor
-  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
+  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, largest impulse in a substep
   Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
   Real compliance = 0;          ///< in the unit of its mobility
   Real coupled_compliance = 0;  ///< the same, with the impulse of the previous row
-  Real length = 0;              ///< m, that its coordinate is to have, of a rod or rope
+  Real length = 0;              ///< m, target of its coordinate, of a rod or rope
   Real* impulse =
       nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
 };
@@ -123,8 +124,8 @@ class JointSet {
 
   /// Evaluates all rows at the start of the step.
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Does the same, and solves joints side by side until `finish`, which must come at the end of the step.
-  /// Those that something else reads or changes before are marked in `apart` (by slot; may be empty).
+  /// Does the same, and solves joints in blocks until `finish`, which must come at the end of the step.
+  /// Joints that other code reads or changes before `finish` are marked in `apart` (by slot; may be empty).
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, const std::vector<char>& apart,
                Crew* crew);
   void finish(const SolverBodies<Real>& bodies, Crew* crew);
@@ -164,9 +165,9 @@ class JointSet {
   /// Appends the rows of a joint at the present poses.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
 
-  /// Sets the fraction of a joint's impulses with which iterations start, should they take it over.
+  /// Sets the fraction of a joint's impulses that iterations start from if they take the joint over.
   void set_carry(int joint, double fraction);
-  /// Scales the impulses of a joint that iterations take over by that fraction, and returns it.
+  /// Scales the impulses of a joint that iterations take over by that fraction, and returns the fraction.
   Real hand_over(int joint);
 
   /// Returns the number of a joint's rows whose impulses have bounds: limits and motors.

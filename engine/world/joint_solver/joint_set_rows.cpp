@@ -11,8 +11,8 @@ struct RowList {
   std::vector<JointSolverRow<Real>>& rows;
   const JointVelocities<Real>& v;
 
-  /// Appends a row. `mobility`: of a spring, the one that it refers to.
-  /// `length`: true if its coordinate is one.
+  /// Appends a row. `mobility` is the one that the row's spring refers to. `length`: true if its coordinate
+  /// is a length.
   void add(JointRow<Real> row, SolverRule<Real>& rule, Real mobility, bool length) const {
     JointSolverRow<Real> out{.row = row, .role = rule.role, .speed = rule.speed, .most = rule.most};
     if (length) out.length = rule.origin;
