@@ -7,8 +7,8 @@
 
 namespace plumb {
 
-/// Poses of a world's bodies before its last step, for render interpolation: motion looks smooth if frames
-/// come at other times than steps.
+/// Poses of a world's bodies before its last step, for render interpolation: motion then looks smooth even if
+/// frames are drawn at other times than steps.
 template <class Real>
 class PastPoses {
  public:
@@ -18,7 +18,7 @@ class PastPoses {
   /// Returns the interpolated pose of the centre of mass of body `body` of `data`, at `fraction` (0..1)
   /// between the stored and the present pose. Bodies created since get their present pose.
   Pose<double> between(const WorldData<Real>& data, int body, double fraction) const;
-  /// Returns its angle there, rad, whole turns counted.
+  /// Returns the body's angle at `fraction`, rad, whole turns counted.
   double angle_between(const WorldData<Real>& data, int body, double fraction) const;
 
  private:

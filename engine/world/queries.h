@@ -14,10 +14,10 @@
 /// are as accurate as at the origin.
 ///
 /// Visitors and conditions of filters may read the world; a call that would change it throws Error
-/// (Unsupported). An exception of theirs ends the query.
+/// (Unsupported). An exception thrown by them ends the query.
 ///
 /// Functions throw Error (Value) for numbers that are not finite, and Error (Name) for handles of destroyed
-/// objects. Exist for BasicWorld<float> and BasicWorld<double>.
+/// objects. They exist for BasicWorld<float> and BasicWorld<double>.
 namespace plumb {
 
 /// Hit of a ray: the point at which it enters a shape.
@@ -62,8 +62,8 @@ using VisitCast = FunctionRef<double(const CastShapeResult& hit)>;
 /// Return false to stop.
 using VisitShape = FunctionRef<bool(ShapeId shape)>;
 
-/// Casts a ray from `origin` by `translation`, m. It ignores a shape that contains its start, and segments of
-/// chains from behind. Of hits at one fraction the closest is that of the smaller shape index.
+/// Casts a ray from `origin` by `translation`, m. Ignores a shape that contains the start, and chain segments
+/// hit from behind. Of hits at equal fraction returns the shape with the smallest index.
 template <class Real>
 std::optional<RayResult> ray_cast_closest(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation,
                                           const QueryFilter& filter = {});
@@ -109,13 +109,13 @@ template <class Real>
 void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& filter,
                std::vector<ShapeId>& found);
 
-/// Returns the shape whose surface is nearest to `point` within `max_distance` (m, >= 0); inside shapes the
-/// deepest one. At equal distance, the smaller index.
+/// Returns the shape whose surface is nearest to `point` within `max_distance` (m, >= 0). If the point is
+/// inside shapes, returns the one in which it is deepest. At equal distance, the smaller index.
 template <class Real>
 std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point, double max_distance,
                                      const QueryFilter& filter = {});
 
-/// Casts a ray at one shape alone, of any kind: no filter is asked.
+/// Casts a ray at one given shape of any kind, without a filter.
 template <class Real>
 std::optional<RayResult> ray_cast(const BasicWorld<Real>& world, ShapeId shape, Vec2d origin,
                                   Vec2d translation);

@@ -21,7 +21,7 @@ struct BodyDifference {
 struct ReplayReport {
   int calls = 0;           ///< repeated, steps included
   std::int64_t steps = 0;  ///< repeated
-  /// Step count of the world after the first step that ended in another state; none: all were the same.
+  /// Step count of the world after the first step whose resulting state differs; none: all were equal.
   std::optional<std::int64_t> first_difference{};
   std::uint64_t recorded_hash = 0, hash = 0;  ///< of the world, after the last step that was compared
   std::vector<BodyDifference> bodies{};       ///< bodies that differ then, if they were recorded
@@ -36,8 +36,8 @@ class Replay {
   /// this precision and version.
   explicit Replay(const std::filesystem::path& file, std::function<bool(const ContactReading&)> hook = {});
 
-  /// Repeats all calls up to the next step, takes the step and compares; returns false at the end of the
-  /// recording. Throws Error (Value, "recording") for a damaged record, unless it is the last one.
+  /// Repeats all calls up to the next step, takes the step and compares the states; returns false at the end
+  /// of the recording. Throws Error (Value, "recording") for a damaged record, unless it is the last one.
   bool step();
 
   const BasicWorld<Real>& world() const { return world_; }

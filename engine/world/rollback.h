@@ -18,14 +18,14 @@ namespace plumb {
 template <class Real>
 class Rollback {
  public:
-  /// Keeps up to `frames` saved states. Throws Error (Value) unless that is 1 to 10000.
+  /// Keeps up to `frames` saved states. Throws Error (Value) unless `frames` is 1 to 10000.
   Rollback(BasicWorld<Real>& world, int frames);
   ~Rollback();
   Rollback(Rollback&&) noexcept;
   Rollback& operator=(Rollback&&) noexcept;
 
-  /// Saves the present state under its step number. Drops states of this step and later ones and, if the ring
-  /// is full, the oldest.
+  /// Saves the current state under its step number. Drops saved states of this and later steps and, if the
+  /// ring is full, the oldest.
   void save();
 
   /// Restores the state after `step` steps and drops later ones. Throws Error (Value) if there is none, and
@@ -35,7 +35,7 @@ class Rollback {
   bool holds(std::int64_t step) const { return find(step) >= 0; }
   int size() const { return size_; }
   int capacity() const;
-  /// Steps of the first and last state; -1 if there is none.
+  /// Step numbers of the first and last saved state; -1 if there is none.
   std::int64_t oldest() const { return size_ > 0 ? step_of(0) : -1; }
   std::int64_t latest() const { return size_ > 0 ? step_of(size_ - 1) : -1; }
 

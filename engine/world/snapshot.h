@@ -8,8 +8,8 @@
 
 /// Serialises a world: all state that its future depends on. A restored world continues with the same bits as
 /// one that was never stopped, and earlier handles stay valid. The pre-solve hook, the user's filter and
-/// combine rules are code and not part of the bytes: restoring keeps those that the world has. Saved contacts
-/// keep their mixed coefficients.
+/// combine rules are code and not part of the bytes: restoring leaves those of the world unchanged. Saved
+/// contacts keep their mixed coefficients.
 namespace plumb {
 
 /// Returns the bytes of a world: the same on every little-endian platform.

@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-/// Checks that data read from a snapshot are consistent: sizes, links, places, numbers. Throws Error (Value,
-/// subject "snapshot") if not: no step may read beyond an array, for any bytes.
+/// Checks that data read from a snapshot are consistent: sizes, links, indices, numbers. Throws Error (Value,
+/// subject "snapshot") if not, because no step may read beyond an array, whatever the bytes.
 template <class Real>
 void check_state(const WorldData<Real>& w);
 

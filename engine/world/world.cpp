@@ -48,7 +48,7 @@ BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(OwnedPoi
   data_->settings.threads = 1;  // the crew has them
   set_crew(*data_, [&](Crew& crew) { crew.set_threads(definition.threads); });
 }
-// A world destroyed in one of its callbacks leaves its data to the running call, which deletes them.
+// If a callback destroys the world, the running call takes over its data and deletes them.
 template <class Real>
 BasicWorld<Real>::~BasicWorld() {
   if (data_.moved_away() || (!data_->stepping && data_->callers == 0)) return;

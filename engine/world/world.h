@@ -131,14 +131,14 @@ class BasicWorld {
   bool valid(BodyId body) const;
   std::vector<BodyId> bodies() const;  ///< all, by index
 
-  /// Each fills `out`, as far as it goes, and return how many there are in all. Poses and states are in the
-  /// order of `bodies`, contacts (those with points) in that of their creation, each once.
+  /// Each fills `out` as far as it has room, and returns the total number. Poses and states are in the order
+  /// of `bodies`, contacts (those with points) in the order of their creation, each once.
   std::size_t bodies(std::span<BodyId> out) const;
   std::size_t poses(std::span<BodyPose> out) const;
   std::size_t states(std::span<BodyState> out) const;
   std::size_t contacts(std::span<ContactReading> out) const;
   std::size_t contacts(BodyId body, std::span<ContactReading> out) const;
-  /// Fills in the bodies whose pose the last step may have changed: those awake, and those that it put to
+  /// Fills in the bodies whose pose the last step may have changed: the awake ones, and those that it put to
   /// sleep. Not sorted, but in the same order on every platform.
   std::size_t moved(std::span<BodyId> out) const;
 
@@ -189,9 +189,9 @@ class BasicWorld {
   void set_user_data(BodyId body, std::uint64_t data);
   const std::string& name(BodyId body) const;
   void set_name(BodyId body, const std::string& name);
-  /// Takes a body out of the simulation, or puts it back with its pose and velocity. Disabled bodies are
-  /// without contacts and active joints, and queries skip them; they can be changed like any other body. Does
-  /// not release from quarantine.
+  /// Removes a body from the simulation, or puts it back with its pose and velocity. Disabled bodies have no
+  /// contacts and active joints, and queries skip them; they can be changed like any other body. Does not
+  /// release a body from quarantine.
   void set_enabled(BodyId body, bool enabled);
   bool enabled(BodyId body) const;  ///< false: disabled, or in quarantine
   /// Returns the smallest box around the body's shapes, m, rounded to `Real`: at its origin without shapes.
@@ -222,7 +222,7 @@ class BasicWorld {
   void set_filter(ShapeId shape, const Filter& filter);
   /// Sets the density, kg/m^2, >= 0; the body's mass follows, unless it was given.
   void set_density(ShapeId shape, double density);
-  /// Makes a sensor of a shape, or the reverse. Its contacts, or overlaps, end.
+  /// Turns a shape into a sensor, or back. Its contacts, or overlaps, end.
   void set_sensor(ShapeId shape, bool sensor);
   void set_hit_events(ShapeId shape, bool on);
   void set_pre_solve(ShapeId shape, bool on);
@@ -254,12 +254,12 @@ class BasicWorld {
   /// disables one in this step. An exception ends the step before anything has moved.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
-  /// Sets a filter of the game's own. It is asked about two shapes that come near each other and that their
-  /// filters let touch; false: they do not collide. Contacts that exist stay, until `set_filter` is called
-  /// for one of their shapes: that ends them, and it is asked again. Sensors and queries do not ask it. Like
-  /// a combine rule, it is code: it must depend on the world's state alone, snapshots do not have it, and
-  /// recorded worlds cannot. An exception ends the step before anything has moved, except from continuous
-  /// collision.
+  /// Sets the user's filter. It is called for two shapes whose fat AABBs overlap and whose own filters permit
+  /// a contact; false: they do not collide. Existing contacts stay until `set_filter` is called for one of
+  /// their shapes, which ends them and calls the filter again. Sensors and queries do not call it. Like a
+  /// combine rule, it is code: it must depend on the world's state alone, it is not part of snapshots, and
+  /// recorded worlds cannot have one. An exception ends the step before anything has moved, except from
+  /// continuous collision.
   void on_filter(std::function<bool(ShapeId, ShapeId)> filter);
 
   /// Returns the 64-bit FNV-1a hash of every body's state: equal on every platform for the same calls.
@@ -282,7 +282,7 @@ class BasicWorld {
 
   [[noreturn]] static void report_moved();
 
-  /// Owns the data. Every access to data that were moved away throws: no call can forget to ask.
+  /// Owns the data. Every access to data that were moved away throws, so that no call can omit this check.
   class Owned {
    public:
     explicit Owned(OwnedPointer<WorldData<Real>> data) : data_(std::move(data)) {}

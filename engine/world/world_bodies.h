@@ -357,7 +357,7 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   data_->motion[index].inverse_mass = dynamic ? inverse_mass_of(record, record.mass) : Real(0);
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
-  // Locked axes do not move by rounding residues either.
+  // Rounding residues must not move locked axes either.
   data_->position_compensation.renew(index, data_->bodies.size());
   data_->topology_changed = true;
   invalidate_manifolds(*data_, index);

@@ -25,7 +25,7 @@ struct JointVelocities {
 
   /// Writes the velocities back, except to static and kinematic bodies, which joints of one colour may share.
   void store(BodyMotion<Real>& a, BodyMotion<Real>& b) const {
-    // Copy by component. Copied as a pair, the two halves would be stored apart and loaded as one, which
+    // Copies by component. As a pair, the two halves would be stored separately and loaded together, which
     // stalls.
     if (m_a + i_a > 0) a.velocity.x = v_a.x, a.velocity.y = v_a.y, a.angular_velocity = w_a;
     if (m_b + i_b > 0) b.velocity.x = v_b.x, b.velocity.y = v_b.y, b.angular_velocity = w_b;
@@ -61,7 +61,7 @@ struct JointVelocities {
   }
 };
 
-/// Returns the velocities of the bodies of a joint. Body a of a mouse joint takes no part.
+/// Returns the velocities of the bodies of a joint. For a mouse joint those of body a are zero.
 template <class Real, class Joint>
 [[gnu::always_inline]] inline JointVelocities<Real> velocities_of(const SolverBodies<Real>& bodies,
                                                                   const Joint& joint) {
@@ -70,7 +70,7 @@ template <class Real, class Joint>
   return v;
 }
 
-/// How the two bodies of a joint have moved since the start of the step.
+/// Displacements and rotations of the two bodies of a joint since the start of the step.
 template <class Real>
 struct JointMotion {
   Vec2<Real> moved_a{}, moved_b{};
@@ -78,14 +78,14 @@ struct JointMotion {
   Rotation<Real> rotation_a{}, rotation_b{};
 };
 
-/// Returns it of the bodies a and b.
+/// Returns the displacements and rotations of the bodies a and b.
 template <class Real>
 [[gnu::always_inline]] inline JointMotion<Real> motion_of(const SolverBodies<Real>& bodies, int a, int b) {
   const BodyMotion<Real>&at_a = bodies.motion[a], &at_b = bodies.motion[b];
   return {at_a.moved, at_b.moved, at_a.turned, at_b.turned, bodies.rotation[a], bodies.rotation[b]};
 }
 
-/// Time of an evaluation of rows. Motors add up their drift from the start of the step over each substep.
+/// Time of an evaluation of rows. Motors accumulate their drift from the start of the step in each substep.
 enum class JointTime { StepStarts, SubstepEnds, Between };
 
 }  // namespace plumb

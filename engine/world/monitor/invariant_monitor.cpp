@@ -13,10 +13,11 @@
 namespace plumb {
 namespace {
 
-/// Roundings of a position that a step may add to the balance of energy.
+/// Number of position roundings in a step that the energy balance must tolerate.
 constexpr double kRoundings = 64;
 
-/// Maximum ratio of a dissolving overlap or gap to that of the step before: it is not counted.
+/// Maximum ratio of an overlap or gap to its value in the step before at which it counts as dissolving, and
+/// not as a violation.
 constexpr double kDissolving = 0.998;
 
 template <class Kind>
@@ -82,7 +83,7 @@ std::optional<Error> InvariantMonitor<Real>::end_step() {
   return check_energy();
 }
 
-/// Returns true if a joint or contact has missed its bound long enough.
+/// Returns true if a joint or contact has exceeded its bound for enough steps.
 template <class Real>
 bool InvariantMonitor<Real>::lasts(std::vector<Miss>& now, const std::vector<Miss>& before, std::uint64_t key,
                                    double size, double bound) const {
@@ -177,7 +178,7 @@ bool InvariantMonitor<Real>::is_driven() const {
 template <class Real>
 std::optional<Error> InvariantMonitor<Real>::check_energy() {
   const WorldData<Real>& w = world_->data();
-  // Gaps and overlaps beyond their bounds may lift what they part.
+  // Correcting gaps and overlaps beyond their bounds may lift bodies.
   if (is_driven() || !gaps_.empty() || !overlaps_.empty()) {
     gained_ = 0, energy_misses_ = 0;
     return {};
@@ -204,7 +205,7 @@ std::optional<Error> InvariantMonitor<Real>::check_energy() {
   }
   moving_ = std::max(moving_, kinetic);
   if (std::abs(balance) > rounding) gained_ = std::max(gained_ + balance, 0.0);
-  // Bodies that have sunk within the bound may rise again.
+  // Bodies that have sunk within the penetration bound may rise again.
   const double bound = bounds_.energy * moving_ + 2 * bounds_.overlap * lifted;
   energy_misses_ = gained_ > bound ? energy_misses_ + 1 : 0;
   if (energy_misses_ < bounds_.lasting) return {};

@@ -14,8 +14,8 @@ Rotation<double> exact_rotation(const WorldData<Real>& w, int body) {
   return {scale * c, scale * s};
 }
 
-/// A shape of the world in double precision, along the world's axes and relative to `seen_from`. Queries near
-/// that point lose no precision far from the origin.
+/// A shape of the world in double precision, in the world's axes and relative to the point `seen_from`.
+/// Queries near that point lose no precision far from the origin.
 class PlacedShape {
  public:
   template <class Real>

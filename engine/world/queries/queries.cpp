@@ -115,7 +115,7 @@ struct Closest {
     const bool first = !best || hit.fraction < best->fraction ||
                        (hit.fraction == best->fraction && hit.shape.index < best->shape.index);
     if (first) best = hit;
-    // Never 0, which would stop before another hit at the same place is found.
+    // Never return 0, which would stop the cast before it finds other hits at the same fraction.
     return std::max(best->fraction, std::numeric_limits<double>::min());
   }
 };

@@ -60,8 +60,9 @@ class ShapeCondition {
   bool (*call_)(const void*, ShapeId) = nullptr;
 };
 
-/// Filter of a query: it sees shapes with a category in its mask, if their mask has one of its categories. By
-/// default all shapes except sensors and those with an empty mask.
+/// Filter of a query. The query considers a shape if one of the shape's categories is in the filter's mask,
+/// and one of the filter's categories in the shape's mask. By default these are all shapes except sensors and
+/// those with an empty mask.
 struct QueryFilter {
   std::uint64_t category = ~std::uint64_t{0};  ///< categories of the query
   std::uint64_t mask = ~std::uint64_t{0};      ///< categories that it looks for

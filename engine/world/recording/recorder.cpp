@@ -70,7 +70,8 @@ void RecordedWorld<Real>::record_hash() {
   file_.flush();
 }
 
-// Records a step before it is taken: one that fails is in the recording. One that is rejected at once is not.
+// Records a step before it is taken, so that a step that fails is in the recording. A step that is rejected
+// at once is not recorded.
 template <class Real>
 void RecordedWorld<Real>::record_step(double dt, int substeps) {
   require_unlocked(world_.data());

@@ -62,8 +62,8 @@ class RecordingReader {
     RecordKind kind;
     std::span<const std::byte> content;
   };
-  /// Returns the next record; none at the end. A truncated last record, as after a kill of the recording
-  /// program, ends the file with a message. Throws Error (Value, "recording") for a damaged record.
+  /// Returns the next record; none at the end. A truncated last record, as after the recording program was
+  /// killed, ends the file with a message. Throws Error (Value, "recording") for a damaged record.
   std::optional<Record> next();
 
   /// Returns a message about the end of the file, or an empty string.

@@ -34,7 +34,8 @@ void dispatch(BasicWorld<Real>& world, std::size_t which, Decoder& in, std::inde
   ((kEach == which ? call(world, std::get<kEach>(kCalls), in) : void()), ...);
 }
 
-// Returns the indices of bodies that are in one list only, or have different hashes. Both lists ascend.
+// Returns the indices of bodies that are in only one of the lists, or have different hashes. Both lists
+// ascend.
 std::vector<int> differences(const std::vector<BodyHash>& a, const std::vector<BodyHash>& b) {
   std::vector<int> all;
   std::size_t i = 0, j = 0;

@@ -21,17 +21,18 @@ Scene without_springs_and_drag(const Scene& scene) {
   return out;
 }
 
-// Returns the length s of the velocity at the middle of a step by the implicit midpoint method:
-// a s^2 + b s = |u|, where u is that velocity without drag. Written without a difference of near numbers.
+// Returns the length s of the velocity at the middle of a step by the implicit midpoint method: a s^2 + b s =
+// |u|, where u is that velocity without drag. The formula avoids a difference of nearly equal numbers.
 double slowed(Vec2d u, double half, double linear, double quadratic, double mass) {
   const double a = half * quadratic / mass, b = 1 + half * linear / mass,
                speed = std::sqrt(length_squared(u));
   return 2 * speed / (b + std::sqrt(b * b + 4 * a * speed));
 }
 
-// Returns the velocity of which drag is z / dt times over a step, from `start` under an acceleration that
-// changes the velocity by `gain` in half a step. The velocity then decays by 1 / (1 + z + z^2 / 2), which is
-// exp(-z) to second order, and for large z stops: the implicit midpoint method would reverse it.
+// Returns the velocity for which drag is z / dt times this velocity over a step, from `start` under an
+// acceleration that changes the velocity by `gain` in half a step. The velocity then decays by 1 / (1 + z +
+// z^2 / 2), which is exp(-z) to second order, and stops for large z: the implicit midpoint method would
+// reverse it.
 template <class Value>
 Value dragged(Value start, Value gain, double z) {
   return (1 / (1 + z + 0.5 * z * z)) * ((1 + 0.5 * z) * start + (1 + z) * gain);
@@ -85,8 +86,8 @@ void SceneForces<Real>::place(const BasicWorld<Real>& world) {
   }
 }
 
-/// Advances velocities to the middle of the step under the forces in `wrenches_` and drag; positions by
-/// `place_share`.
+/// Advances velocities to the middle of the step under the forces in `wrenches_` and drag, and positions by
+/// the fraction `place_share` of the step.
 template <class Real>
 void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   const double half = 0.5 * dt;
@@ -112,9 +113,9 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
   }
 }
 
-/// Takes the springs' bodies and ends at the start of the step. A body that the world moves by x + dt v + c
-/// dt^2 a counts as at x + (1/2 - c) dt v: from there to the place of the next step it moves by the mean of
-/// its velocities.
+/// Collects the springs' bodies and ends at the start of the step. If the world moves a body by dt v + c dt^2
+/// a, the springs use x + (1/2 - c) dt v as its position: the displacement from there to the corresponding
+/// position in the next step is dt times the mean of its velocities.
 template <class Real>
 void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) {
   elastic_.clear();
@@ -144,7 +145,7 @@ void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) 
   }
 }
 
-/// Adds the forces of the springs over the step, given those of everything else in `wrenches_`.
+/// Adds the forces of the springs over the step, given all other forces in `wrenches_`.
 template <class Real>
 void SceneForces<Real>::add_springs(double dt) {
   if (springs_.empty()) return;
@@ -218,7 +219,7 @@ void SceneForces<Real>::apply_at_start(BasicWorld<Real>& world, double dt) {
   push(world);
 }
 
-/// Hands the wrenches to the world; a force that is not finite quarantines its body.
+/// Passes the wrenches to the world; a force that is not finite quarantines its body.
 template <class Real>
 void SceneForces<Real>::push(BasicWorld<Real>& world) {
   for (const std::size_t body : acted_on_) {

@@ -19,18 +19,18 @@ class SceneForces {
 
   /// Adds the laws' forces for the next step of `dt` s. They are evaluated at the middle of the step,
   /// predicted without joints and contacts, so that free flight follows the midpoint method. Laws that depend
-  /// on time act with their mean over the step. Drag stops a body however strong it is, and never reverses
-  /// it. Springs conserve energy, however stiff (elastic_step.h); with a phase of theta = omega dt a step
-  /// they oscillate too slowly by theta^2 / 12.
+  /// on time act with their mean over the step. Drag never reverses a body, however strong it is. Springs
+  /// conserve energy, however stiff (elastic_step.h); with a phase of theta = omega dt a step, their
+  /// frequency is too low by the fraction theta^2 / 12.
   void apply(BasicWorld<Real>& world, double dt);
 
-  /// Does the same with the forces at the start of the step, as the Euler schemes take them.
+  /// Does the same with the forces at the start of the step, as the Euler schemes do.
   void apply_at_start(BasicWorld<Real>& world, double dt);
 
  private:
   void place(const BasicWorld<Real>& world);
   void advance(const BasicWorld<Real>& world, double dt);
-  /// A body at the start of the step, as its springs count it.
+  /// A body at the start of the step, as its springs see it.
   struct Elastic {
     int body = 0;  ///< in `elastic_`
     Rotation<double> rotation{};

@@ -97,8 +97,8 @@ class Encoder {
   std::vector<std::byte>& out_;
 };
 
-/// Reads values from the front of a buffer, in the order of writing. Throws Error (Value, `subject`) when the
-/// buffer ends early or holds something that no encoder writes. Allocates no more than in proportion to the
+/// Reads values from the front of a buffer, in the order of writing. Throws Error (Value, `subject`) if the
+/// buffer ends early or contains bytes that no encoder writes. Allocates no more than in proportion to the
 /// buffer.
 class Decoder {
  public:

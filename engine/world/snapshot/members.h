@@ -13,8 +13,8 @@
 namespace plumb {
 
 /// `Members<T>::with(value, act)` calls `act` with all members of `value`, in their order, and returns its
-/// result. The lists are structured bindings, which must name every member: a list that misses a new one does
-/// not compile. `kNames` has their names, separated by commas.
+/// result. The lists are structured bindings, which must name every member: if a list lacks a new member, it
+/// does not compile. `kNames` has their names, separated by commas.
 template <class T>
 struct Members;
 

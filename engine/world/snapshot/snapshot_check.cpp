@@ -30,7 +30,7 @@ bool all_finite(const std::vector<T>& all) {
   return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
 }
 
-// Marks each number once; `mark` returns false for one out of range or marked before.
+// Marks each number once; `mark` returns false for a number out of range or already marked.
 class Marks {
  public:
   explicit Marks(int size) : marks_(static_cast<std::size_t>(size), 0) {}
@@ -283,7 +283,8 @@ class Check {
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
       const BodyRecord<Real>& record = w_.bodies[body];
-      // A step keeps their length at 1 by a step of Newton's method, which leads away from far off.
+      // Steps keep the length of rotations at 1 by one iteration of Newton's method, which diverges if the
+      // length is far from 1.
       const Rotation<Real> q = w_.rotation[body];
       require(std::abs(q.c * q.c + q.s * q.s - 1) < Real(0.01), "bodies",
               "have rotations of another length than 1");
@@ -344,7 +345,7 @@ class Check {
     require(placed, "contacts", "are not where they say");
   }
 
-  // Every place belongs to one contact: the numbers agree, and no two contacts match the same place.
+  // Every index belongs to one contact: the counts agree, and no two contacts have the same index.
   void homes() const {
     std::size_t count[4] = {};
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {

@@ -29,7 +29,7 @@ PLUMB_REAL_MEMBERS(Handle, index, generation)
 
 PLUMB_MEMBERS(Thresholds, hit, bounce, sleep)
 
-/// Without the number of threads: whoever goes on with a world has threads of his own.
+/// Excludes the number of threads: the program that continues with a world chooses its own.
 template <>
 struct Members<WorldDefinition> {
   [[maybe_unused]] static constexpr std::string_view
@@ -82,7 +82,7 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, loaded
 /// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
 /// references. It excludes the pre-solve hook, the user's filter and combine rules, which are code, the
 /// profile, the threads, and scratch data. A new member of WorldData must be named here, and returned unless
-/// it is one of those.
+/// it is one of these exceptions.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,

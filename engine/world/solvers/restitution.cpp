@@ -37,7 +37,7 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Restit
   const Real radius_a = w.forms[contact.shape_a].radius, radius_b = w.forms[contact.shape_b].radius;
   bounce.radii = radius_a + radius_b;
   bounce.between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
-  // The future contact point, in the middle of the gap until then.
+  // The future contact point, in the middle of the present gap.
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   c.arm_tangent_a = -radius_a, c.arm_tangent_b = radius_b;
   const Vec2<Real> t{c.normal.y, -c.normal.x};
@@ -92,7 +92,7 @@ void fill_joint_rows(void* world, ImpactJoint& joint) {
   joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
 }
 
-// Returns true if a contact without restitution touches: its bodies are not free after an impact.
+// Returns true if a touching contact without restitution holds the bodies: they are not free after an impact.
 template <class Real>
 bool any_without_restitution(WorldData<Real>& w) {
   bool any = false;
@@ -100,10 +100,11 @@ bool any_without_restitution(WorldData<Real>& w) {
   return any;
 }
 
-// Moves a struck body such that contacts which it presses in this substep are as closed as without its
-// impact. The solver stops what presses for the whole substep, also before the time of the impact: displaced
-// by the change of velocity from then on, a light ball that a heavy one drives against a third would leave
-// that one, and be struck again. What the impact changes along the contact stays.
+// Moves a struck body such that contacts which it presses in this substep are as far closed as without its
+// impact. The solver stops a pressing point for the whole substep, also before the time of the impact. If the
+// body were displaced by the change of velocity from that time on, a light ball that a heavy one drives
+// against a third would leave the third ball and be struck again. Keeps the displacement along the contact's
+// tangent.
 template <class Real>
 void keep_closed(WorldData<Real>& w, int body, Real h) {
   ImpactScratch<Real>& room = w.scratch.impacts;
@@ -129,7 +130,7 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
   });
 }
 
-// Keeps the contacts of displaced bodies closed, other than those with joints, whose islands do so.
+// Keeps the contacts of displaced bodies closed. Contacts of bodies with joints are left to their islands.
 template <class Real>
 void keep_closed(WorldData<Real>& w, Real h) {
   ImpactScratch<Real>& room = w.scratch.impacts;
@@ -138,7 +139,7 @@ void keep_closed(WorldData<Real>& w, Real h) {
     if (w.bodies[room.displaced[i]].first_joint == kNone) keep_closed(w, room.displaced[i], h);
 }
 
-// Begins the impacts of a substep: what has not changed since the last one of the step is kept.
+// Begins the impacts of a substep; reuses the data of the step's last substep that have not changed.
 template <class Real>
 void begin_impacts(WorldData<Real>& w) {
   ImpactScratch<Real>& room = w.scratch.impacts;

@@ -16,7 +16,7 @@
 namespace plumb {
 namespace {
 
-// Returns the softness of a contact, as stiff as a substep of `longest` permits. The impulse scale
+// Returns the softness of a contact, as stiff as a substep of length `longest` permits. The impulse scale
 // (compliance under load) is reduced to kContactComplianceScale of the spring's.
 template <class Real>
 Softness<Real> contact_softness(double frequency_share, double h, double longest) {
@@ -37,7 +37,7 @@ void project_angular_limits(WorldData<Real>& w) {
   }
 }
 
-// Returns true if there was nothing but free flight and articulated bodies.
+// Returns true if all awake bodies were in free flight or part of articulated bodies.
 template <class Real>
 bool nothing_left(const WorldData<Real>& w) {
   const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
@@ -83,7 +83,7 @@ bool any_joint_swept(const WorldData<Real>& w) {
   return static_cast<std::size_t>(w.joint_set.active_count()) > apart;
 }
 
-// Contacts with restitution that a thread takes at a time: some microseconds of work.
+// Number of contacts with restitution in a thread's task: some microseconds of work.
 constexpr int kBouncesOfTask = 128;
 
 // Calls `run` for parts of the contacts with restitution, which threads share. Returns true if it returned
@@ -109,7 +109,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   if (!jointed && nothing_left(w)) return;
 
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
-  // A shorter step than the last keeps the last one's stiffness, so that overlaps at rest do not change.
+  // A step shorter than the last one keeps the last one's stiffness, so that overlaps at rest do not change.
   const double longest = std::max(h, w.last_h);
   ContactStep<Real> contacts{
       .h = static_cast<Real>(h),
@@ -153,9 +153,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
     repeat ? integrate_and_warm_start(w) : integrate_velocities(w);
-    // The last impulses cancel only in the solve. Find impacts before warm starting, so that these impulses
-    // are not mistaken for an approach velocity: those of an earlier impact threw heavy bodies up from light
-    // ones. Repeated impulses follow a substep without impacts.
+    // Find impacts before warm starting. The warm-start impulses cancel only in the solve; before, they would
+    // be mistaken for an approach velocity: those of an earlier impact threw heavy bodies up from light ones.
+    // Warm starting follows in substeps without impacts.
     const bool place_first = !repeat;
     note_free_velocities(w);
     if (place_first) place();

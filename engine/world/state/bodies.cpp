@@ -88,7 +88,7 @@ Rotation<Real> rounded(Rotation<double> q) {
 
 template <class Real>
 int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<const ShapeDefinition> shapes) {
-  // First do everything that may be refused or run out of memory.
+  // First do everything that may be rejected or run out of memory.
   std::vector<NewShape<Real>> made;
   made.reserve(shapes.size());
   for (const ShapeDefinition& shape : shapes) made.push_back(prepare_shape<Real>(shape));

@@ -4,8 +4,8 @@
 
 #include "engine/world/world_data.h"
 
-/// Creation and removal of bodies, shapes, chains and joints. Definitions are validated before, and names are
-/// indices.
+/// Creation and removal of bodies, shapes, chains and joints. The caller has validated definitions before,
+/// and identifies objects by index.
 namespace plumb {
 
 template <class Real>
@@ -30,7 +30,7 @@ void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle);
 template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type);
 
-/// Sets the loads from which a joint reports, N and N m; 0: never.
+/// Sets the loads above which a joint is reported, N and N m; 0: never.
 template <class Real>
 void set_load_events(WorldData<Real>& w, int joint, double force, double torque);
 
@@ -72,7 +72,7 @@ template <class Real>
 void set_density(WorldData<Real>& w, int shape, double density);
 template <class Real>
 void set_sensor(WorldData<Real>& w, int shape, bool sensor);
-/// Sets hit events and the pre-solve hook, for contacts that exist as well.
+/// Switches hit events and the pre-solve hook on or off, for existing contacts as well.
 template <class Real>
 void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve);
 

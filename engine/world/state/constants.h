@@ -9,15 +9,15 @@ namespace plumb::tuning {
 /// is unstable. Contacts with a body that is not dynamic are twice as hard.
 inline constexpr double kContactFrequencyShare = 0.125;
 inline constexpr double kStiffFrequencyShare = 0.25;
-/// Far over-critical, so that overlaps dissolve without a bounce.
+/// Damping ratio far above critical, so that overlaps dissolve without a bounce.
 inline constexpr double kContactDampingRatio = 10;
 
 /// Compliance of a contact under load, as a fraction of its spring's; at 1 large heaps oscillate. A heap of
 /// 100 rows collapses at 0.2 (at 0.4 with two substeps); one of 75 with two substeps sways, but stands.
 inline constexpr double kContactComplianceScale = 0.35;
-/// Fraction of a lasting load that becomes the load estimate. Contacts are compliant only to the rest, so a
-/// lasting load causes little penetration. At 1 loads would creep among redundant supports, and overlaps
-/// would grow again.
+/// Fraction of a lasting load that becomes the load estimate. Contacts are compliant only to the rest of the
+/// load, so a lasting load causes little penetration. At 1 loads would creep among redundant supports, and
+/// overlaps would grow again.
 inline constexpr double kExpectedShare = 0.9;
 /// Penetration, as a fraction of the smaller extent, from which the load estimate is the full load; below it
 /// the fraction rises linearly. A few points of a heap bear much more than the others. A heap of 100 rows of
@@ -40,13 +40,13 @@ inline constexpr double kDirectCost = 20000;
 inline constexpr int kSlenderRows = 4096;
 inline constexpr int kSlenderLoops = 8;
 inline constexpr int kSlenderContacts = 8;
-/// Mass ratio of the heaviest to the lightest body beyond which an island with joints is solved directly;
-/// with Solver::Direct any is. Iterations hold chains of equal links well, and cost less.
+/// Mass ratio of the heaviest to the lightest body above which an island with joints is solved directly; with
+/// Solver::Direct any ratio suffices. Iterations hold chains of equal links well, and cost less.
 inline constexpr double kDirectMassRatio = 8;
-/// Hinge trees are moved as articulated bodies, except those of this many links with masses within
-/// kDirectMassRatio. (With Solver::Direct there is no exception.) Iterations hold these within a thousandth,
-/// at half the cost. With fewer links the articulated body costs little; with more, iterations leave the tree
-/// stretched.
+/// Least and largest number of links with which a hinge tree with masses within kDirectMassRatio is solved by
+/// iterations instead of as an articulated body (except with Solver::Direct). Iterations hold such trees to
+/// within a thousandth, at half the cost. With fewer links the articulated body costs little; with more,
+/// iterations leave the tree stretched.
 inline constexpr int kSweptLinksLeast = 6;
 inline constexpr int kSweptLinksMost = 16;
 /// Limits up to which an island with joints is solved as one whatever its masses: rows with bounds (limits
@@ -63,14 +63,15 @@ inline constexpr double kFewCost = 1000;
 inline constexpr int kJointedJoints = 4096;
 inline constexpr int kJointedContacts = 512;
 inline constexpr double kJointedCost = 2e5;
-/// Fraction of a joint's gap that a step closes by moving the bodies, and relative compliance of the rows in
-/// that. No body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With 1e-4 (50 times),
-/// links of a taut bridge turn so far for a gap of 0.4 mm that it sags. At 0.1 chains close half as fast.
+/// Fraction of a joint's gap that a step closes by moving the bodies, and relative compliance of the rows for
+/// this correction. No body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With 1e-4 (50
+/// times), links of a taut bridge turn so far for a gap of 0.4 mm that it sags. At 0.1 chains close half as
+/// fast.
 inline constexpr double kJointShare = 0.5;
 inline constexpr double kCloseSoftness = 1e-2;
-/// The same with Solver::Direct, which closes them at each substep: a chain of ten links that is pulled about
-/// stays closed within 1e-6 m. At 1e-2 it opens by 7e-6 m; at 1e-4 bridges sag here as well. Closing whole
-/// gaps once per step would let them sag.
+/// The same compliance with Solver::Direct, which closes gaps in each substep: a chain of ten links that is
+/// pulled around stays closed within 1e-6 m. At 1e-2 it opens by 7e-6 m; at 1e-4 bridges sag here as well.
+/// Closing whole gaps once per step would let them sag.
 inline constexpr double kDirectJointShare = 1;
 inline constexpr double kDirectCloseSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
@@ -89,7 +90,7 @@ inline constexpr double kLimitTurn = 0.1;
 inline constexpr int kLimitSweeps = 4;
 
 /// Fraction of a penetration or joint error that a substep of sequential impulses corrects (Baumgarte, 1972).
-/// More would oscillate, because the correction stays in the velocities.
+/// A larger fraction would oscillate, because the correction stays in the velocities.
 inline constexpr double kFeedback = 0.2;
 /// Penetration that sequential impulses leave, as a fraction of the smaller extent, so that resting contacts
 /// do not come and go.
@@ -99,8 +100,8 @@ inline constexpr double kSlop = 0.002;
 /// burst.
 inline constexpr double kPushSpeed = 4;
 /// Additional depenetration speed between dynamic bodies that an impact has driven into each other, as a
-/// fraction of a velocity: the one that their contact impulse gives them in a substep. At 0.2 initially
-/// overlapping shapes separate a fifth faster.
+/// fraction of the velocity that their contact impulse gives them in a substep. At 0.2 initially overlapping
+/// shapes separate a fifth faster.
 inline constexpr double kLoadPushShare = 0.05;
 
 /// Constant part of the speculative margin, as a fraction of the smaller shape's extent; the possible
@@ -111,28 +112,28 @@ inline constexpr double kSpeculativeMargin = 0.02;
 inline constexpr double kSpeculativeMarginMost = 0.5;
 
 /// Relative displacement up to which a manifold is recycled, as a fraction of the smaller extent. The error
-/// of separations carried on to first order is of second order in it.
+/// of the first-order update of separations is of second order in it.
 inline constexpr double kRecycleDistance = 0.002;
 
-/// Height of ignored steps in a surface of several shapes, as a fraction of the smaller extent of the shapes
-/// in contact. Gaps may be three times as wide. With a smaller value, planks that are level to a thousandth
-/// would act as stairs; with a larger one, real steps would be ignored.
+/// Height of steps that are ignored in a surface of several shapes, as a fraction of the smaller extent of
+/// the shapes in contact. Gaps may be three times as wide. With a smaller value, planks that are level to a
+/// thousandth would act as stairs; with a larger one, real steps would be ignored.
 inline constexpr double kSeamTolerance = 0.002;
-/// Penetration, as a fraction of the smaller extent, from which a shape in such a surface is treated as if in
-/// a single shape, because the normal across a seam would throw it out. Contact points farther apart than
-/// this belong to no seam.
+/// Penetration, as a fraction of the smaller extent, above which a shape in such a surface keeps the normal
+/// of a single shape, because the corrected normal across a seam would throw it out. Contact points farther
+/// apart than this belong to no seam.
 inline constexpr double kSeamDepth = 0.25;
 
-/// Margin of a fat AABB, as a fraction of the shape's extent, and steps of motion ahead that it covers of a
-/// body without a contact. Larger values mean fewer updates of the tree, but more pairs; bodies in free
-/// flight cost a quarter more at 2 steps.
+/// Margin of a fat AABB, as a fraction of the shape's extent, and number of steps of future motion that it
+/// covers for a body without a contact. Larger values mean fewer updates of the tree, but more pairs; bodies
+/// in free flight cost a quarter more at 2 steps.
 inline constexpr double kBoxMargin = 0.1;
 inline constexpr double kBoxSteps = 4;
-/// Extents of motion that the fat AABB of a body in a crowd covers, two steps at most and the next one
-/// always. A crowd that moves as one (a drum's filling) has three times as many pairs as contacts at 4 steps,
-/// and a tenth more instructions than at 2. What is stirred by more than an extent a step leaves any AABB
-/// after one or two, and room beyond the next one makes pairs with twenty others that are lost again in the
-/// next.
+/// Maximum motion covered by the fat AABB of a body in a crowd, in extents: at most two steps, at least the
+/// next one. A crowd that moves as one (a drum's filling) has three times as many pairs as contacts at 4
+/// steps, and costs a tenth more instructions than at 2. A body that is stirred by more than an extent a step
+/// leaves any AABB after one or two steps; a margin beyond the next step makes pairs with twenty others that
+/// end again in the next step.
 inline constexpr double kBoxRoomInCrowd = 2;
 
 /// The self-overlap pass runs when the move buffer holds at least kScreenedMoves shapes, and one in
@@ -144,13 +145,13 @@ inline constexpr int kScreenedShare = 8;
 /// |gravity| dt before its contact acts.
 inline constexpr double kRestingSteps = 4;
 
-/// Displacement in a step, as a fraction of the body's smallest half width, beyond which continuous collision
-/// treats it as fast. Slower bodies cannot pass through anything between two steps.
+/// Displacement in a step, as a fraction of the body's smallest half width, above which continuous collision
+/// treats the body as fast. Slower bodies cannot pass through anything between two steps.
 inline constexpr double kFastShare = 0.5;
 
 /// Depth of a shape's core below its surface, as a fraction of the body's half width. A body is stopped where
-/// its core would enter another shape. With a deeper core contacts push the body out on the wrong side; with
-/// a shallower one, bodies that slide under load are stopped.
+/// its core would enter another shape. With a deeper core, contacts would push the body out on the wrong
+/// side; with a shallower one, bodies that slide under load would be stopped.
 inline constexpr double kCoreDepth = 0.5;
 /// Depth of the inner core, for shapes that loads, joints or the user have already put deeper than
 /// kCoreDepth: they get no deeper than this.
@@ -159,7 +160,7 @@ inline constexpr double kInnerDepth = 0.9;
 inline constexpr double kDeepFrom = 0.002;
 /// Overlap, as a fraction of the smaller radius, at which two fast circles without a contact are stopped.
 inline constexpr double kGraze = 0.01;
-/// Separation to which a fast body is brought to the shape it hits, as a fraction of the smaller extent.
+/// Separation at which a fast body stops in front of an obstacle, as a fraction of the smaller extent.
 inline constexpr double kImpactTolerance = 1e-3;
 
 /// Iterations of one time-of-impact search, and extra ones for all searches of a step together. Shapes that
@@ -167,27 +168,28 @@ inline constexpr double kImpactTolerance = 1e-3;
 /// impact at the time it has reached: until then the shapes are apart.
 inline constexpr int kImpactIterations = 64, kToiIterationBudget = 4096;
 
-/// Separation to which bodies are brought that rebound within a step, relative to their sizes and
-/// displacements. The search rounds at some 1e-15 of these: a much smaller value could not tell touching from
-/// overlapping. A larger one would make impacts too early by as much.
+/// Separation at which a rebound within a step takes place, relative to the bodies' sizes and displacements.
+/// The search rounds at some 1e-15 of these: a much smaller value could not distinguish touching from
+/// overlapping. A larger one would make impacts too early by that much.
 inline constexpr double kReboundTolerance = 1e-14;
 
-/// Impacts that a body may have within a step; at one more it waits for the next step, with the body it
-/// meets. From kBouncesInFlight on, impacts with restitution below 1 are inelastic: a box that lands flat has
-/// ever smaller ones, without end, and has kLandingsInFlight of these.
+/// Maximum number of impacts of a body within a step; at the next one it waits for the next step, with the
+/// body it meets. From kBouncesInFlight on, impacts with restitution below 1 are inelastic, because a box
+/// that lands flat has ever smaller ones, without end. It may have kLandingsInFlight of these inelastic
+/// impacts.
 inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
-/// The same for an impact without restitution: the corners of a side, one after the other, and back. The last
-/// one ends the landing: no point of the side approaches after it. With 3, sharp polygons that spin by tens
-/// of radians a step lose a part of one step in 7 of 100 landings; with 8 in 1.
+/// The same limit for impacts without restitution: the corners of a side hit one after the other, and back.
+/// The last one ends the landing: no point of the side approaches after it. With 3, sharp polygons that spin
+/// by tens of radians a step lose a part of one step in 7 of 100 landings; with 8 in 1.
 inline constexpr int kLandingsInFlight = 8;
 
-/// A body slower than kSleepSpeed, in extents a second, for kSleepTime, s, may sleep.
+/// A body may fall asleep after its speed was below kSleepSpeed, in extents a second, for kSleepTime, s.
 inline constexpr double kSleepSpeed = 0.05;
 inline constexpr double kSleepTime = 0.5;
 
-/// Overlap, as a fraction of the smaller extent, with which no body falls asleep: shapes that lie deeper in
-/// each other are being pushed apart, and would stay so. It is the largest that the invariant monitor takes
-/// for rest; a heap of 100 rows has 0.002.
+/// Overlap, as a fraction of the smaller extent, above which no body falls asleep: deeper shapes are being
+/// pushed apart, and would stay as they are. It is the largest overlap that the invariant monitor accepts at
+/// rest; a heap of 100 rows has 0.002.
 inline constexpr double kSleepOverlap = 0.02;
 
 /// Separation, as a fraction of the smaller extent, up to which shapes count as touching for events.

@@ -32,7 +32,8 @@ Watch watch_of(const ContactRecord& contact, const ContactConstraint<Real>& c) {
   return contact.hit_events || contact.pre_solve ? Watch::Reports : Watch::Off;
 }
 
-/// Returns the depth, m, to which rounding may have moved the shapes of a contact into each other.
+/// Returns the largest depth, m, to which rounding alone may have moved the shapes of a contact into each
+/// other.
 template <class Real>
 Real rounding_between(const WorldData<Real>& w, int body_a, int body_b) {
   return 8 * std::numeric_limits<Real>::epsilon() * (w.extents[body_a] + w.extents[body_b]);
@@ -95,7 +96,7 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
 template <class Real>
 ContactConstraint<Real> constraint_between(const WorldData<Real>& w, const ContactRecord& contact);
 
-/// Returns true if two shapes touch, or nearly so, at their present poses: a contact would have points.
+/// Returns true if a contact of two shapes at their current poses would have points: they touch, or nearly.
 template <class Real>
 bool may_touch_now(const WorldData<Real>& w, int shape_a, int shape_b);
 

@@ -66,11 +66,11 @@ void unpark_contact(WorldData<Real>& w, int contact);
 template <class Real>
 ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact);
 
-/// Stores whether the contact touches, and emits the begin or end event.
+/// Stores the touching state of a contact, and emits the begin or end event.
 template <class Real>
 void set_touching(WorldData<Real>& w, int contact, bool touching);
 
-/// Marks the bodies of a contact that presses on them. Threads may mark the same body at once.
+/// Marks the bodies that a contact presses on. Several threads may mark the same body at once.
 template <class Real>
 void note_loaded(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   for (const int body : {c.body_a, c.body_b})
@@ -85,8 +85,8 @@ void invalidate_manifolds(WorldData<Real>& w, int body);
 template <class Real>
 void destroy_contacts_of(WorldData<Real>& w, int body, int shape = kNone);
 
-/// Destroys the contacts that a shape's new filter forbids, or about which the user's filter is to be asked
-/// again. Wakes sleeping bodies that touch the shape.
+/// Destroys the contacts that a shape's new filter forbids, or that the user's filter must decide on again.
+/// Wakes sleeping bodies that touch the shape.
 template <class Real>
 void destroy_forbidden_contacts(WorldData<Real>& w, int shape);
 

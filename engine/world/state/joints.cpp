@@ -36,7 +36,7 @@ void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
 template <class Real>
 int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition& definition) {
   assert(w.bodies.used(body_a) && w.bodies.used(body_b));
-  // First do everything that may refuse the definition or run out of memory.
+  // First do everything that may reject the definition or run out of memory.
   const bool limited = definition.break_force > 0 || definition.break_torque > 0 ||
                        definition.report_force > 0 || definition.report_torque > 0;
   w.joints.make_room(1);

@@ -12,7 +12,7 @@ namespace plumb {
 /// Throws if the world is locked.
 template <class Real>
 void require_unlocked(const WorldData<Real>& w);
-/// Throws during a step: the state is that of no step then.
+/// Throws during a step, in which the data are not the state of any step.
 template <class Real>
 void require_between_steps(const WorldData<Real>& w);
 

@@ -137,7 +137,7 @@ MassProperties mass_now(const WorldData<Real>& w, int body) {
   for_each_part(w, body, [&](const ConvexMass& part) {
     inertia += part.inertia + part.mass * length_squared(part.centroid - centre);
   });
-  // Corners of a damaged snapshot may go round the wrong way: their inertia counts as none.
+  // Corners of a damaged snapshot may be in clockwise order: their inertia counts as none.
   return {mass, record.centre.template as<double>() + centre, inertia >= 0 ? inertia : 0};
 }
 

@@ -9,8 +9,9 @@
 ///
 /// The frame of a dynamic body is at its centre of mass, that of a kinematic one at its origin, about which
 /// it rotates. A static body's frame stays at the centre of its first shapes, because its mass is not needed.
-/// So adding a shape to a static body or removing one has constant cost. Changes of other masses are noted,
-/// and all computed at once before they are needed: before a step, and before calls that act on motions.
+/// So adding a shape to a static body or removing one has constant cost. For other bodies, changes of shapes
+/// are noted, and all masses are computed together when they are needed: before a step, and before calls that
+/// act on motions.
 namespace plumb {
 
 /// Recomputes a body's mass, centre and sizes, and moves its frame to the centre.
@@ -23,7 +24,8 @@ void find_mass(WorldData<Real>& w, int body);
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
 
-/// Returns the inverse mass of a dynamic body, 1/kg: 0 with both its axes locked, along all directions then.
+/// Returns the inverse mass of a dynamic body, 1/kg; 0 if both its axes are locked: this holds along every
+/// direction.
 template <class Real>
 Real inverse_mass_of(const BodyRecord<Real>& record, double mass);
 
@@ -42,10 +44,10 @@ bool is_unsettled(const WorldData<Real>& w, int body) {
   return w.bodies[body].half_width < 0;
 }
 
-/// Returns the body's mass properties, whether settled or not; the centre is in the body's frame.
+/// Returns the body's mass properties, even if a change is still noted; the centre is in the body's frame.
 template <class Real>
 MassProperties mass_now(const WorldData<Real>& w, int body);
-/// Returns the offset of the body's centre of mass from its stored one, m; 0 once the mass is settled.
+/// Returns the offset of the body's centre of mass from its stored one, m; 0 if no change is noted.
 template <class Real>
 Vec2<Real> way_to_centre(const WorldData<Real>& w, int body);
 

@@ -5,8 +5,8 @@
 #include "engine/geometry/convex_hull.h"
 #include "engine/world/world_data.h"
 
-/// Shapes are created in three steps. All that may throw or allocate comes first, so that a call that runs
-/// out of memory changes nothing.
+/// Shapes are created in three steps. Everything that may throw or allocate comes first, so that a call that
+/// runs out of memory changes nothing.
 namespace plumb {
 
 /// A shape that is not yet part of a body.

@@ -116,7 +116,8 @@ void put_back(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
   w.enlarged[body] = 0;
 }
 
-// Returns the velocity before the step of a body in free flight, which moved by the mean of both velocities.
+// Returns the velocity before the step of a body in free flight. (The body moved by the mean of this velocity
+// and the present one.)
 template <class Real>
 BodyVelocity<Real> start_of_flight(const BodyMotion<Real>& motion, double dt) {
   const Vec2d before = (2 / dt) * motion.moved.template as<double>() - motion.velocity.template as<double>();
@@ -177,8 +178,8 @@ struct Fault {
   bool own = false;  ///< cannot be caused by another body
 };
 
-// Returns the causes of a failure that a constraint passed on: the fastest body, or all that were runaway
-// before.
+// Returns the bodies that caused a failure which a constraint passed on: the fastest body, or all that
+// already exceeded the limits before.
 std::vector<Fault> sources_of(const std::vector<Fault>& faults) {
   constexpr double kRunaway = 1e-3 * kLargestNumber;
   std::vector<Fault> culprits;

@@ -11,7 +11,7 @@ namespace plumb {
 template <class Real>
 void quarantine_body(WorldData<Real>& w, int body, BadField field, double value);
 
-/// Disables the body in the same way on the program's request, without an event. Does nothing if it is in
+/// Disables the body in the same way at the program's request, without an event. Does nothing if it is in
 /// quarantine.
 template <class Real>
 void disable_body(WorldData<Real>& w, int body);

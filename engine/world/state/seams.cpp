@@ -22,7 +22,7 @@ Pose<Real> inverse(const Pose<Real>& pose) {
   return {-(back * pose.position), back};
 }
 
-// One side of a contact, computed when its first neighbour is asked.
+// One side of a contact, computed when its first neighbour is tested.
 template <class Real>
 struct Side {
   bool looked = false;      // the rest is computed
@@ -118,8 +118,8 @@ bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbou
   return neighbour == side.body || (!w.is_dynamic(neighbour) && !w.is_dynamic(side.body));
 }
 
-// Returns true if a face is kept rather than another one. Decides ties too, so that the order in which
-// neighbours are asked does not matter.
+// Returns true if a face is preferred to another one. Decides ties too, so that the order in which neighbours
+// are tested does not matter.
 template <class Real>
 bool is_preferred(const SeamAnswer<Real>& face, const SeamAnswer<Real>& other) {
   if (face.height != other.height) return face.height > other.height;
@@ -142,7 +142,7 @@ void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
     side.answer = answer;
 }
 
-// Returns the body whose contacts are searched for neighbours: of two dynamic ones that with fewer
+// Returns the body whose contacts are searched for neighbours: of two dynamic bodies the one with fewer
 // constraints.
 template <class Real>
 int body_to_ask(const WorldData<Real>& w, const ContactRecord& contact) {
@@ -176,9 +176,8 @@ Real deepest_of(const ContactManifold<Real>& manifold) {
   return deepest;
 }
 
-// Returns true if the contact's bodies slide along a face of one of them rather than approach it. If four
-// corners meet in a point, each body could belong to a surface with an internal edge there; the motion
-// decides which.
+// Returns true if the contact's bodies slide along a face of one of them rather than approach it. Where four
+// corners meet at a point, an internal edge could belong to either body's surface; the motion decides.
 template <class Real>
 bool slides_along(const WorldData<Real>& w, const ContactRecord& contact, const Side<Real>& side) {
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
@@ -199,11 +198,11 @@ struct Sides {
   Side<Real> of_a, of_b;
 };
 
-// Shapes of two dynamic bodies up to which all of them are tried as neighbours; of bodies with more, only
-// those that have contacts. Bodies of a few convex parts have fewer shapes than contacts.
+// Maximum number of shapes of two dynamic bodies that are all tested as neighbours. If the bodies have more,
+// only shapes with contacts are tested. Bodies of a few convex parts have fewer shapes than contacts.
 constexpr int kFewShapes = 16;
 
-// Returns true if a body has at most `most` shapes, which is reduced by their number.
+// Returns true if a body has at most `most` shapes, and subtracts their number from `most`.
 template <class Real>
 bool has_few_shapes(const WorldData<Real>& w, int body, int& most) {
   int shape = w.bodies[body].first_shape;
@@ -221,8 +220,8 @@ void for_each_sibling(const WorldData<Real>& w, const ContactRecord& contact, co
     if (shape != contact.shape_b) look_at(shape, contact.shape_a);
 }
 
-// Calls look_at(shape, kNone) for all shapes that have a contact with one of the contact's shapes, and belong
-// to the other one's side, by the contacts of a body.
+// Calls look_at(shape, kNone) for all shapes that have a contact with one of the contact's shapes and belong
+// to the other one's side. Searches the contacts of a body.
 template <class Real, class LookAt>
 void for_each_touching(const WorldData<Real>& w, const ContactRecord& contact, int asked,
                        const LookAt& look_at) {
@@ -248,7 +247,7 @@ bool is_wide(const ContactManifold<Real>& manifold, Real widest) {
          length_squared(manifold.points[1].point - manifold.points[0].point) > widest * widest;
 }
 
-// Asks the neighbours of both sides of a contact.
+// Tests the neighbours of both sides of a contact.
 template <class Real>
 void ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
                     const ContactManifold<Real>& manifold, Real smaller, Real way, bool both_dynamic,
@@ -262,7 +261,7 @@ void ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, cons
     if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return;
   }
   const Region<Real> region = region_of(w, contact, manifold, smaller, way);
-  // As `stays_beside` of either side, before anything is computed.
+  // Does the test of `stays_beside` for either side, before anything is computed.
   const auto may_be_beside = [&](int body) {
     return body == contact.body_a || body == contact.body_b || (!both_dynamic && !w.is_dynamic(body));
   };
@@ -314,7 +313,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     if (w.is_dynamic(sides[i]->body) && !slides_along(w, contact, *sides[i])) continue;
     const ContactManifold<Real> found = on_face(w, contact, *sides[i], b_in_a, reach);
     if (found.count == 0) {
-      // Nothing in front of the face: a body that lies in the shape keeps a contact.
+      // No point is in front of the face: a body that lies inside the shape keeps a contact.
       const bool overlaps = deepest_of(manifold) < -2 * sides[i]->touched.tolerance;
       return overlaps ? manifold : found;
     }

@@ -12,8 +12,8 @@ namespace plumb {
 template <class Real>
 Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape);
 
-/// Returns the tight AABB of a shape after the last step. A step keeps those of the shapes in the trees; that
-/// of a shape that collides with nothing is computed here.
+/// Returns the tight AABB of a shape after the last step. Reads the one that a step stores for shapes in the
+/// trees, and computes that of a shape that collides with nothing.
 template <class Real>
 Aabb<Real> current_aabb(const WorldData<Real>& w, int shape) {
   return w.shapes[shape].proxy == kNone ? tight_aabb(w, shape) : w.boxes[shape];
@@ -23,8 +23,8 @@ Aabb<Real> current_aabb(const WorldData<Real>& w, int shape) {
 template <class Real>
 Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt);
 
-/// Updates a shape's AABBs at its body's present pose, after a rotation that moved no point of it by more
-/// than `turned`, m. Returns true if its fat AABB contained the whole motion.
+/// Updates a shape's AABBs at its body's current pose, after a rotation that moved no point of the shape by
+/// more than `turned`, m. Returns true if its fat AABB contained the whole motion.
 template <class Real>
 bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real turned);
 
@@ -36,9 +36,9 @@ Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   return box;
 }
 
-/// Returns the AABB of a shape through a step ahead, in which its body moves by `way` and turns such that no
-/// point of it moves by more than `turned`, m. A body that turns by more than a radian is not predicted: its
-/// contacts would be those of the present angle.
+/// Returns the AABB of a shape for the next step, in which its body moves by `way` and turns such that no
+/// point of it moves by more than `turned`, m. Rotations of more than a radian are not predicted: the AABB is
+/// then that of the current angle.
 template <class Real>
 Aabb<Real> room_ahead(const Aabb<Real>& box, Vec2<Real> way, Real turned, Real extent) {
   return stretched(box, way).grown(turned <= extent ? turned : Real(0));
@@ -65,8 +65,8 @@ Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) 
   return merged(box, {box.lower + ahead, box.upper + ahead}).grown(turned);
 }
 
-/// Does the same as `update_proxy`, but for the tree: calls `enlarge(shape, fat AABB)` if the shape has left
-/// the stored one.
+/// Does the same as `update_proxy`, but leaves the tree to the caller: calls `enlarge(shape, fat AABB)` if
+/// the shape has left its stored fat AABB.
 template <class Real, class Enlarge>
 bool update_boxes(WorldData<Real>& w, int shape, Real dt, Real turned, const Enlarge& enlarge) {
   if (w.shapes[shape].proxy == kNone) return true;

@@ -22,8 +22,8 @@ bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const Bo
   return record.may_sleep && !moves_as_told && speed <= slow;
 }
 
-/// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic one wakes alone.
-/// Awake and static bodies are left as they are. If memory runs out, throws, and all of them sleep on.
+/// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic body wakes alone.
+/// Does nothing for awake and static bodies. If memory runs out, throws and leaves all of them asleep.
 template <class Real>
 void wake_body(WorldData<Real>& w, int body);
 
@@ -43,7 +43,7 @@ void put_to_sleep(WorldData<Real>& w, int body);
 template <class Real>
 void fall_asleep(WorldData<Real>& w, int body);
 
-/// Adds a body to the list of awake ones, or removes it; nothing else.
+/// Only adds a body to the list of awake ones, or removes it.
 template <class Real>
 void enter_awake(WorldData<Real>& w, int body);
 template <class Real>

@@ -6,15 +6,15 @@
 
 namespace plumb {
 
-/// Motion of a body from some time within the step to its end. The path is a parabola where only constant
-/// forces act, else straight; the rotation is uniform.
+/// Motion of a body from some time within the step to its end. The path is a parabola if only constant forces
+/// act, else straight; the rotation is uniform.
 struct SweptBody {
   int body = -1;
   bool covered = false;   ///< see FastBody
   bool expected = false;  ///< see FastBody
   bool changed = false;   ///< differs from the solver's result
   bool yields = true;     ///< may rebound at an impact
-  bool shown = false;     ///< the whole swept AABB is in the tree
+  bool shown = false;     ///< true while the whole swept AABB is in the tree
   bool stands = false;    ///< stopped for the rest of the step
   bool squeezed = false;  ///< stopped between the body that pushes it and another one
   int impacts = 0;        ///< impacts with rebound in this step
@@ -33,7 +33,7 @@ struct SweptBody {
   /// turn about a hinge, or are pushed along by a rotating one, move on an arc about it.
   Vec2d arm{};
 
-  Vec2d shift{};                ///< m, with which the joints are closed where it is stopped
+  Vec2d shift{};                ///< m, displacement that closes the joints where the body is stopped
   Vec2d velocity{}, gain{};     ///< m/s, at `from`, and its gain in a whole step
   double angular_velocity = 0;  ///< rad/s
 
@@ -73,7 +73,8 @@ struct SweptBody {
     arm = {}, stands = false, carrier = -1;
     ++impacts;
   }
-  /// Continues from a fraction of the step as before, displaced by `by` (m) at the step's end.
+  /// Continues from a fraction of the step with unchanged velocities, but displaced by `by` (m) at the step's
+  /// end.
   void go_on_lifted(double fraction, Vec2d by) {
     const double s = share(fraction), left = 1 - s, rest = left * turn;
     const Vec2d rest_way = left * (way + (2 * s) * curve), rest_curve = (left * left) * curve;
@@ -128,9 +129,9 @@ struct SweptBody {
 struct ToiEvent {
   double fraction = 1;  ///< of the step; 1: no impact
   int flight = 0;       ///< its index
-  int version = 0;      ///< of the flight when the event was found
+  int version = 0;      ///< version of the flight when the event was found
   int shape = -1, other = -1;
-  int other_version = 0;  ///< of the other body's flight then, 0 if that is the solver's motion
+  int other_version = 0;  ///< version of the other body's flight then; 0 for the solver's motion
 };
 
 }  // namespace plumb

@@ -33,7 +33,7 @@ void require_positive(const std::string& subject, const std::string& field, doub
 /// Checks an inertia, kg m^2: from kSmallestInertia to its inverse.
 void require_inertia(const std::string& subject, double value);
 
-/// Checks a position that is only read: finite values suffice.
+/// Checks a position that only a reading call uses: any finite value is allowed.
 void require_place(const std::string& subject, const std::string& field, Vec2d value);
 
 /// Limits beyond which squares and cubes of a float would not be finite.

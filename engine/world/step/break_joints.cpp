@@ -12,7 +12,7 @@ void break_joints(WorldData<Real>& w, double h) {
     const int joint = w.load_limits[i];
     const JointRecord& record = w.joints[joint];
     const JointId id{static_cast<std::uint32_t>(joint), w.joints.generation(joint)};
-    // Joints of sleeping bodies bear what they bore, and are not reported again.
+    // Joints of sleeping bodies keep their loads, which are not reported again.
     const bool bears = record.active && (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake);
     const double force = record.active ? static_cast<double>(w.joint_set.force(record.slot, rate)) : 0;
     const double torque = record.active ? static_cast<double>(w.joint_set.torque(record.slot, rate)) : 0;

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// Returns the approach from which an impact is reported, m/s.
+/// Returns the approach speed from which an impact is reported, m/s.
 template <class Real>
 Real least_hit_speed(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   const double set = w.settings.thresholds.hit;

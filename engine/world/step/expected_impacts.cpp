@@ -13,8 +13,8 @@
 namespace plumb {
 namespace {
 
-// Impacts closer in time than this fraction of the step are simultaneous: with four substeps the same time
-// within which impact propagation takes them together.
+// Impacts whose times differ by less than this fraction of the step are simultaneous. With four substeps this
+// is the same time as in impact propagation.
 constexpr double kAtOnce = 2.5e-4;
 
 template <class Real>
@@ -24,9 +24,10 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
          c.arm_a[i] * a.angular_velocity;
 }
 
-// Returns true if a close point neither separates nor is about to bounce. A rate that moves it by no more
-// than rounding in a step does not separate it: its sign may change within the step, and an impact that was
-// left to continuous collision before the step would be the solver's in it.
+// Returns true if a close point neither separates nor is about to bounce. A velocity that moves the point by
+// no more than rounding in a step does not count as separation: its sign may change within the step.
+// Otherwise the impact would be left to continuous collision before the step, but belong to the solver after
+// it.
 template <class Real>
 bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
   const Real rate = rate_of(w, c, i);
@@ -34,7 +35,7 @@ bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, 
          !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
 }
 
-// Returns true if a dynamic body without joints moves so far in a step that continuous collision follows it.
+// Returns true if a dynamic body without joints moves so far in a step that continuous collision sweeps it.
 template <class Real>
 bool moves_far(const WorldData<Real>& w, int body, Real dt) {
   const BodyMotion<Real>& motion = w.motion[body];
@@ -56,7 +57,7 @@ bool flies_freely(const WorldData<Real>& w, int body, Real dt) {
   });
 }
 
-// Adds a dynamic body to a list, unless it is in there.
+// Adds a dynamic body to a list, unless the list contains it.
 template <class Real>
 void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& noted, int body) {
   if (!w.is_dynamic(body)) return;
@@ -66,7 +67,7 @@ void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& n
   append(list, body);
 }
 
-// Returns the time until a contact's first point closes, s, as its bodies move now.
+// Returns the time until a contact's first point closes, s, at the bodies' present velocities.
 template <class Real>
 Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   Real first = std::numeric_limits<Real>::infinity();
@@ -78,10 +79,10 @@ Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
 }
 
 // Leaves bodies whose first impact is with two or more others at once to the solver, which resolves
-// simultaneous impacts together: a bar that falls flat on two posts leaves both at its speed. Impacts one
-// after the other are placed at their times in flight: those after a body's first may not come about, or at
-// another time. Without restitution dynamic bodies stay together and press on others within the step, which
-// contacts alone pass on: such impacts with several are the solver's.
+// simultaneous impacts together: a bar that falls flat on two posts leaves both at the same speed. Impacts
+// one after the other take place in flight, at their own times, because those after a body's first one may
+// change or not happen. Without restitution, dynamic bodies stay together and press on others within the
+// step, which only contacts can pass on: such impacts with several bodies are left to the solver.
 template <class Real>
 void leave_simultaneous(WorldData<Real>& w, Real dt) {
   std::vector<char>& met = w.scratch.expecting;
@@ -154,8 +155,8 @@ bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
   const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
   if (!flies || contact.pre_solve) return false;
   if (!(c.restitution > 0)) {
-    // Slower bodies strike with one corner after the other in different substeps, and two dynamic ones go on
-    // together: contacts do both for less.
+    // Slower bodies strike with one corner after the other in different substeps, and two dynamic bodies move
+    // on together: contacts handle both at less cost.
     if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) return false;
     if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) return false;
   }
@@ -186,7 +187,7 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   if (impacts.empty()) return;
   if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
   leave_simultaneous(w, dt);
-  // If an impact is left to the solver, its bodies may no longer be in free flight, which may affect further
+  // An impact that is left to the solver may end the free flight of its bodies, which may affect their other
   // impacts.
   bool more = true;
   while (more) {

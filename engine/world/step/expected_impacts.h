@@ -11,19 +11,19 @@ template <class Real>
 bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
 
 /// Returns true if a contact has held its bodies in a step, after the solver: it has pressed, or touches now
-/// and will neither separate nor bounce. Discs carry a separation along the normal at which they meet, which
-/// is not the one at the step's start.
+/// and will neither separate nor bounce. The separation of discs is measured along the normal at their
+/// impact, which differs from the normal at the step's start.
 template <class Real>
 bool has_held(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
 
-/// Clears the expected impacts of the step before.
+/// Clears the expected impacts of the previous step.
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w);
 
 /// Returns true if a contact's speculative contact `at` may be an impact in flight, with or without
-/// restitution: it closes fast enough and has no pre-solve hook. `c` is the constraint made from `at`.
-/// Without restitution the corners of a body strike one after the other; solved together, they would take all
-/// of its spin.
+/// restitution: it closes fast enough and has no pre-solve hook. `c` is the constraint made from `at`. The
+/// corners of a body strike one after the other also without restitution; solved together, they would remove
+/// all of its spin.
 template <class Real>
 bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
                      const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt);

@@ -60,13 +60,13 @@ template <class Real>
 struct TakenAtOnce {
   WorldData<Real>& w;
   PrefetchedEnlarging<Real>& tree;
-  // Stores the next fat AABB, `box`, of a shape that has left its last one.
+  // Stores the new fat AABB `box` of a shape that has left its previous one.
   void leave(int shape, const Aabb<Real>& box) const { store_fat_aabb(w, shape, box, tree); }
   void find_fast(const FastBody& fast) const { append(w.scratch.fast_bodies, fast); }
   void find_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }
 };
 
-// Records the same in the lists of a block.
+// Records the same changes in the lists of a block, for later.
 template <class Real>
 struct NotedInBlock {
   WorldData<Real>& w;
@@ -108,7 +108,7 @@ template <class Real, class Found>
     bool covered = true;
     for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
       covered = update_boxes(w, shape, dt, turned, note) && covered;
-    // A body that stays within its fat AABBs and has no contact meets nothing.
+    // A body that stays within its fat AABBs and has no contact cannot hit anything.
     const bool alone = covered && record.first_contact == kNone;
     if (!alone) found.find_fast({body, covered, expected});
   } else {
@@ -118,7 +118,7 @@ template <class Real, class Found>
       if (proxy == kNone) continue;
       const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
       w.boxes[shape] = box;
-      // One step ahead, so that a pair is known in the step in which it meets.
+      // Predict one step ahead, so that a pair exists in the step in which its shapes meet.
       if (!w.dynamic_tree.box(proxy).contains(room_ahead(box, dt * motion.velocity, turned, extent)))
         note(shape, fat_aabb(w, shape, dt));
     }

@@ -13,13 +13,14 @@
 namespace plumb {
 namespace {
 
-// Deviation of a body's turning points from their tangents in half a step, as a fraction of its half width,
-// up to which contacts are taken at the middle of the step. Continuous collision stops bodies that are deeper
-// than half of it between the step's ends. From a 256th to a sixteenth all scenarios keep their bounds, and
-// blocks that tip over and discs that roll off change their errors by less than a factor of 2.
+// Largest deviation of a rotating body's points from their tangents in half a step, as a fraction of its half
+// width, for which contacts are evaluated at the middle of the step. Continuous collision stops bodies that
+// are deeper than half of it between the step's ends. With values from 1/256 to 1/16 all scenarios keep their
+// bounds, and blocks that tip over and discs that roll off change their errors by less than a factor of 2.
 constexpr double kLastingBend = 1.0 / 64;
 
-// Returns the contact at the middle of the step, if the bodies go on as they move and turn little enough.
+// Returns the contact at the middle of the step, if the bodies keep their velocities and rotate little
+// enough.
 template <class Real>
 SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
   SpeculativeContact<Real> at;
@@ -65,9 +66,9 @@ SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const Contact
   return at;
 }
 
-// Returns true if shapes without a contact may touch at the middle of the step, sliding rather than
-// approaching: their distance along the present normal is a bound. Without points they are farther apart than
-// they may approach, unless the speculative margin is too small for that.
+// Returns true if shapes without a contact may touch at the middle of the step while sliding rather than
+// approaching. Their distance along the present normal is a lower bound. Without points they are farther
+// apart than their approach, unless the speculative margin is too small for it.
 template <class Real>
 bool may_arrive(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
                 Real near, Real dt) {
@@ -94,7 +95,8 @@ bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real 
   if (lasting.manifold.count == 0) return false;
   const Real deepest = std::min({c.now[0], c.count == 2 ? c.now[1] : Real(0), Real(0)});
   prepare_speculative_contact(w, contact, lasting, c, c.now);
-  // Points leave their tangents on the way back to the start. What that may be is no overlap to push out.
+  // Extrapolated back to the start, points deviate from their tangents. An overlap that may be this deviation
+  // is not pushed out.
   const auto bend = [&](int body, int shape, Real turn) {
     return Real(0.5) * turn * turn * std::max(w.extents[body] - w.forms[shape].radius, Real(0));
   };

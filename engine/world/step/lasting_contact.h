@@ -4,18 +4,19 @@
 
 namespace plumb {
 
-/// Rebuilds a contact with points at the middle of the step, if its bodies go on as they move: points that
-/// press then neither part nor close by more than a recycled manifold tolerates. Returns false, and changes
-/// nothing, if it does not last. The new impulses are written to `c.now`. Normal and arms turn within the
-/// step, as where a disc rolls over another or a block pivots on its corner. Those of the middle leave an
-/// error of second order; with those of the start, forces would lag by half a step.
+/// Rebuilds a contact with points at the middle of the step, if its bodies keep their velocities and the
+/// contact lasts: points that press then neither separate nor approach by more than a recycled manifold
+/// tolerates. Returns false, and changes nothing, if it does not last. The new impulses are written to
+/// `c.now`. Normal and arms rotate within the step, as where a disc rolls over another or a block pivots on
+/// its corner. Those of the middle leave an error of second order; with those of the start, forces would lag
+/// by half a step.
 template <class Real>
 bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
                    ContactConstraint<Real>& c);
 
-/// Returns the contact with a surface that a loaded body slides onto, at the middle of the step: what
-/// supports it by then does so together with the lasting contacts of that time. Without points if there is
-/// none. `manifold`: at the start of the step.
+/// Returns the contact with a surface that a loaded body slides onto, at the middle of the step: it then
+/// supports the body together with the lasting contacts of that time. Without points if there is none.
+/// `manifold`: at the start of the step.
 template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt);

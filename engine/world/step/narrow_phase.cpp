@@ -22,8 +22,8 @@
 namespace plumb {
 namespace {
 
-// Returns true if the fat AABBs do not overlap. Tests the tight ones first: these lie in the fat ones, and
-// are already loaded.
+// Returns true if the fat AABBs do not overlap. Tests the tight AABBs first: they lie within the fat ones,
+// and are already loaded.
 template <class Real>
 bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
   if (w.boxes[contact.shape_a].overlaps(w.boxes[contact.shape_b])) return false;
@@ -33,7 +33,7 @@ bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
   return !stored(contact.shape_a, contact.body_a).overlaps(stored(contact.shape_b, contact.body_b));
 }
 
-// Updates the load estimate: most of a load, and all of it if the load pressed the shapes into each other.
+// Updates the load estimate: most of the load, or all of it if the load pressed the shapes into each other.
 template <class Real>
 void update_load_estimate(ContactConstraint<Real>& c) {
   constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
@@ -91,10 +91,10 @@ ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord
   return manifold_of(w, contact, reach);
 }
 
-// Returns true if a contact without points is farther apart than its shapes may approach in the step: it has
-// no manifold and no predicted impact. Tests their AABBs, and the face that separated them before. This
-// rejects most pairs in a crowd. The approach used here is an upper bound of those that both of these
-// compute, rounding included.
+// Returns true if a contact without points is farther apart than its shapes may approach in the step: it then
+// has no manifold and no predicted impact. Tests their AABBs, and the face that separated them before. This
+// rejects most pairs in a crowd. The approach used here is an upper bound of those that the manifold and the
+// prediction compute, rounding included.
 template <class Real>
 bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact, std::uint8_t face, Real dt) {
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
@@ -106,7 +106,7 @@ bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact, std
   const Real closing = rounding * (dt * (size_of(b.velocity - a.velocity) + turning));
   const Real reach = Real(tuning::kSpeculativeMargin) * smaller + closing;
   if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return true;
-  // Shapes that approach faster are searched along their curved ways, of which a face at the start says
+  // Shapes that approach faster are searched along their curved paths, for which a face at the start says
   // little.
   return face != kNoFace && closing <= Real(tuning::kSpeculativeMarginMost) * smaller &&
          are_separated_by(w, contact, face, reach);
@@ -120,17 +120,17 @@ bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
 
 // Changes of a contact found by an update, as flags.
 enum : std::uint8_t {
-  kTouchChange = 1,  // it begins or ends to touch
+  kTouchChange = 1,  // the contact begins or ends touching
   kLost = 2,         // its fat AABBs have separated
-  kEnded = 4,        // it has no points any more
+  kEnded = 4,        // the contact has no points any more
   kBounces = 8,      // see begin_step
-  kRenewed = 16,     // its points were computed anew: impulses are not settled yet
+  kRenewed = 16,     // its points were recomputed: impulses are not settled yet
   kAsked = 32,       // the user's hook decides about its new points
   kLeft = 64,        // a shape has left its fat AABB
-  kStale = 128,      // its bodies have moved too much for its points
+  kStale = 128,      // its bodies have moved too far for its points
 };
 
-// Starts a contact without points that has got some, made by `build`.
+// Starts a contact that had no points and now has some, computed by `build`.
 template <class Real, class Build>
 void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, const Build& build) {
   const ContactRecord& contact = w.contacts[id];
@@ -143,7 +143,7 @@ void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, c
   w.scratch.begun_contacts.add(block, begun);
 }
 
-// Does the same for a predicted impact; those in free flight are decided later.
+// Does the same for a predicted impact; impacts in free flight are decided later.
 template <class Real>
 void begin_speculative_contact(WorldData<Real>& w, int block, int id, const SpeculativeContact<Real>& at,
                                Real dt) {
@@ -204,8 +204,8 @@ int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
   return 0;
 }
 
-// Rebuilds a manifold; returns false if there is none. Searches for impacts read the impulses of contacts, so
-// the new ones wait in `c.now` until all contacts were updated.
+// Rebuilds a manifold; returns false if it has no points. Impact searches of other contacts still read the
+// old impulses, so the new ones wait in `c.now` until all contacts were updated.
 template <class Real>
 bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt, Real h,
            ContactConstraint<Real>& c) {
@@ -224,13 +224,13 @@ bool renew(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt,
   } else {
     prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c, c.now);
   }
-  // The outlook knows nothing of the load that a contact carries: one that holds a body is kept.
+  // The prediction ignores the load that a contact carries: keep a contact that holds a body.
   const bool holds = c.now[0] > 0 || c.now[1] > 0;
   return c.count > 0 && (holds || at.outlook != Outlook::Misses);
 }
 
-// Carries a contact with points on from its constraint and its bodies' motion alone. Returns kStale if
-// they have moved too much for that, and kLeft if its shapes may have separated.
+// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they
+// have moved too far for that, and kLeft if its shapes may have separated.
 template <class Real>
 int carry_on(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) note_loaded(w, c);
@@ -241,8 +241,8 @@ int carry_on(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   return touch | left | (begin_step(w, c, dt) ? kBounces : 0);
 }
 
-// Ends a contact with points whose shapes have separated, or rebuilds its manifold. `change` is what
-// `carry_on` has found, and is completed.
+// Ends a contact with points whose shapes have separated, or rebuilds its manifold. `change` is the result of
+// `carry_on`; adds further flags to it.
 template <class Real>
 int look_again(WorldData<Real>& w, int block, ContactConstraint<Real>& c, int change, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[c.contact];
@@ -281,7 +281,7 @@ void find_contact_runs(WorldData<Real>& w) {
   });
 }
 
-// Gives the contacts of a run that were rebuilt their impulses.
+// Stores the new impulses of a run's rebuilt contacts.
 template <class Real>
 void settle_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
   std::uint8_t* const changes = w.scratch.contact_changes.data() + run.place;
@@ -304,7 +304,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
   scratch.found_presses.begin(blocks);
   std::uint8_t* const changes = scratch.contact_changes.data();
-  // By run: what has changed of any of its contacts.
+  // By run: the union of its contacts' changes.
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
   scratch.loaded.assign(w.bodies.size(), 0);
@@ -352,7 +352,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   });
 }
 
-// Makes, after an exception, the next step recompute the points of the contacts.
+// After an exception, makes the next step recompute the points of the contacts.
 template <class Real>
 void invalidate_all(WorldData<Real>& w) {
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
@@ -424,7 +424,7 @@ void collect_changes(WorldData<Real>& w) {
   }
 }
 
-// Passes predicted impacts that do not happen in free flight to the solver.
+// Leaves predicted impacts that do not happen in free flight to the solver.
 template <class Real>
 void settle_expected_impacts(WorldData<Real>& w, Real dt) {
   decide_expected_impacts(w, dt);
@@ -442,7 +442,7 @@ void settle_expected_impacts(WorldData<Real>& w, Real dt) {
   }
 }
 
-// Moves a contact with its first points to the graph.
+// Moves a contact that has got its first points to the graph.
 template <class Real>
 void enter(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   const int id = c.contact;
@@ -451,8 +451,8 @@ void enter(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   if (touching || w.contacts[id].touching) update_touching(w, constraint_of(w, w.contacts[id]), touching);
 }
 
-// Begins the step of contacts whose bodies this update has woken: what strikes a sleeper may throw it at what
-// it lies beside within the step.
+// Begins the step of contacts whose bodies this update has woken: within the step, an impact may throw a
+// sleeping body at a neighbour.
 template <class Real>
 void begin_unparked(WorldData<Real>& w, Real dt) {
   for (const int id : w.scratch.unparked) {

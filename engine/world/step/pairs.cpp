@@ -47,7 +47,8 @@ template <class Real>
 // Moved shapes per block of a shared loop: about 30 us of work.
 constexpr int kMovedOfBlock = 64;
 
-// Moved shapes of one body that are searched together, and pairs of theirs that are held until then.
+// Maximum number of moved shapes of one body that share a search, and of their pairs that are stored until it
+// ends.
 constexpr int kTogether = 8, kHeld = 256;
 
 // Consecutive shapes of the move buffer that belong to one dynamic body, with the box around their fat AABBs.
@@ -59,7 +60,7 @@ struct MovedTogether {
   Aabb<Real> around{};
 };
 
-// Returns true if moved shapes may take part in the same search.
+// Returns true if two moved shapes may share a search.
 template <class Real>
 bool moves_with(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
   const ShapeRecord<Real>& other = w.shapes[next];
@@ -67,8 +68,8 @@ bool moves_with(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int ne
          seen_by(other.filter) == seen_by(shape.filter);
 }
 
-// Collects the shapes of one body from a place of the move buffer on: as long as one search in the box around
-// them enters fewer nodes than one for each, by their perimeters.
+// Collects the shapes of one body, starting at an index of the move buffer, as long as one search in the box
+// around them enters fewer nodes than one search for each, estimated by their perimeters.
 template <class Real>
 MovedTogether<Real> moved_together(const WorldData<Real>& w, std::size_t first, std::size_t last) {
   MovedTogether<Real> out;
@@ -163,7 +164,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
       });
 }
 
-// Stores fat AABBs with room for this step where they have none: of bodies that were made or moved by calls.
+// Predicts fat AABBs for this step for bodies that calls have created or moved.
 template <class Real>
 void make_room_ahead(WorldData<Real>& w, Real dt) {
   for (const int shape : w.move_buffer) {
@@ -191,7 +192,8 @@ void find_pairs(WorldData<Real>& w, Real dt) {
   w.scratch.found_pairs_of.begin(blocks);
   w.crew.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, grounds); });
   w.scratch.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
-    // A shape that took the place of one that had moved is listed twice, and finds its pairs twice.
+    // If a shape was created in the slot of a destroyed one that had moved, it is listed twice, and finds its
+    // pairs twice.
     if (!w.pairs.contains(pair.first, pair.second) && is_let_through(w, pair.first, pair.second))
       create_contact(w, pair.first, pair.second);
   });

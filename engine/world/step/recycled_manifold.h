@@ -8,24 +8,24 @@
 /// over the constraints, which takes most of what a resting contact costs in the narrow phase.
 namespace plumb {
 
-/// rad, turn of a body in a step up to which its manifolds are recycled: the series below then leave 1e-9 of
-/// an arm.
+/// rad, largest rotation of a body in a step for which its manifolds are recycled: the error of the series
+/// below is then 1e-9 of an arm.
 inline constexpr double kRecycleTurn = 1.0 / 32;
 
-/// Recycles the manifold of bodies that move as one, as the filling of a drum: turns it with body a, and
-/// charges only what b has moved against a. Returns false if that is too much.
-/// Not inlined: contacts at rest would pay for its registers.
+/// Recycles the manifold of bodies that move together, as in the filling of a drum: rotates the manifold with
+/// body a, and subtracts only the motion of b relative to a from the budget. Returns false if that is too
+/// much. Not inlined: contacts at rest would pay for its registers.
 template <class Real>
 [[gnu::noinline]] bool turn_manifold(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_b,
                                      ContactConstraint<Real>& c) {
   const Vec2<Real> shift = b.moved - a.moved, n = c.normal;
-  // Sine of a's turn, and 1 less its cosine.
+  // Sine of a's rotation angle, and 1 - its cosine.
   const Real turn = a.turned, squared = turn * turn;
   const Real sine = turn - turn * squared * (Real(1) / 6);
   const Real bend = Real(0.5) * squared * (1 - squared * (Real(1) / 12));
   const Vec2<Real> after{n.x - sine * n.y - bend * n.x, n.y + sine * n.x - bend * n.y};
-  // The mean of the normals before and after. Turned together the bodies keep the arms and move by a chord:
-  // `middle` times that is the sine times the arms' difference.
+  // `middle` is the mean of the normals before and after. Under a common rotation the bodies keep their arms
+  // and move along a chord: `middle` times the chord equals the sine times the difference of the arms.
   const Vec2<Real> middle = Real(0.5) * (n + after);
   const Real relative_turn = b.turned - turn;
   const Real closed = dot(middle, shift) + (c.arm_b[0] - c.arm_a[0]) * sine;
@@ -37,9 +37,9 @@ template <class Real>
   return true;
 }
 
-/// Recycles the manifold: updates separations to first order. Returns false if the bodies moved too much for
-/// that. What they have left of the budget is first spent on all of their motion, with the normal as it is: a
-/// normal that follows each tremor of a light body swings the load of a heavy one on it.
+/// Recycles the manifold: updates separations to first order. Returns false if the bodies moved too far for
+/// that. As long as the budget suffices, spends it on their whole motion and keeps the normal fixed, because
+/// a normal that follows each tremor of a light body would make the load of a heavy one on it swing.
 template <class Real>
 bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real extent_a, Real extent_b) {
   const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];

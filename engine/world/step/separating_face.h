@@ -10,8 +10,9 @@
 namespace plumb {
 
 /// Returns true if two shapes are farther apart than `reach` (m) along the normal of a face, as numbered in
-/// ContactManifold. A face that separated two shapes in the last step mostly still does. The rounding that
-/// the manifold may have is added: whatever face is tried, a manifold within `reach` is never missed.
+/// ContactManifold. A face that separated two shapes in the last step mostly still does. The possible
+/// rounding error of the manifold is added: whatever face is tried, a manifold within `reach` is never
+/// missed.
 template <class Real>
 bool are_separated_by(const WorldData<Real>& w, const ContactRecord& contact, std::uint8_t face, Real reach) {
   const bool of_b = face >= kMaxCorners;

@@ -32,7 +32,7 @@ bool is_fast(const WorldData<Real>& w, int body, Real dt) {
                                    Real(tuning::kFastShare) * w.bodies[body].half_width;
 }
 
-// Returns true if the body is in free flight, as far as is known before the step is solved.
+// Returns true if the body is in free flight, as far as this is known before the step is solved.
 template <class Real>
 bool flies(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -52,7 +52,8 @@ Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double 
 }
 
 // Returns true if the bodies' displacement `closed` and rotations may carry a point across its contact plane.
-// A point that nearly touches must cross by more than a recycled manifold tolerates; otherwise it rests.
+// A point that nearly touches must cross the plane by more than a recycled manifold tolerates; otherwise it
+// rests.
 template <class Real>
 bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
              Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
@@ -79,7 +80,7 @@ bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   return false;
 }
 
-// Returns true if shapes without points are to be searched.
+// Returns true if shapes without contact points must be searched for an impact.
 template <class Real>
 bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Real smaller, Real dt) {
   const int a = contact.body_a, b = contact.body_b;
@@ -89,7 +90,7 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
   if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
   if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
-  // Two bodies of similar size, neither of them fast, approach by no more than twice that.
+  // Two bodies of similar size, neither of them fast, approach by no more than twice `guessed`.
   return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
 }
 
@@ -113,7 +114,8 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
   at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kSpeculativeMargin) * smaller,
                                static_cast<Real>(moved(way_a) + moved(way_b)));
   if (at.manifold.count == 0) return at;
-  // Shapes that only just touch have no overlaps: such points belong to a surface that others continue.
+  // Shapes that only just touch have no overlaps: points with overlaps belong to a surface that other shapes
+  // continue.
   for (int i = 0; i < at.manifold.count; ++i)
     if (at.manifold.points[i].separation < -Real(tuning::kImpactTolerance) * smaller) return {};
   at.outlook = Outlook::Meets;
@@ -151,7 +153,8 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
                  static_cast<Real>(ahead * way_a.turn), static_cast<Real>(ahead * way_b.turn), smaller))
       return {};
   }
-  // To rounding: what passes at less than a coarser tolerance would be struck.
+  // Search to rounding: with a coarser tolerance, a shape that passes at a smaller distance would count as
+  // hit.
   const ImpactResult<Real> impact =
       time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), Real(0));
   if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};

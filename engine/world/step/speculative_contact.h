@@ -10,9 +10,9 @@
 
 namespace plumb {
 
-/// Prediction for two separated shapes whose bodies continue through the step as they move now.
+/// Prediction for two separated shapes whose bodies keep their present velocities through the step.
 enum class Outlook : std::uint8_t {
-  Unsearched,  ///< no contact plane would be crossed, or they touch already
+  Unsearched,  ///< no contact plane would be crossed, or the shapes touch already
   Misses,      ///< a plane would be crossed, but the shapes pass each other
   Meets,       ///< they touch
 };
@@ -29,15 +29,15 @@ struct SpeculativeContact {
   Vec2<Real> velocity{};             ///< m/s, of b's centre of mass relative to a's, at the impact
 };
 
-/// Finds the speculative contact of two shapes with the current manifold `closest`. A plane through the
-/// closest points is only a guess. It would deflect a shape that passes a corner closely, and a rotating
-/// shape hits elsewhere. So a plane that would be crossed counts only if the shapes really touch.
+/// Finds the speculative contact of two shapes with the current manifold `closest`. The plane through the
+/// closest points is only an estimate: it would deflect a shape that passes a corner closely, and a rotating
+/// shape hits elsewhere. So if a plane would be crossed, it counts only if the shapes really touch.
 ///
 /// Shapes without points are searched if they approach in a step by more than half of the smaller extent.
-/// Otherwise the smaller shape would be deep in the other one before they had a contact.
-/// Bodies that are fast for their own size are left to continuous collision (continuous.cpp).
+/// Otherwise the smaller shape would be deep in the other one before they had a contact. Bodies that are fast
+/// for their own size are left to continuous collision (continuous.cpp).
 ///
-/// Solvers look a substep ahead, so planes count that would be crossed up to a substep after the step.
+/// Solvers look a substep ahead, so planes that would be crossed up to a substep after the step count, too.
 ///
 /// Bodies in free flight are predicted on their parabola, all others on a straight line.
 template <class Real>
@@ -57,15 +57,16 @@ Real speculative_margin(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Re
          std::min(closing, Real(tuning::kSpeculativeMarginMost) * smaller);
 }
 
-/// Builds a speculative constraint at the predicted impact; separations are the present ones. `impulse` gets
-/// the impulses that points keep.
+/// Builds a speculative constraint at the predicted impact, with the present separations. Writes the impulses
+/// that points keep to `impulse`.
 template <class Real>
 void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                  const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
                                  Real (&impulse)[2]);
 
-/// Does so for shapes that are apart and meet in the step. A point that its tangent, followed back to the
-/// start, would put inside of the other shape was not there: no overlap is to be pushed out.
+/// Does the same for separated shapes that meet in the step. If a point, extrapolated back along its tangent
+/// to the step's start, would be inside of the other shape, its overlap there is not real and must not be
+/// pushed out.
 template <class Real>
 void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
                      const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]);

@@ -18,9 +18,9 @@ namespace plumb {
 namespace {
 
 // kSubstepGrowth: maximum ratio of a substep to the last one. kSubstepsMost: maximum factor on the requested
-// substeps to keep to it. A pyramid of 12 rows rests under steps of random lengths from 1 to 10 as under
-// equal ones. With 1.1 it creeps ten times as fast; without a bound it explodes at 1 and 3 in turn. A step
-// over 60 times as long as the last disturbs resting bodies.
+// substeps for keeping this ratio. A pyramid of 12 rows rests under steps of random lengths from 1 to 10 as
+// under equal ones. With a ratio of 1.1 it creeps ten times as fast; without a bound it explodes at lengths
+// of 1 and 3 in turn. A step over 60 times as long as the last disturbs resting bodies.
 constexpr double kSubstepGrowth = 1.02;
 constexpr int kSubstepsMost = 16;
 
@@ -69,7 +69,7 @@ void make_good(WorldData<Real>& w) {
       try {
         add_to_move_buffer(w, shape);
       } catch (const std::bad_alloc&) {
-        // It is added when it next leaves its fat AABB.
+        // The shape is added when it next leaves its fat AABB.
       }
     }
   }
@@ -89,7 +89,7 @@ int substeps_of(const WorldData<Real>& w, double dt, int asked) {
   return static_cast<int>(std::min(wanted, most));
 }
 
-// Minimum number of awake bodies, contacts and joints of a step that is shared by threads. Below it, waking a
+// Minimum number of awake bodies, contacts and joints for a step to be shared by threads. Below it, waking a
 // second thread costs about as much as the work that it takes over (docs/decisions/threads.md).
 constexpr std::size_t kSharedWork = 256;
 
