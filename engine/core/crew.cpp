@@ -74,8 +74,8 @@ class Computing {
   std::fenv_t own_;
 };
 
-// Number of polls before a thread that waits for another one's last block yields the processor: about 10 us,
-// longer than nearly all blocks take.
+// Number of polls before a thread that waits for another thread's last block yields the processor: about 10
+// us, longer than nearly all blocks take.
 constexpr int kLooksAtLast = 500;
 
 }  // namespace

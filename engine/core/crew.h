@@ -11,13 +11,13 @@ namespace plumb {
 /// Order in which a loop's blocks are begun. Every order gives the same bits; tests use the others.
 enum class LoopOrder { Ascending, Descending, Shuffled };
 
-/// The threads that share the loops of a world's step: the calling one, and those of a pool of its own or of
-/// a game's task system. A loop is cut into blocks that do not depend on the number of threads. A block
-/// writes what no other block of the loop reads or writes; what depends on the order is collected block by
-/// block (block_lists.h).
+/// The threads that share the loops of a world's step: the calling one, and those of the world's own pool or
+/// of a game's task system. A loop is divided into blocks that do not depend on the number of threads. A
+/// block writes only data that no other block of the loop reads or writes; order-dependent results are
+/// collected block by block (block_lists.h).
 /// Loops run within sessions. A session's body runs once, on the first thread to arrive, and the others take
-/// part in its loops. Nothing therefore waits for a thread that does not arrive, whatever the task system
-/// does. The body must not call user code, which belongs on the calling thread.
+/// part in its loops. So no thread waits for one that does not arrive, whatever the task system does. The
+/// body must not call user code, which belongs on the calling thread.
 class Crew {
  public:
   static constexpr int kMostThreads = 64;

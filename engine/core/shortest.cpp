@@ -1,4 +1,4 @@
-// A file of its own: programs that have another writer of numbers leave out its tables, which take 120 kB.
+// A separate file, so that programs with another writer of numbers can omit its tables, which take 120 kB.
 #include <array>
 #include <charconv>
 #include <cmath>

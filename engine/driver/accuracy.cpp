@@ -17,8 +17,8 @@ void require_positive(double value, const char* driver, const char* field, const
               std::string("must be a positive number") + unit + ", from 1e-100 to 1e100");
 }
 
-/// Smallest tolerance of Precise: the error of a step is a thousandth of it, and below 1e-15 that is
-/// rounding.
+/// Smallest tolerance of Precise: a step's error is limited to a thousandth of it, which is below rounding
+/// for tolerances below 1e-15.
 constexpr double kLeastTolerance = 1e-12;
 
 /// A world's limit.

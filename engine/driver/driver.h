@@ -20,7 +20,7 @@ enum class ContactEvent {
   Hold,        ///< a contact that lasts began
   Separation,  ///< the force of a persistent contact fell to zero
   SlipStart,   ///< a sticking or rolling contact began to slip
-  SlipEnd,     ///< slip came to an end: it sticks, rolls, or slips back
+  SlipEnd,     ///< slip ended: the contact sticks, rolls, or slips back
   Change,      ///< a contact moved to another corner or edge
   Paradox,     ///< no force could hold a slipping contact (Painleve): an impulse ended its slip
 };
@@ -42,14 +42,13 @@ struct ErrorEstimate {
 
 /// Statistics of a run so far.
 struct Statistics {
-  std::int64_t steps = 0;        ///< Realtime: substeps; Precise: accepted steps
-  std::int64_t rejected = 0;     ///< Precise: steps that were redone with a smaller one
-  std::int64_t impacts = 0;      ///< velocity jumps that were resolved
-  std::int64_t evaluations = 0;  ///< evaluations of the accelerations
-  std::int64_t implicit = 0;     ///< Precise: accepted steps by the implicit method
-  std::int64_t leaps = 0;        ///< Precise: steps across a kinematic singularity
-  std::int64_t redundant_joints =
-      0;  ///< Precise: joints with rows that follow from others, named in the plan
+  std::int64_t steps = 0;             ///< Realtime: substeps; Precise: accepted steps
+  std::int64_t rejected = 0;          ///< Precise: steps that were redone with a smaller one
+  std::int64_t impacts = 0;           ///< velocity jumps that were resolved
+  std::int64_t evaluations = 0;       ///< evaluations of the accelerations
+  std::int64_t implicit = 0;          ///< Precise: accepted steps by the implicit method
+  std::int64_t leaps = 0;             ///< Precise: steps across a kinematic singularity
+  std::int64_t redundant_joints = 0;  ///< Precise: joints with redundant rows, named in the plan
   std::array<EventCount, kContactEvents> contacts{};  ///< Precise: by `ContactEvent`
 
   ErrorEstimate error{};  ///< Precise: with `Precise::estimate_error`
@@ -61,7 +60,7 @@ struct Statistics {
 /// limits and motors.
 struct JointReaction {
   std::string joint;
-  Vec2d position{};   ///< m, of its anchor on body b, in the world's frame; of b itself where it has none
+  Vec2d position{};   ///< m, of its anchor on body b, in the world's frame; of b itself if it has no anchor
   Vec2d force{};      ///< N
   double torque = 0;  ///< N m, about that anchor
 };
@@ -108,15 +107,15 @@ class Driver {
   virtual std::vector<std::byte> save() const = 0;
   virtual void restore(std::span<const std::byte> snapshot) = 0;
 
-  /// Returns the forces at the time of the state that is read; throws `Error` (Unsupported) for a driver that
-  /// has only impulses.
+  /// Returns the forces at the time of the state that `read` returns; throws `Error` (Unsupported) for a
+  /// driver that has only impulses.
   virtual Reactions reactions() {
     throw Error(Error::Kind::Unsupported, "realtime", "forces", "",
                 "fixed steps have impulses, not forces; 'plumb-precise' and Precise have forces");
   }
 
   /// Returns d state / d parameter by body, for the parameter of this index in `CompileOptions::parameters`;
-  /// throws `NotDifferentiable`, and `Error` (Value) for a parameter that was not asked for.
+  /// throws `NotDifferentiable`, and `Error` (Value) for a parameter that was not requested.
   virtual std::vector<BodyState> sensitivities(std::size_t parameter) {
     throw Error(Error::Kind::Value, "sensitivity", "parameter", std::to_string(parameter),
                 "was not among the parameters that the scene was compiled with");

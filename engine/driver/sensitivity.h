@@ -12,7 +12,7 @@ enum class NoDerivative {
   Grazing,       ///< shapes met without approaching: a slight change decides whether they meet at all
   Simultaneous,  ///< events at one instant that the parameter separates in time: their order decides
   Zeno,          ///< bounces were brought to their limit, an infinite number at once
-  Start,         ///< a contact of the start that the parameter opens or presses together
+  Start,         ///< the parameter opens a contact of the start, or presses it together
   Kink,          ///< an impact or a force law has a kink here: it sticks on one side and slips on the other
   Paradox,       ///< Painleve's paradox: no force, or several, obey the laws
   Singular,      ///< a linkage crossed a kinematic singularity or has redundant joints, or no derivative is
@@ -20,7 +20,7 @@ enum class NoDerivative {
 };
 std::string_view name_of(NoDerivative reason);  ///< "grazing", "simultaneous", ...
 
-/// The error of asking for a derivative that does not exist: `Error` (Run) with the reason and the time.
+/// Thrown when a derivative that does not exist is requested: `Error` (Run) with the reason and the time.
 class NotDifferentiable final : public Error {
  public:
   NotDifferentiable(const std::string& parameter, NoDerivative reason, double time);

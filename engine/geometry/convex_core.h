@@ -9,9 +9,9 @@
 
 namespace plumb {
 
-/// A shape shrunk by an even depth: all points of it that are deeper than that below its surface. While the
-/// core of a shape has passed nothing, the direction of least penetration leads back to the side it came
-/// from. The depth is taken off the rounding first, then off the edges.
+/// A shape shrunk by a uniform depth: all its points deeper than that below its surface. As long as the core
+/// of a shape has passed nothing, the direction of least penetration leads back to the side that the shape
+/// came from. The depth is subtracted from the rounding radius first, then from the edges.
 template <class Real>
 class Core {
  public:
@@ -67,7 +67,7 @@ class Core {
           cut[count++] = {point, here > 0 ? from.normal : normal};
         }
       }
-      if (count == 0 || count > kMaxCorners) break;  // no point is as deep; the rest lies inside all the same
+      if (count == 0 || count > kMaxCorners) break;  // no point is that deep; what is left lies inside anyway
       convex_.count = count;
       std::copy(cut, cut + count, corners_);
     }

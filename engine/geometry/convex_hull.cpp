@@ -14,7 +14,7 @@ namespace {
 // that edges have a direction in either precision.
 constexpr double kDetail = 1e-5;
 
-// Limit on corners before small details are dropped, a quadratic search; more are refused.
+// Limit on corners before small details are dropped, which is a quadratic search; more corners are refused.
 constexpr std::size_t kMostExactCorners = 2048;
 
 // m. Beyond it, squares of lengths leave a double's range.
@@ -50,7 +50,8 @@ std::vector<Vec2d> hull_of_sorted(const std::vector<Vec2d>& points) {
   return hull;
 }
 
-/// Returns how far the corner lies from the line through its neighbours, or from the nearer of them if less.
+/// Returns the distance of the corner from the line through its neighbours, or from the nearer neighbour if
+/// that is less.
 double detail_at(const std::vector<Vec2d>& hull, std::size_t i) {
   const Vec2d before = hull[(i + hull.size() - 1) % hull.size()], at = hull[i];
   const Vec2d after = hull[(i + 1) % hull.size()];

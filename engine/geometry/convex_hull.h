@@ -28,7 +28,7 @@ Corners capsule_corners(Vec2d first, Vec2d second);
 /// Returns a disc's only corner.
 Corners disc_corner(Vec2d center);
 
-/// Transforms the corners to a frame in which theirs lies at `pose`.
+/// Transforms the corners from their frame, which lies at `pose`.
 Corners transformed(std::span<const Corner<double>> corners, const Pose<double>& pose);
 
 /// Translates the corners by `by`.

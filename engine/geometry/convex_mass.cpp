@@ -18,14 +18,14 @@ struct Moments {
   void operator+=(const Moments& b) { area += b.area, first += b.first, polar += b.polar; }
 };
 
-/// Returns those of a triangle with one corner at the origin: I = area (u.u + u.v + v.v) / 6.
+/// Returns the moments of a triangle with one corner at the origin: I = area (u.u + u.v + v.v) / 6.
 Moments triangle(Vec2d u, Vec2d v) {
   const double area = cross(u, v) / 2;
   return {area, (area / 3) * (u + v), area * (dot(u, u) + dot(u, v) + dot(v, v)) / 6};
 }
 
-/// Returns those of the rectangle of width `radius` on the outside of the edge from u to v. About its own
-/// centre I = area (length^2 + radius^2) / 12; then Steiner's theorem.
+/// Returns the moments of the rectangle of width `radius` on the outside of the edge from u to v. About its
+/// own centre I = area (length^2 + radius^2) / 12; then Steiner's theorem.
 Moments rectangle(Vec2d u, Vec2d v, Vec2d normal, double radius) {
   const double length = std::sqrt(length_squared(v - u));
   const double area = length * radius;
@@ -33,9 +33,9 @@ Moments rectangle(Vec2d u, Vec2d v, Vec2d normal, double radius) {
   return {area, area * center, area * ((length * length + radius * radius) / 12 + length_squared(center))};
 }
 
-/// Returns those of the circular sector about `center` between two unit normals. About its centre the first
-/// moment is radius^3 / 3 times the integral of (cos, sin) over the angle, and the polar one radius^4 angle /
-/// 4.
+/// Returns the moments of the circular sector about `center` between two unit normals. About its centre the
+/// first moment is radius^3 / 3 times the integral of (cos, sin) over the angle, and the polar one radius^4
+/// angle / 4.
 Moments sector(Vec2d center, Vec2d from, Vec2d to, double radius) {
   const double angle = std::fabs(arc_tangent(cross(from, to), dot(from, to)));
   const double square = radius * radius;

@@ -11,9 +11,9 @@ struct ConvexMass {
   double inertia = 0;  ///< kg m^2, about the centroid
 };
 
-/// Computes those of a rounded convex shape of uniform `density`, kg/m^2. Exact but for rounding: the
-/// polygon, a rectangle on each edge and a circular sector at each corner. Shapes without area (a segment, a
-/// point) have no mass.
+/// Computes the mass properties of a rounded convex shape of uniform `density`, kg/m^2. Exact to rounding:
+/// the sum of the polygon, a rectangle on each edge and a circular sector at each corner. Shapes without area
+/// (a segment, a point) have no mass.
 ConvexMass convex_mass(const Convex<double>& shape, double density);
 
 }  // namespace plumb

@@ -11,7 +11,7 @@
 namespace plumb {
 
 /// One step of DOP853, the explicit Runge-Kutta method of order 8 by Dormand and Prince. The last stage of a
-/// step is not reused as the first of the next: the caller may change y between steps and then sets
+/// step is not reused as the first of the next, because the caller may change y between steps; it then sets
 /// `first_rate` again.
 class Dop853 {
  public:

@@ -11,8 +11,8 @@ namespace plumb {
 /// on every platform and `pow` has not.
 class StepControl {
  public:
-  /// Safety factors on the length that would just meet the tolerance. kCareful costs less than the rejected
-  /// steps it saves, if errors vary more from step to step than kUsual makes up for.
+  /// Safety factors on the length that would just meet the tolerance. kCareful is better if errors vary so
+  /// much from step to step that kUsual would cause more rejected steps than it saves.
   static constexpr double kUsual = 0.9, kCareful = 0.8;
   explicit StepControl(double safety = kUsual) : safety_(safety) {}
 

@@ -10,8 +10,8 @@
 #include "engine/math/vec2.h"
 
 /// Description of every kind of joint: coordinates with their Jacobians, and the rules on them. Kinds do not
-/// depend on their solvers. What a step computes is inlined by force: `Real` may be Lanes, which a function
-/// compiled for wider registers passes in another way than one that is not.
+/// depend on their solvers. Functions that a step calls are always inlined: `Real` may be Lanes, and
+/// functions compiled for different register widths pass Lanes differently.
 namespace plumb {
 
 /// Rotates from the body's frame to the world's.
@@ -53,8 +53,8 @@ struct AnchorPoint {
   Vec2<Real> arm_a{}, arm_b{};  ///< m, from the centres of mass
   Vec2<Real> gap{};             ///< m, anchor b less anchor a
 
-  /// Returns the row of C = n . gap, where n turns with a: dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a +
-  /// gap)).
+  /// Returns the row of C = n . gap, where n rotates with a: dC/dt = n . (v_b + w_b x r_b - v_a - w_a x (r_a
+  /// + gap)).
   [[gnu::always_inline]] JointRow<Real> row(Vec2<Real> n, Real residual) const {
     return {-n, n, -cross(arm_a + gap, n), cross(arm_b, n), residual};
   }
@@ -114,8 +114,7 @@ struct RowRule {
   double max_force = std::numeric_limits<double>::infinity();  ///< N or N m
 };
 
-/// Up to four rules on one coordinate, in the order in which they are solved: the last one has the smallest
-/// error.
+/// Up to four rules on one coordinate, in the order in which they are solved: the last one is satisfied best.
 struct RowRules {
   static constexpr int kMost = 4;
   std::array<RowRule, kMost> rule{};

@@ -67,9 +67,9 @@ template <class Number>
       [&]() __attribute__((always_inline)) { return second; });
 }
 
-/// Returns what rotation together adds to the mobility of a common point, 1/(kg m^2), times p p^T. The two
-/// bodies do not turn relative to each other; p is the perpendicular of the offset between their centres of
-/// mass.
+/// Returns the additional mobility of a common point due to a common rotation, 1/(kg m^2), times p p^T. The
+/// two bodies do not rotate relative to each other; p is the perpendicular of the offset between their
+/// centres of mass.
 template <class Number>
 [[gnu::always_inline]] inline Number common_turning(const PairMobility<Number>& p) {
   const Number turn = p.i_a + p.i_b;

@@ -63,8 +63,9 @@ struct Lanes {
   alignas(Part) alignas(kParts == kCount ? alignof(Part) : kBytes) Part part[kParts];
 
   Lanes() = default;
-  /// Copied a register at a time, also within structures: these g++ copies as bytes, by halves of a wide
-  /// register where it compiles without them, and loading as one what was just stored in halves waits.
+  /// Copied one register at a time, also within structures. g++ would copy structures by halves of a wide
+  /// register where it compiles without wide registers, and loading both halves as one right after would
+  /// stall.
   [[gnu::always_inline]] Lanes(const Lanes& from) { *this = from; }
   [[gnu::always_inline]] Lanes& operator=(const Lanes& from) {
     for (int k = 0; k < kParts; ++k) part[k] = from.part[k];

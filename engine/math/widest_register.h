@@ -4,8 +4,9 @@
 
 namespace plumb {
 
-/// Bytes of the widest vector register that a processor of this target may have, 0 for none. Loops for wider
-/// ones are not compiled: AVX2 is of x86 alone, and they are half of the solver's code.
+/// Size in bytes of the widest vector register that a processor of this target may have, 0 for none. Loops
+/// for wider registers are not compiled, because AVX2 exists only on x86, and these loops are half of the
+/// solver's code.
 #if !defined(PLUMB_VECTORS)
 inline constexpr int kWidestRegister = 0;
 #elif defined(__x86_64__) || defined(__i386__)

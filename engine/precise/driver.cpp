@@ -47,12 +47,12 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
 
 std::vector<BodyState> PreciseDriver::sensitivities(std::size_t parameter) {
   if (!sensitivities_ || parameter >= sensitivities_->size()) return Driver::sensitivities(parameter);
-  // The last step may have leapt over a singularity, which `follow` sees only before the next one.
+  // The last step may have leapt over a singularity, which `follow` notices only before the next step.
   if (leapt()) sensitivities_->refuse(parameter, NoDerivative::Singular, smooth_.start());
   return sensitivities_->at(parameter, time_, names_.size());
 }
 
-/// Takes the sensitivities to the end of the last step.
+/// Advances the sensitivities to the end of the last step.
 void PreciseDriver::follow() {
   if (!sensitivities_) return;
   if (leapt()) sensitivities_->fail_all(NoDerivative::Singular, smooth_.start());

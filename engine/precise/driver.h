@@ -44,7 +44,7 @@ class PreciseDriver final : public Driver {
   Statistics statistics() const override;
 
  private:
-  /// Returns true if the motion leapt over a singularity that the sensitivities have not seen.
+  /// Returns true if the motion leapt over a singularity that the sensitivities have not handled yet.
   bool leapt() const { return smooth_.leaps() != leaps_seen_; }
   bool active(StageIndex stage) const { return plan_.stages[stage].active; }
 

@@ -24,7 +24,7 @@ constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
 constexpr double kLonger = 2;
 /// Fraction of the scene's length: deeper initial overlaps are an error at any tolerance.
 constexpr double kDeepestOverlap = 1e-3;
-/// Roundings of positions that gaps at the start may be off by.
+/// Number of position roundings by which gaps at the start may be open.
 constexpr double kGapRoundings = 16;
 
 }  // namespace

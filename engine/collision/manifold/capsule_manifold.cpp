@@ -31,7 +31,8 @@ bool beside(const Axis<Real>& axis, const End<Real>& end) {
   return end.along >= 0 && end.along <= axis.length;
 }
 
-/// The side of an axis on which the two ends penetrate less, and the separation of the deeper end there.
+/// The side of an axis on which its two ends penetrate less, and the separation of the deeper end on that
+/// side.
 template <class Real>
 struct Side {
   bool right;       // of the axis: along its normal

@@ -48,7 +48,8 @@ struct AdmitOwn {
     if (!end.convex) return Normal::Snap;
     const Real inside = at_first ? cross(end.normal, normal) : cross(normal, end.normal);
     if (inside >= -Real(kFlat)) return Normal::Admit;
-    // Into the ground rather than along it: this segment must push out so deep a penetration.
+    // For normals that point into the ground rather than along it: this segment must push out so deep a
+    // penetration.
     return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
   }
   void widen(FacingEdges<Real>& edges) const {
@@ -62,8 +63,8 @@ Real taxicab(Vec2<Real> v) {
   return std::fabs(v.x) + std::fabs(v.y);
 }
 
-/// A disc touches the segment beside its centre, or a corner between two segments. Both segments of a corner
-/// compare the same products, so that no disc falls between.
+/// Computes the contact of a disc with the segment, or with a corner between two segments. Both segments of a
+/// corner compare the same products, so that every disc belongs to one of them.
 template <class Real>
 ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
                                            Vec2<Real> center, Real radius, Real reach) {

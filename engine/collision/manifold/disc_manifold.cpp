@@ -35,8 +35,8 @@ ContactManifold<Real> collide_capsule_disc(const Convex<Real>& a, Vec2<Real> cen
 template <class Real>
 ContactManifold<Real> collide_polygon_disc(const Convex<Real>& a, Vec2<Real> center, Real radius,
                                            Real reach) {
-  // The edge of greatest separation from the centre: the nearest of all if the centre is inside, and
-  // otherwise next to the nearest corner if that is nearer than any edge.
+  // Finds the edge of greatest separation from the centre. It is the nearest edge if the centre is inside;
+  // otherwise it ends at the nearest corner if that is nearer than any edge.
   const Real limit = reach + a.radius + radius;
   Real height = -std::numeric_limits<Real>::max();
   int edge = 0;

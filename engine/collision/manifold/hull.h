@@ -31,7 +31,7 @@ constexpr std::uint16_t corner_pair(int of_a, int of_b) {
 }
 static_assert(kMaxCorners <= 64);
 
-/// Returns a length that stands for the shape's size: the same in every pose.
+/// Returns a length that measures the shape's size and does not depend on its pose.
 template <class Real>
 Real size_of(const Convex<Real>& shape) {
   const Vec2<Real> across = shape.corners[shape.count / 2].point - shape.corners[0].point;
@@ -68,8 +68,8 @@ struct Hull {
   int previous(int i) const { return i > 0 ? i - 1 : count - 1; }
 };
 
-/// Tell what is known of a hull's number of corners when the code is compiled: nothing; that one register of
-/// four holds all of them, padded; that there are four.
+/// Knowledge about a hull's number of corners at compile time: none; one register of four holds all corners,
+/// padded; there are exactly four.
 inline constexpr int kAny = 0, kUpToFour = 3, kFour = 4;
 
 /// Loads four corners from `first` on, as x and y of their points and of their normals. `kFull`: all four
@@ -85,7 +85,7 @@ inline void load_corners(const Convex<Real>& shape, int first, Four<Real> (&out)
   transpose(rows, out);
 }
 
-/// Places a shape; of its number of corners `kCount` is known.
+/// Places a shape; `kCount` is the knowledge about its number of corners.
 template <int kCount, class Real>
 inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rotation, Vec2<Real> position) {
   out.count = out.edges = kCount == kFour ? kFour : shape.count;
@@ -144,7 +144,7 @@ ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real dist
   return out;
 }
 
-/// The part of two facing edges that lies over each other, between two places along the reference.
+/// The common part of two facing edges, between two positions along the reference.
 template <class Real>
 struct Span {
   Real x[2];                            // m, along the reference, from the origin of the edges' frame
@@ -154,8 +154,9 @@ struct Span {
   bool overlaps = false;
 };
 
-/// Clips the incident edge to the reference edge. Counts along it from the frame's origin, near the contact:
-/// from an end of a long floor rounding would be as coarse as that is long.
+/// Clips the incident edge to the reference edge. Positions along it are relative to the frame's origin,
+/// which is near the contact: relative to an end of a long floor, rounding would be proportional to its
+/// length.
 template <class Real>
 inline Span<Real> clip(const FacingEdges<Real>& edges) {
   Span<Real> out;

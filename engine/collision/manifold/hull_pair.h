@@ -44,8 +44,9 @@ inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull
   return {larger(most_low, most_high), first + (most_high > most_low ? high : low)};
 }
 
-/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are what is
-/// known of the hulls' numbers of corners. Repetitions of the last corner never win over itself.
+/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are the
+/// compile-time knowledge about the hulls' numbers of corners. Repetitions of the last corner never win over
+/// the corner itself.
 template <int kCount, int kOther, class Real>
 inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
   const int count = kOther == kAny ? other.count : 4;
@@ -63,7 +64,7 @@ inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other,
   return best;
 }
 
-/// Returns the corner least far along a direction: the first of equals.
+/// Returns the corner with the smallest coordinate along a direction: the first of equals.
 template <int kCount, class Real>
 inline int support(const Hull<Real>& hull, Vec2<Real> direction) {
   if (kCount != kAny) {
@@ -99,7 +100,7 @@ int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   return cross(normal, n_before) < cross(n_after, normal) ? before : corner;
 }
 
-/// `kOther` is what is known of the number of corners of `other`.
+/// `kOther` is the compile-time knowledge about the number of corners of `other`.
 template <int kOther, class Real>
 inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, const Hull<Real>& other,
                                       bool reference_is_b) {
@@ -144,10 +145,11 @@ int nearest_end(const FacingEdges<Real>& edges, int deepest) {
   return start_x >= dot(tangent, edges.reference[1] - edges.reference[0]) ? edges.incident_id[1] : deepest;
 }
 
-/// Moves an end of a span outwards along the outlines of both hulls, until the span holds the pivot or the
-/// outlines part by more than `limit`. Two points on one side of the pivot would turn the bodies past their
-/// nearly parallel next edges within a step. The other end stays, as it may be the deepest point, except
-/// where the outlines run parallel: then it follows, so that no corner between the two sinks.
+/// Moves an end of a span outwards along the outlines of both hulls, until the span contains the pivot or the
+/// gap between the outlines exceeds `limit`. With both points on one side of the pivot, the contact would
+/// rotate the bodies beyond their nearly parallel next edges within a step. The other end stays, as it may be
+/// the deepest point. Only where the outlines are parallel it follows, so that no corner between the two
+/// sinks.
 template <class Real>
 void extend(Span<Real>& span, const FacingEdges<Real>& edges, const Hull<Real>& reference,
             const Hull<Real>& other, Real pivot, Real limit) {
@@ -214,8 +216,8 @@ struct Faces {
   Vec2<Real> pivot{};
 };
 
-/// Returns the manifold of two hulls that touch at the deepest corner of one alone, because their edges miss
-/// each other by a rounding or by the preference.
+/// Returns the manifold of two hulls of which only the deepest corner touches, because their edges miss each
+/// other by a rounding or by the preference.
 template <class Real>
 ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
                                    const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
@@ -244,7 +246,7 @@ inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real
   return out;
 }
 
-/// Returns the manifold of two hulls that touch at a face of one.
+/// Returns the manifold of two hulls that touch at a face of one of them.
 template <class Real, class Admit>
 inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
                                         FacingEdges<Real>& edges, Real reach, Vec2<Real> origin,
@@ -306,8 +308,9 @@ ContactManifold<Real> separated_by(int face) {
 }
 
 /// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame; `pivot` is in
-/// their frame. `size` returns the size of the smaller one. `admit` selects the normals allowed; a snapped
-/// one becomes that of a's first edge. `kA` and `kB` are what is known of the numbers of corners.
+/// this frame. `size` returns the size of the smaller hull. `admit` selects the normals allowed; a snapped
+/// normal becomes that of a's first edge. `kA` and `kB` are the compile-time knowledge about the numbers of
+/// corners.
 template <int kA, int kB, class Real, class Size, class Admit>
 inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
                                            Real reach, Vec2<Real> origin, Vec2<Real> pivot,

@@ -12,7 +12,7 @@ namespace {
 template <class Real>
 constexpr Real kSameSurface = Real(0.5);
 
-/// In tolerances: the widest gap that counts as closed, and how far a face extends across it.
+/// In tolerances: the widest gap that counts as closed, and the extension of a face across it.
 template <class Real>
 constexpr Real kGap = 3;
 template <class Real>
@@ -48,7 +48,7 @@ struct Continuation {
   Vec2<Real> normal{};
 };
 
-/// Looks for it at one end of `face`.
+/// Searches for the continuation at one end of `face`.
 template <class Real>
 Continuation<Real> beyond(const TouchedSurface<Real>& touched, int face, bool at_start,
                           const Convex<Real>& other, int other_edges, const Pose<Real>& pose) {
@@ -72,7 +72,7 @@ Continuation<Real> beyond(const TouchedSurface<Real>& touched, int face, bool at
   return {};
 }
 
-/// Returns true if a point lies in the other shape, grown by `margin`.
+/// Returns true if a point lies in the other shape, enlarged by `margin`.
 template <class Real>
 bool inside(Vec2<Real> point, const Convex<Real>& other, int other_edges, const Pose<Real>& pose,
             Real margin) {
@@ -84,8 +84,8 @@ bool inside(Vec2<Real> point, const Convex<Real>& other, int other_edges, const 
   return true;
 }
 
-/// Returns true if a step of two tolerances along the normal leads from every point of a separated contact
-/// into the other shape.
+/// Returns true if every point of a separated contact, moved by two tolerances along the normal, is in the
+/// other shape.
 template <class Real>
 bool hidden(const TouchedSurface<Real>& touched, const Convex<Real>& other, int other_edges,
             const Pose<Real>& pose) {
@@ -114,9 +114,9 @@ bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const
   return true;
 }
 
-/// Returns true if an edge comes out of the other shape towards the middle of what touches it, as a wall out
-/// of the floor that it stands in. Then it is part of the union's surface, however deep the points lie. Close
-/// to its ends the test is inconclusive.
+/// Returns true if an edge leaves the other shape towards the middle of the touching shape, like a wall that
+/// stands in the floor. It is then part of the union's surface, however deep the points lie. Close to its
+/// ends the test is inconclusive.
 template <class Real>
 bool comes_out(const TouchedSurface<Real>& touched, int edge, const Convex<Real>& other, int other_edges,
                const Pose<Real>& pose) {
@@ -170,7 +170,7 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
     return at_start ? previous_of(shape, edge) : next_of(shape, edge);
   };
 
-  // Around a corner, unless the normal is that of the edge.
+  // Continues around the corner, unless the normal is that of the edge.
   const Real tilt = dot(n, tangent);
   if (std::fabs(tilt) > kAligned<Real>) {
     const bool at_start = tilt < 0;

@@ -26,7 +26,7 @@ template <class Real>
 struct SeamAnswer {
   enum class Kind : unsigned char {
     Own,     ///< the normal belongs to the union's surface
-    Face,    ///< the normal is not, but a face of the shape has one that is
+    Face,    ///< the normal does not, but that of a face of the shape does
     Hidden,  ///< the neighbour lies between the shapes
   };
   Kind kind = Kind::Own;

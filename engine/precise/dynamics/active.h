@@ -13,7 +13,7 @@ namespace plumb::precise {
 struct ActiveContact {
   const FeatureShape* a = nullptr;
   const FeatureShape* b = nullptr;
-  double friction = 0;          ///< static: up to which it sticks
+  double friction = 0;          ///< static coefficient, up to which the contact sticks
   double sliding_friction = 0;  ///< kinetic: while it slips
   int mode = 0;  ///< contact mode, 0: sticks; +1, -1: slips in this direction, friction acts against it
   int count = 0;

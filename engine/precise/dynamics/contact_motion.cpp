@@ -165,7 +165,7 @@ void EquationsOfMotion::solve_contacts(std::span<double> right_side) {
   for (std::size_t i = 0; i < right_side.size(); ++i) right_side[i] *= scale_[i];
 }
 
-/// Returns the forces that the active contacts had when they were decided, by row.
+/// Returns the forces that the active contacts had when their modes were decided, by row.
 std::vector<double> EquationsOfMotion::decided_forces() const {
   std::vector<double> forces;
   for (const ActiveContact& patch : patches_)
@@ -181,8 +181,8 @@ std::vector<double> EquationsOfMotion::decided_forces() const {
 /// Adds the accelerations by contacts to those without them.
 void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
   linearise_contacts(true);
-  // Forces of redundant contacts are not unique: keep those from when the contacts were decided, and add the
-  // change since then.
+  // Forces of redundant contacts are not unique: keep those from the time when the modes were decided, and
+  // add the change since then.
   const std::vector<double> decided = decided_forces();
   add_response(active_response_, decided, accelerations);
   contact_side_.resize(constraints_.size());

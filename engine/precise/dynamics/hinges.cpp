@@ -8,7 +8,7 @@
 namespace plumb::precise {
 namespace {
 
-/// A pivot that has lost all but a few of its digits is rounding: its direction depends on others.
+/// If a pivot has lost all but a few of its digits, it is rounding: its direction depends on others.
 constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
 
 }  // namespace

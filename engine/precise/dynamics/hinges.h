@@ -26,11 +26,11 @@ class HingeLines {
 
   bool empty() const { return lines_.empty(); }
 
-  /// Returns true if every body hangs, hinge by hinge, on something that joints do not move: the angles then
-  /// determine all positions.
+  /// Returns true if every body is connected by hinges, directly or through others, to something that joints
+  /// do not move: the angles then determine all positions.
   bool rooted() const { return !steps_.empty(); }
-  /// Sets positions and velocities of hanging bodies from those they hang on and the angles: no gap is left
-  /// but rounding. The arms are those of `place`. Calls `moved(body)` for each.
+  /// Sets positions and velocities of hanging bodies from the bodies that they hang on and from the angles,
+  /// so that gaps are zero to rounding. The arms are those of `place`. Calls `moved(body)` for each.
   template <class Moved>
   void hang(std::span<Pose<double>> poses, std::span<Twist<double>> twists, const Moved& moved) const {
     for (const Step& step : steps_) {
@@ -59,15 +59,16 @@ class HingeLines {
   };
   Widest widest(std::span<const Pose<double>> poses) const;
 
-  /// At the poses of `place`, once for each: accelerations += M^-1 J^T lambda such that J a + (dJ/dt) v = 0.
+  /// Adds to the accelerations M^-1 J^T lambda such that J a + (dJ/dt) v = 0, at the poses of `place`; call
+  /// it once for each.
   void accelerate(std::span<const Twist<double>> twists, std::span<Twist<double>> accelerations);
   /// Adds to `shift` the M^-1 J^T lambda that makes J v zero.
   void stop(std::span<const Twist<double>> twists, std::span<Twist<double>> shift);
   /// Adds to `shift` the M^-1 J^T lambda that closes the gaps, to first order.
   void close(std::span<const Pose<double>> poses, std::span<Twist<double>> shift);
 
-  /// Results of the last of these: number of directions that depend on others and get no force; the least
-  /// fraction of a direction that the others leave to it, as in `JointSystem::weakest`.
+  /// Results of the last of these functions: the number of dependent directions, which get no force; and the
+  /// least independent fraction of a direction, as in `JointSystem::weakest`.
   int dependent() const { return dependent_; }
   double weakest() const { return weakest_; }
 

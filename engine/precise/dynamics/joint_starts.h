@@ -11,7 +11,7 @@ namespace plumb {
 struct JointStart {
   std::string joint;
   bool turns = false;  ///< of an angle: rad and rad/s; else m and m/s
-  double gap = 0;      ///< by which it is open, too long or beyond its limit
+  double gap = 0;      ///< m or rad, by which the joint is open, too long or beyond its limit
   double speed = 0;    ///< velocity that violates its constraints
 };
 
@@ -19,8 +19,8 @@ struct JointStart {
 /// exceeded, in the scene's order; joints without any error are included. The scene is valid.
 std::vector<JointStart> joint_starts(const Scene& scene);
 
-/// Describes those that are off by more than `gap` (m or rad) or `speed` (m/s or rad/s): "joint 'hip' is off
-/// by 0.01 m where the scene starts".
+/// Describes the joints that are off by more than `gap` (m or rad) or `speed` (m/s or rad/s): "joint 'hip' is
+/// off by 0.01 m where the scene starts".
 std::vector<std::string> joint_complaints(const Scene& scene, double gap, double speed);
 
 }  // namespace plumb

@@ -79,7 +79,8 @@ class GeneralJoints {
   /// bounded if the joint has a bound; for a point the same with the 2 x 2 matrix m.
   void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
 
-  /// Calls `take(joint, force, torque)` for each of those: force and torque on body b, about its centre.
+  /// Calls `take(joint, force, torque)` for each joint with such forces: force and torque on body b, about
+  /// its centre.
   void each_spring(const BodiesNow& now,
                    const std::function<void(const std::string&, Vec2d, double)>& take) const;
 

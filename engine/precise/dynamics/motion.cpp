@@ -69,12 +69,12 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
   return lightest > 100 * heaviest;
 }
 
-/// Returns the hinges of mechanisms that consist of hinges alone. With wide mass ratios rounding requires the
-/// refinement that rows have.
+/// Returns the hinges of mechanisms that consist of hinges alone. Excludes wide mass ratios, which need the
+/// iterative refinement that rows have.
 HingeLines hinge_lines(const JointSystem<double>& system, const Joints& joints, const GeneralJoints& others,
                        const std::vector<double>& inverse_mass, const std::vector<double>& inverse_inertia,
                        bool wide_mass_ratio, const Scene& scene) {
-  // Rows know the acceleration of a prescribed body, which the lines take as a fixed one.
+  // Excludes prescribed bodies: rows use their acceleration, while hinge lines assume that they are fixed.
   const bool moved = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                  [](const Body& body) { return !body.motion.empty(); });
   const bool plain = joints.distance.empty() && others.row_count() == 0 && !wide_mass_ratio && !moved;

@@ -55,8 +55,8 @@ class EquationsOfMotion final : public Flow {
   void set_evaluations(std::int64_t count) { evaluations_ = count; }
 
   /// Moves positions and angles by the least mass-weighted amount that closes all joints and held contacts,
-  /// to rounding. Then corrects velocities in the same way, so that they keep these closed and sticking
-  /// contacts do not slip. Throws `Error` (Run) if gaps cannot be closed.
+  /// to rounding. Then corrects velocities in the same way: they must keep joints and contacts closed, and
+  /// sticking contacts must not slip. Throws `Error` (Run) if gaps cannot be closed.
   void project(double time, Compensated& y);
   /// For bodies that hang by hinges alone and start with velocities that the hinges do not allow: applies the
   /// impulses that remove them, as if the hinges were attached at that instant. `project` then computes
@@ -106,8 +106,7 @@ class EquationsOfMotion final : public Flow {
   double left_open(double time, std::span<double> y, double weak);
   /// Returns the joint of the weakest row of the last factorisation.
   std::string weakest_joint() const;
-  /// Returns the joints with rows that follow from others in state y: they may be omitted, or carry no force
-  /// of their own.
+  /// Returns the joints with redundant rows in state y: they may be omitted, or carry no force of their own.
   std::vector<std::string> redundant_joints(double time, std::span<const double> y);
 
   /// Sets the persistent contacts: they are held as joints are, by accelerations and by `project`.

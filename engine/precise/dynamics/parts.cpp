@@ -76,7 +76,7 @@ std::vector<char> not_flying(const Scene& scene, const Index& index) {
     }
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    // Prescribed motions are integrated as well: so steps and searches for contacts know their path.
+    // Prescribed motions are integrated as well, so that steps and searches for contacts have their path.
     if (scene.bodies[i].type != BodyType::Dynamic) result[i] = scene.bodies[i].motion.empty() ? 0 : 1;
   }
   return result;

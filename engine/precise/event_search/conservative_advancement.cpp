@@ -131,7 +131,7 @@ ConservativeAdvancement::Departure ConservativeAdvancement::departure(const Outl
       return found;
     }
     if (overlap == Overlap::Pressed && d < deepest) {
-      // The first time of this depth, to rounding.
+      // Find the first time at which the gap has this value, to rounding.
       double low = before, high = time;
       for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
         (distance(pair, middle) < deepest ? high : low) = middle;

@@ -8,8 +8,8 @@
 
 namespace plumb::precise {
 
-/// First zero crossing: the first time in a step at which one of several functions falls below its own
-/// -tolerance. Functions that start at zero, to the tolerance, are included: they must rise.
+/// Finds the first zero crossing in a step: the first time at which one of several functions falls below its
+/// own -tolerance. A function that starts at zero, to the tolerance, counts only after it has risen.
 struct Fall {
   double time = 0;        ///< s: the first time known to lie beyond, to rounding
   std::size_t index = 0;  ///< of the function

@@ -68,7 +68,7 @@ class StepMotionBounds {
   void follow_parabola(std::size_t body, const BodyState& from, const BodyState& to);
 
   const Flight& flight_;
-  std::vector<int> slot_;  // by body: among the integrated ones, or -1
+  std::vector<int> slot_;  // by body: its index among the integrated ones, or -1
   std::vector<Path> paths_;
   std::vector<Turning> turning_;
   EventFreeIntegrator* motion_ = nullptr;

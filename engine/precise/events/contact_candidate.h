@@ -29,8 +29,8 @@ struct ContactCandidate {
   ContactRows rows[2] = {};
   double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
   double slip = 0;         ///< m/s, of b against a along the tangent
-  double quiet = 0;        ///< m/s, noise floor of these by rounding, or `graze`
-  double graze = 0;        ///< m/s, approach that the motion itself ends within the rounding of a gap
+  double quiet = 0;        ///< m/s, rounding error of these rates, or `graze` if larger
+  double graze = 0;        ///< m/s, largest approach that ends by itself while the gap is within rounding
 };
 
 /// Returns true if a point of a touch closes, faster than rounding.

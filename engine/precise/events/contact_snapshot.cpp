@@ -7,7 +7,7 @@
 namespace plumb::precise {
 namespace {
 
-/// Returns true if two outlines have the corners and the edge that a feature names.
+/// Returns true if two outlines have the corners and the edge that a feature refers to.
 bool is_feature(const Feature& f, const FeatureShape& a, const FeatureShape& b) {
   if (f.a < 0 || f.a >= a.count() || f.b < 0 || f.b >= b.count()) return false;
   switch (f.kind) {
@@ -46,10 +46,10 @@ void Contacts::save(SnapshotWriter& out) const {
   out.put(last_event_);
   out.put(events_at_once_);
   out.put(events_);
-  // An event that is settled is over: its guard may name contacts that are held no longer.
+  // The guard of a settled event is obsolete: it may refer to contacts that are no longer held.
   const bool open = !settled_;
   out.put(std::int64_t{open && record_.guard});
-  // One by one: bytes between members have no value.
+  // Writes the members one by one, because padding bytes are undefined.
   const Guard guard = open ? record_.guard.value_or(Guard{}) : Guard{};
   out.put(guard.kind), out.put(guard.pair), out.put(guard.feature), out.put(guard.stop);
   out.put(guard.patch), out.put(guard.watched), out.put(guard.point);
@@ -58,7 +58,7 @@ void Contacts::save(SnapshotWriter& out) const {
   stops_.save(out);
 }
 
-/// Returns true if a guard names what this scene and its held contacts have.
+/// Returns true if everything that a guard refers to exists in this scene and its held contacts.
 bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) const {
   const std::span<const FeatureShape> outlines = finder_.outlines();
   switch (guard.kind) {

@@ -204,7 +204,7 @@ double Contacts::contact_value(const Watched& watched, const ContactForces& forc
   return 0;
 }
 
-/// Records what ended the last step.
+/// Records the cause of the last step's end.
 void Contacts::note(const Event& event) {
   if (event.meet) {
     record_.met = event.meet;
@@ -327,8 +327,9 @@ int Contacts::samples_until(double until) const {
   return std::max(kSamples, static_cast<int>(std::min(std::ceil(kSamplesARadian * swings), kMost)));
 }
 
-/// The step that ends at the event differs from the polynomial on which it was found by the step's error.
-/// Newton's method on the gap, with a step for each iteration, removes the difference.
+/// Corrects the end of the step: the step that ends at the event differs by the step's error from the
+/// polynomial on which the event was found. Each iteration of Newton's method on the gap makes a step to the
+/// new time.
 void Contacts::refine(const Event& event) {
   constexpr int kMost = 4;
   if (event.limit) return refine_limit(*event.limit);

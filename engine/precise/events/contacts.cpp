@@ -207,9 +207,9 @@ std::vector<std::array<double, 2>> Contacts::pulls(std::span<const ContactCandid
   return result;
 }
 
-/// Finds the approaches that are none: a gap that opens with the acceleration a and closes at v narrows by
-/// v^2 / (2 a). Within the rounding of a gap that is no impact: a corner level with the face on which a disc
-/// rolls is met so.
+/// Finds approaches that do not count as impacts: a gap that opens with the acceleration a and closes at v
+/// narrows by only v^2 / (2 a). If that is within the rounding of a gap, there is no impact. A corner level
+/// with the face on which a disc rolls is an example.
 void Contacts::find_grazes(std::vector<ContactCandidate>& touches) {
   const std::vector<Twist<double>> now = accelerations();
   for (ContactCandidate& touch : touches) {
@@ -307,8 +307,8 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   return resolve_zeno_contacts(touches) ? Decision::Again : Decision::Done;
 }
 
-/// Gives patches that begin to slip the kinetic friction, which may be less than the static one that they
-/// have overcome. Returns true if there were any.
+/// Sets the kinetic friction of patches that begin to slip, which may be less than the static friction that
+/// they have overcome. Returns true if there were any.
 bool Contacts::start_sliding(std::span<const ContactCandidate> touches, TouchProblem& p,
                              const CoulombSolution& solution) {
   bool any = false;
@@ -323,7 +323,7 @@ bool Contacts::start_sliding(std::span<const ContactCandidate> touches, TouchPro
   return any;
 }
 
-/// Next to far stronger motors the digits of other forces would be lost: reduce their bounds as long as the
+/// Beside far stronger motors other forces would lose their digits: reduce the motors' bounds as long as
 /// weaker motors suffice.
 CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> brakes) {
   constexpr double kStronger = 1e3;

@@ -41,7 +41,7 @@ class Contacts {
   /// Handles the event at the motion's time; also after jumps of forces and changes from outside.
   void settle();
   bool settled() const { return settled_; }
-  /// Decides about contacts anew, for a reason that is not an event of the motion.
+  /// Determines the contact modes anew, for a reason that is not an event of the motion.
   void unsettle() {
     settled_ = false;
     record_.guard.reset();
@@ -51,7 +51,7 @@ class Contacts {
   /// Cuts the last step at its first event, and is then unsettled.
   void stop();
 
-  /// A function that is zero where a step ended, and whose zero moves with the state and with parameters: the
+  /// A function that is zero where a step ended, and whose zero depends on the state and on parameters: the
   /// gap of a feature of two shapes or its rate, the gap of a limit, or a monitored quantity of a persistent
   /// contact.
   struct Guard {
@@ -65,7 +65,7 @@ class Contacts {
     int point = 0;
     bool operator==(const Guard&) const = default;
   };
-  /// Record of the last `stop` and `settle`, for those that follow the event with other states.
+  /// Record of the last `stop` and `settle`, for the code that follows the event with other states.
   struct Record {
     std::optional<Guard> guard;             ///< of the event at which the step ended
     std::optional<OutlinePair> met;         ///< shapes that met there; their features are among `touches`
@@ -79,12 +79,12 @@ class Contacts {
   double near() const { return near_; }  ///< m: gaps below it count as touching
   bool holds(const OutlinePair& pair) const { return std::binary_search(held_.begin(), held_.end(), pair); }
 
-  /// The same events with another scene of the same structure (contact_stop.cpp). `follow` takes over
-  /// which contacts and stops are held and how, with this scene's own shapes and coefficients.
+  /// The same events with another scene of the same structure (contact_stop.cpp). `follow` copies which
+  /// contacts and stops are held, and their modes; shapes and coefficients are those of this scene.
   void follow(const Contacts& other);
   /// Returns the value of a guard: m, m/s for a rate, or the unit of the monitored quantity.
   double guard_value(const Guard& guard, double time, std::span<const double> y);
-  /// Returns the guards of limits, forces and slips that are held, whose zeros end how they are held.
+  /// Returns the guards of held limits, forces and slips, whose zeros end their modes.
   std::vector<Guard> guards_of_modes() const;
   /// Resolves the impacts of `touches` at another state y: the same features, by this scene's coefficients.
   void impacts_at(double time, std::vector<ContactCandidate> touches, Compensated& y);

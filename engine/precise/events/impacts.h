@@ -12,7 +12,7 @@
 
 namespace plumb::precise {
 
-/// A motor or a brake at its speed: a force of at most `bound` along its row, N or N m, holds it there.
+/// A motor or a brake at its target speed, held there by a force of at most `bound` along its row, N or N m.
 struct Brake {
   std::size_t stop = 0;
   Row<double> row{};

@@ -33,7 +33,7 @@ class Stops {
   std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
                           std::vector<ContactCandidate>& touches);
 
-  /// Returns how fast the speed of a motor rises, m/s^2 or rad/s^2: not at all without a drive.
+  /// Returns the rate of a motor's target speed, m/s^2 or rad/s^2; 0 without a drive.
   double gain_of_speed(const Brake& brake, double time) const {
     return stop(brake.stop).speed_at(time).first;
   }
@@ -50,7 +50,7 @@ class Stops {
   void evaluate(double time, std::span<const double> y, std::span<double> values);
   std::size_t count() const { return modes_.size(); }
 
-  /// Declares that the last step ended at this limit: it counts as reached whatever rounding says.
+  /// Declares that the last step ended at this limit: it counts as reached, even if rounding leaves a gap.
   void meet(std::optional<std::size_t> limit) { met_ = limit; }
   bool is_free_limit(std::size_t stop) const;
 

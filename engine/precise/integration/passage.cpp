@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Independent fraction of a row below which it counts as dependent: the branches are that close there. The
-/// expected motion passes crossings within less.
+/// Independent fraction of a row below which it counts as dependent, because the branches are that close
+/// together there. The expected motion comes nearer than that when it passes a crossing.
 constexpr double kLost = 1e-7;
 /// Allowed gap of a linkage at a crossing, in roundings of the scene's extent. If it is wider, the branches
 /// do not meet: they approach and turn away, fast but smoothly.

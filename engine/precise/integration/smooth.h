@@ -135,7 +135,8 @@ class EventFreeIntegrator {
   void project(double time, Compensated& y);
 
   /// Number of steps whose errors together equal `Precise::tolerance`. Errors add up over thousands of steps
-  /// and grow along chaotic motion; a method of order 8 needs 2.4 times the steps for these three digits.
+  /// and grow along chaotic motion; a method of order 8 needs 2.4 times as many steps for these three
+  /// additional digits.
   static constexpr double kSteps = 1000;
 
   const double tolerance_;

@@ -11,13 +11,15 @@
 namespace plumb::precise {
 namespace {
 
-/// Distance in steps beyond which a crossing is ignored. At tolerances finer than kNearAt steps may stay
-/// small beside it: those that see the singularity of the equations off the branch shorten in proportion to
-/// the distance, and where rounding limits them (divided by the strength of a weak row) in proportion to the
-/// tolerance. So the distance grows as that falls; else steps would never come near, and end by underflow.
+/// Distance in steps above which a crossing is ignored. At tolerances finer than kNearAt steps may stay small
+/// beside it: the steps that see the singularity off the branch shorten in proportion to the distance, and
+/// steps limited by rounding (divided by the strength of a weak row) in proportion to the tolerance. So the
+/// distance grows as the tolerance falls. Otherwise steps would never come near the crossing, and end by
+/// underflow.
 constexpr double kNear = 5, kNearAt = 1e-9;
 /// Independent fraction of the weakest row below which rows count as weak: some 0.3 rad from a crossing.
-/// Beyond it steps feel no crossing, and the greater distance would take others' motion for an approach.
+/// Above it steps are not affected by a crossing, and with a greater distance other motions would count as an
+/// approach.
 constexpr double kWeak = 0.1;
 /// Look-ahead in steps: a step that ends before a crossing leaves room for the one across it.
 constexpr double kAhead = 2.2;
@@ -54,7 +56,7 @@ bool EventFreeIntegrator::is_near_crossing() {
   return now * h < std::abs(now - before) * steps * std::max(proposed_step_, h);
 }
 
-/// Sets, before a step, the expected motion from the motion so far.
+/// Extrapolates, before a step, the expected motion from the motion so far.
 void EventFreeIntegrator::expect_passage() {
   const bool near = is_near_crossing();
   if (near && !near_) {
@@ -69,7 +71,7 @@ void EventFreeIntegrator::expect_passage() {
   passage_.expect(path, start_, time_, y0_.value());
 }
 
-/// Decides by the rows themselves if there was no last step.
+/// Uses the rows themselves if there was no last step.
 void EventFreeIntegrator::look_at_rows() {
   if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
       equations_.holds_anything())

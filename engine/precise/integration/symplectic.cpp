@@ -36,9 +36,9 @@ void SymplecticMotion::step(double time, double h, Compensated& y) {
   for (int i = kHalf; i-- > 0;) go(kGamma[i]);
 }
 
-/// Makes one RATTLE step: half a kick, the drift with the joints' impulses that close them at its end, then
-/// the other half kick with the impulses that keep them closed. Starts with the accelerations and the
-/// Jacobian at y, and ends with those at the new y.
+/// Makes one RATTLE step: changes velocities by half the accelerations, moves with the joint impulses that
+/// close the joints at the end, then adds the other half with the impulses that keep them closed. Starts with
+/// the accelerations and the Jacobian at y, and ends with those at the new y.
 void SymplecticMotion::stage(double time, double h, Compensated& y) {
   kick(0.5 * h, acceleration_, y);
   drift(time, h, y);

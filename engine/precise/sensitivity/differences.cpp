@@ -47,15 +47,15 @@ void Sensitivities::derive_by_parameter(std::size_t parameter, const Function& f
     out[i] = (values_[0][i] - values_[3][i] + 8 * (values_[2][i] - values_[1][i])) / (12 * steps_[parameter]);
 }
 
-/// Derives a function along a direction and by a parameter together, at the present state. Returns false if
-/// it has a kink at the present state: second differences of two widths then do not differ as those of a
-/// smooth function, whose ratio is four.
+/// Derives a function along a direction and by a parameter together, at the current state. Returns false if
+/// the function has a kink there: second differences of two widths then do not have the ratio of four that
+/// those of a smooth function have.
 bool Sensitivities::derive(std::size_t parameter, const Function& function, const Direction& along,
                            std::span<const double> scale, std::span<double> out) {
   middle_.resize(out.size());
   part_.resize(out.size());
   function(*own_, now_.time, now_.y, middle_);
-  // In units of `scale`: the largest derivative, and what a kink would leave.
+  // In units of `scale`: the largest derivative, and the remainder due to a kink.
   const auto is_smooth = [&](std::span<const double> derivative, double width, double least) {
     double largest = least, kink = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {

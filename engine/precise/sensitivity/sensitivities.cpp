@@ -18,8 +18,8 @@ constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 constexpr double kLeastTolerance = 1e-11, kMostTolerance = 1e-9;
 /// Number of impacts at one instant that count as a cascade.
 constexpr std::int64_t kCascade = 100;
-/// Disagreement of event times of impacts at one instant, in units of the scene's own time over the
-/// parameter's scale, up to which the parameter moves them together.
+/// Largest difference between the shifts of the times of two impacts at one instant for which the parameter
+/// shifts them together, in units of the scene's own time over the parameter's scale.
 constexpr double kTogether = 1e-7;
 /// Distance of zeros of two guards in the scene's own time that counts as one instant: events are found to
 /// about 1e-12 of it.
@@ -128,7 +128,7 @@ class Sensitivities::VariationalFlow final : public Flow {
         all_.derive_by_parameter(parameters_[k], law_, from, part_);
         for (std::size_t i = 0; i < n; ++i) change[i] += part_[i];
       }
-      // Places change with the velocities, whatever the laws.
+      // Positions change with the velocities, under any laws.
       for (std::size_t i = 0; i < n; ++i) {
         if (i % kPerBody < 3) change[i] = by[i + 3];
       }
@@ -144,8 +144,8 @@ class Sensitivities::VariationalFlow final : public Flow {
   };
 };
 
-/// Integrates the state and the derivatives by `parameters` to `end`, between events. Returns those of them
-/// whose derivatives are lost on the way: no step is short enough, or they are not finite.
+/// Integrates the state and the derivatives by `parameters` to `end`, between events. Returns the parameters
+/// whose derivatives are lost on the way, because no step is short enough or they are not finite.
 std::vector<std::size_t> Sensitivities::integrate(Present& present, std::span<const std::size_t> parameters,
                                                   double end) {
   const std::size_t n = scale_.size();
@@ -244,7 +244,7 @@ void Sensitivities::write(std::size_t body, std::optional<std::size_t> slot, dou
     std::fill_n(by.begin() + static_cast<std::ptrdiff_t>(kPerBody * *slot), kPerBody, 0.0);
 }
 
-/// Returns the guard of an event; nothing if it has none that moves.
+/// Returns the guard of an event; nothing if the event has no guard that depends on the motion.
 std::optional<Contacts::Guard> Sensitivities::guard_of(const Contacts::Record& record) const {
   if (!record.met) return record.guard;
   for (const ContactCandidate& touch : record.touches) {
@@ -291,8 +291,8 @@ bool Sensitivities::opens_start(std::size_t j, const Contacts::Record& record) {
   return false;
 }
 
-/// Friction ends slips that a parameter gives contacts which stick or roll at the start: it needs no time for
-/// slight ones, and its impulse is the one that ends them.
+/// Friction ends slips that a parameter gives to contacts which stick or roll at the start. For infinitesimal
+/// slips this takes no time, and the impulse is the one that ends the slip.
 void Sensitivities::stop_slips(std::size_t j) {
   const auto project = [](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
     Compensated state = as_state(y);
@@ -304,7 +304,7 @@ void Sensitivities::stop_slips(std::size_t j) {
   now_.by[j] = by;
 }
 
-/// Takes one parameter's derivative through the event up to the impacts; returns the change of the event's
+/// Carries one parameter's derivative through the event, up to the impacts; returns the change of the event's
 /// time.
 double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::span<const double> before_rate,
                            const std::optional<Contacts::Guard>& guard, double guard_rate,
@@ -356,8 +356,8 @@ double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::s
   return later;
 }
 
-/// Computes the rate of a guard along the motion, `rate`; returns true if the motion may as well not reach
-/// its zero: a gap whose motion would end its approach within the rounding of the gap.
+/// Computes the rate of a guard along the motion, `rate`; returns true if it is uncertain that the motion
+/// reaches the guard's zero: the approach of a gap ends within the rounding of the gap.
 bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guard,
                            std::span<const double> rate, double& guard_rate) {
   double found[1];
@@ -377,8 +377,8 @@ bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guar
   return !(guard_rate < 0) || guard_rate * guard_rate <= 2 * bend * contacts.near();
 }
 
-/// Returns the other guards that fall through zero with the one of the event: what they guard changes at the
-/// same instant, and has no event of its own.
+/// Returns the other guards that pass through zero together with the event's guard: their modes change at the
+/// same instant, without events of their own.
 std::vector<Sensitivities::Zero> Sensitivities::zeros_beside(const Contacts::Guard& guard,
                                                              std::span<const double> rate) {
   std::vector<Zero> zeros;

@@ -43,12 +43,12 @@ class Sensitivities {
   void start(double time, const Compensated& given, const Compensated& closed);
   /// Continues to `time` without an event; `y` is the run's state there.
   void advance(double time, const Compensated& y);
-  /// Takes the event of the last step: `before` and `after` are the run's states, `contacts` the run's.
+  /// Handles the event of the last step: `before` and `after` are the run's states, `contacts` the run's.
   void pass_event(const Compensated& before, const Compensated& after, const Contacts& contacts);
   /// Switches forces that change at `time`.
   void switch_forces(double time);
-  /// Sets a body's state from outside: it does not depend on parameters any more. `slot` is that of an
-  /// integrated body.
+  /// Sets a body's state from outside: it no longer depends on parameters. `slot` is that of an integrated
+  /// body.
   void write(std::size_t body, std::optional<std::size_t> slot, double time, const BodyState& state);
   /// Ends all derivatives.
   void fail_all(NoDerivative reason, double time);
@@ -57,7 +57,8 @@ class Sensitivities {
   /// those of the state over the parameter's. Throws `NotDifferentiable`. Leaves all derivatives as they are.
   std::vector<BodyState> at(std::size_t parameter, double time, std::size_t bodies);
 
-  /// Throws `NotDifferentiable` with what ended the derivative before, or else with `reason` and `time`, s.
+  /// Throws `NotDifferentiable` with the recorded reason why the derivative ended, or else with `reason` and
+  /// `time`, s.
   [[noreturn]] void refuse(std::size_t parameter, NoDerivative reason, double time) const;
 
   void save(SnapshotWriter& out) const;

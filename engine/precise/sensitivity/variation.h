@@ -19,7 +19,7 @@ struct Variation {
   std::string name;  ///< of the parameter
   double step = 0;   ///< in its own unit
   std::array<Scene, kPlaces.size()> scenes{};
-  bool of_start = false;  ///< it is of the state at the start alone: the laws of motion do not depend on it
+  bool of_start = false;  ///< the parameter changes only the initial state, not the laws of motion
 };
 
 /// Returns the variations of `scene` by the numbers that `names` name (`numbers_at`), each of them `prepared`
