@@ -17,7 +17,7 @@ struct Differences {
   std::optional<double> angular_acceleration, angular_jerk;
 };
 
-// Feedback of angle errors through the forces that act at a time.
+// Feedback of angle errors through the forces at a given time.
 struct Feedback {
   double acceleration_per_rad = 0, angular_acceleration_per_rad = 0;
 };
@@ -171,8 +171,8 @@ class Growth {
     return body.mass * lever / inertia_of(body);
   }
 
-  // Adds the error of persistent contact forces that act a substep early or late. Perpendicular to the
-  // permitted motion the contacts correct this error, so it does not accumulate (`held_`). Along the motion
+  // Adds the error of persistent contact forces that act a substep early or late. The contacts correct this
+  // error perpendicular to the permitted motion, so it does not accumulate there (`held_`). Along the motion
   // it stays, from the start of the contact on.
   void hold(std::size_t index, Vec2d acceleration, double angular_acceleration, Vec2d velocity, bool begins,
             Parts& growth) {

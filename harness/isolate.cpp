@@ -75,7 +75,7 @@ void limit_memory(std::size_t bytes) {
 #endif
 }
 
-// Ends as the engine's program did, so that the work is done again as after a kill of this process.
+// Ends in the same way as the engine's program, so that the work is repeated as after a kill of this process.
 [[noreturn]] void die_with_it(const char* why) {
   std::fprintf(stderr, "%s\n", why);
   std::fflush(stderr);

@@ -28,10 +28,10 @@ struct ChildLimits {
   std::size_t memory;  ///< bytes of address space, of the process and of each that it starts; 0: any
 };
 
-/// Runs `work` in a forked child, in a process group of its own that is killed at the time limit or at an
-/// interrupt. A child that is killed by anyone else says nothing about its work, which is done again, up to
-/// reference::kAttempts times; so is work whose engine's program was killed. The child's output is discarded,
-/// except for the last lines of a crash. Call without threads running.
+/// Runs `work` in a forked child, in its own process group that is killed at the time limit or at an
+/// interrupt. If another process kills the child, that is no fault of the work, which is repeated, up to
+/// reference::kAttempts times; it is also repeated if its engine's program was killed. The child's output is
+/// discarded, except for the last lines of a crash. Call without threads running.
 Outcome isolate(const std::function<std::string()>& work, const ChildLimits& limits);
 
 /// Runs `work(0)` to `work(count - 1)`, at most `jobs` at a time, each as `isolate` does. Calls `done` in
@@ -41,7 +41,7 @@ void isolate_all(std::size_t count, int jobs, const std::function<ChildLimits(st
                  const std::function<std::string(std::size_t)>& work,
                  const std::function<void(std::size_t, const Outcome&)>& done);
 
-/// Runs them with the same limits for all.
+/// Runs all of them with the same limits.
 void isolate_all(std::size_t count, int jobs, const ChildLimits& limits,
                  const std::function<std::string(std::size_t)>& work,
                  const std::function<void(std::size_t, const Outcome&)>& done);

@@ -9,8 +9,8 @@
 
 namespace plumb::harness {
 
-/// Linearised force of a spring or an attraction on a body: such a force changes with the errors of position
-/// and velocity.
+/// Linearised force of a spring or an attraction on a body, whose change with errors of position and velocity
+/// the bounds need.
 struct Pull {
   std::size_t body = 0;
   std::optional<std::size_t> partner{};
@@ -18,8 +18,8 @@ struct Pull {
   double stiffness = 0, damping = 0, force = 0;  ///< N/m, N s/m, N
 };
 
-/// Returns the pulls on each body that such a law acts on. A spring's force changes by k along it and by T/l
-/// across; an attraction's by max(n, 1) F/r.
+/// Returns the linearised forces on each body that such a law acts on. A spring's force changes by k along it
+/// and by T/l across; an attraction's by max(n, 1) F/r.
 std::vector<Pull> pulls_in(const Scene& scene, std::span<const BodyState> states);
 
 }  // namespace plumb::harness

@@ -43,7 +43,7 @@ struct Result {
   std::string label;  ///< "elastic_collision/oblique", "pendulum_chain[20]"
   std::string engine, engine_version, precision;
   double dt = 0;                    ///< s
-  double sample = 0;                ///< s from one measured state to the next: dt or a multiple
+  double sample = 0;                ///< s, interval between measured states: dt or a multiple
   double duration = 0;              ///< s
   std::string truth;                ///< source of the exact answer
   reference::StepSettings asked{};  ///< requested settings: the same again gives the same run

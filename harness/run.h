@@ -21,7 +21,7 @@ struct Case {
   TruthTable truth;
 };
 
-/// Returns the facts known before a run starts: names, version, settings, and whether it is skipped.
+/// Returns the facts known before a run starts: names, version, settings, and the reason if it is skipped.
 Result describe(const Case& scene_case, const reference::Backend& backend,
                 const reference::StepSettings& settings);
 

@@ -11,9 +11,9 @@ namespace plumb::harness {
 /// Verdict on one run.
 enum class Ruling {
   Agrees,       ///< every check is within its bound
-  Misses,       ///< a check is not, or the run diverged
+  Misses,       ///< a check is outside its bound, or the run diverged
   Broke,        ///< the engine reported an error, crashed or hung
-  Unsupported,  ///< the engine does not have what the scene needs
+  Unsupported,  ///< the engine lacks a feature that the scene needs
   NotReached,   ///< the time was up before
 };
 std::string_view name_of(Ruling ruling);

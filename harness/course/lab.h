@@ -77,7 +77,8 @@ class Lab {
   /// step, each of half an epsilon. For adaptive methods adds 1e-6 `scale`.
   double rounding(double scale, double time) const;
 
-  /// Returns the bound of the method's relative error at `rate` 1/s: (rate h)^order / 2, at least `floor`.
+  /// Returns the bound of the method's relative error for a motion of angular frequency or decay rate `rate`,
+  /// 1/s: (rate h)^order / 2, at least `floor`.
   double method_error(double rate, double floor) const;
 
   /// Returns the fraction of a spin of `w` rad/s that a first-order method keeps over `time` s. A joint that
@@ -92,7 +93,7 @@ class Lab {
   double spin_kept_by_positions(double w, double time) const;
 
   /// Returns the factor on joint gaps, relative to dt = 1/60 s and at least 1: a step along the tangent
-  /// leaves a circle by (w dt)^2/2 of its radius.
+  /// leaves a circle by the fraction (w dt)^2/2 of its radius.
   double coarseness() const;
 
   /// Returns the displacement in `time` s from velocity `v` under acceleration `a`, as the declared method

@@ -7,12 +7,13 @@
 namespace plumb::course {
 namespace {
 
-// m: beyond it a path says nothing but that it grows.
+// m, distance above which a path shows only that it diverges.
 constexpr double kFar = 30;
 
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
 
-// Adds the squared distances of the bodies' places; returns false once one is far away.
+// Adds the squared distances of the bodies' positions; returns false once a body is farther away than the
+// limit.
 bool add_distance(std::span<const BodyState> a, std::span<const BodyState> b, double& sum) {
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     const Vec2d way = a[i].position - b[i].position;
@@ -23,7 +24,7 @@ bool add_distance(std::span<const BodyState> a, std::span<const BodyState> b, do
   return true;
 }
 
-// Returns the number of states before a body is far away.
+// Returns the number of states before a body is farther away than the limit.
 std::size_t length(const Trace& trace) {
   const auto far = [](const std::vector<BodyState>& states) {
     return std::any_of(states.begin(), states.end(),
@@ -92,7 +93,8 @@ bool static_moves(const std::vector<Recorded>& runs) {
 }
 
 bool pushes_farther(const std::vector<Recorded>& seen, const std::vector<Recorded>& predicted, double share) {
-  constexpr double kMore = 1.25;  // contacts are found at other times, and one pair may have several
+  // Factor for contacts found at other times, and for several contacts of one pair.
+  constexpr double kMore = 1.25;
   for (std::size_t r = 0; r < std::min(seen.size(), predicted.size()); ++r) {
     if (!seen[r].scene.joints.empty()) continue;
     double fastest = 0;

@@ -10,43 +10,44 @@
 /// Compares an engine's motion and figures with those of a mistake.
 namespace plumb::course {
 
-/// Compares the first `runs` runs: what a check needs apart from experiments with an engine that fails it.
+/// Compares the first `runs` runs, which are those of the check without its experiments on engines that fail
+/// it.
 double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
 
-/// Adds up the same distance while runs are under way.
+/// Accumulates the same distance while runs are under way.
 class Distance {
  public:
   Distance(const std::vector<Recorded>& from, std::size_t runs) : from_(from), runs_(runs) {}
 
-  /// Adds a state of a run, both by number, and returns the distance until then.
+  /// Adds a state, given by the numbers of run and state, and returns the distance so far.
   double add(std::size_t run, std::size_t state, std::span<const BodyState> states);
 
  private:
   const std::vector<Recorded>& from_;
   std::size_t runs_, run_ = 0;
   double sum_ = 0;
-  bool ended_ = false;  ///< the path of the present run leads too far away
+  bool ended_ = false;  ///< the path of the current run has left the range in which paths are compared
 };
 
-/// Returns true if a path of `a` leads too far away to be compared, sooner than that of `b`.
+/// Returns true if a path of `a` leaves the range in which paths are compared before that of `b` does.
 bool ends_sooner(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
 
-/// Returns true if each reading is that of the mistake, within the tolerance that figures of mistakes have.
+/// Returns true if each reading equals that of the mistake, within the tolerance for figures of mistakes.
 bool same_readings(const Finding& seen, const Finding& predicted);
 
-/// Returns true if each reading is that of the mistake, within a hundredth of its distance from the right one
-/// or a tenth of the reading's own tolerance.
+/// Returns true if each reading equals that of the mistake, within a hundredth of its distance from the
+/// correct one or a tenth of the reading's own tolerance.
 bool same_figures(const Finding& seen, const Finding& predicted);
 
-/// Returns true if a static body has a velocity or leaves its place.
+/// Returns true if a static body has a velocity or moves.
 bool static_moves(const std::vector<Recorded>& runs);
 
-/// Returns true if steps move bodies farther than any overlap that a mistake predicts, by an engine that
-/// removes `share` of an overlap in each: corrections of positions are then wrong, whatever else is. False
-/// for scenes with joints, which are corrected as well.
+/// Returns true if steps move bodies farther than any overlap that a mistake predicts, for an engine that
+/// removes the fraction `share` of an overlap in each step: position corrections are then wrong,
+/// independently of other mistakes. False for scenes with joints, which are corrected as well.
 bool pushes_farther(const std::vector<Recorded>& seen, const std::vector<Recorded>& predicted, double share);
 
-/// Returns true if a wrong reading is predicted, and what was seen is nearer to the right one.
+/// Returns true if the mistake predicts a wrong reading, but the engine's is nearer to the correct one.
 bool refutes(const Finding& seen, const Finding& predicted);
 
 bool finite(const Finding& finding);

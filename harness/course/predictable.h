@@ -4,14 +4,14 @@
 
 #include "harness/course/prediction.h"
 
-/// The mistakes whose motion can be computed, by the chapters that teach what they get wrong.
+/// The mistakes whose motion can be computed, by the chapters that teach the subject of the mistake.
 namespace plumb::course {
 
 std::vector<Predictable> mistakes_of_motion();
 std::vector<Predictable> mistakes_of_contacts();
 std::vector<Predictable> mistakes_of_joints();
 
-/// Returns every way to mix the x and y of a vector, for every vector of an engine.
+/// Returns every way to mix up the x and y of a vector, for every vector of an engine.
 std::vector<Predictable> mistakes_of_axes();
 
 }  // namespace plumb::course

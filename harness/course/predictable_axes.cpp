@@ -2,7 +2,7 @@
 
 #include "harness/course/predictable.h"
 
-// The mistakes that mix the x and y of a vector: each vector of an engine, in each way.
+// The mistakes that mix up the x and y of a vector: each vector of an engine, in each way.
 namespace plumb::course {
 namespace {
 

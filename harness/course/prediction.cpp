@@ -17,24 +17,25 @@
 namespace plumb::course {
 namespace {
 
-// A mistake that fits less well than another by this factor does not count beside it.
+// A mistake is dropped if another one fits better by this factor.
 constexpr double kClearly = 5;
 
-// Paths nearer than this fit equally well: with contacts, and in free flight, where only rounding differs.
+// Paths nearer than this fit equally well: one value with contacts, one in free flight, where only rounding
+// differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
 
-// The same for a mistake of any factor: its path is fitted, and must lie closer.
+// The same for a mistake with a fitted factor: its path must be nearer.
 constexpr double kFittedPath = 0.02, kExactPath = 0.001;
 
-// Returns true if the learner's engine without a mistake fails in the same way: it is the declared method's
-// own motion, and no mistake has to explain it.
+// Returns true if the learner's engine without a mistake fails in the same way: the declared method itself
+// then causes the motion, and no mistake has to explain it.
 bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::size_t check) {
   const auto& right = predictions.of({}, check);
   return right && right->finding.verdict == Verdict::Fail && same_readings(outcome.finding, right->finding);
 }
 
-// Returns the ways to make the mistake of a name that can spoil a check: those that fitted one before, and
-// all that are known.
+// Returns the variants of a named mistake that can affect a check: those that fitted an earlier check, and
+// all known ones.
 std::vector<Planted> ways_to_make(const std::vector<Predictable>& mistakes, const std::string& name,
                                   const std::vector<std::vector<Fit>>& found) {
   std::vector<Planted> out;
@@ -46,8 +47,8 @@ std::vector<Planted> ways_to_make(const std::vector<Predictable>& mistakes, cons
   return out;
 }
 
-// Returns true if one of the mistakes would fail a check; in the eyes of the check's own experiments as what
-// `proven` names, unless that is empty.
+// Returns true if one of the mistakes would fail a check. If `proven` is not empty, the check's own
+// experiments must also name that mistake.
 bool fails_as_well(const std::vector<Planted>& mistakes, Predictions& predictions, std::size_t check,
                    const std::string& proven = "") {
   return std::any_of(mistakes.begin(), mistakes.end(), [&](const Planted& planted) {
@@ -60,7 +61,7 @@ bool better(const Fit& a, const Fit& b) {
   return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
 }
 
-// Returns true if a mistake's figures are those of the same engine without it: it then explains nothing.
+// Returns true if a mistake gives the same figures as the engine without it: it then explains nothing.
 bool changes_nothing(Predictions& predictions, std::size_t manner, std::size_t check, const Attempt& wrong) {
   const auto& right = predictions.of({"", manner}, check);
   if (!right || right->finding.readings.size() != wrong.finding.readings.size()) return false;
@@ -69,7 +70,7 @@ bool changes_nothing(Predictions& predictions, std::size_t manner, std::size_t c
   return true;
 }
 
-// Keeps the best mistake of each name. Of a family, all that fit as well are described.
+// Keeps the best mistake of each name. Of a generated family, all that fit equally well are described.
 std::vector<Fit> one_for_each_name(const std::vector<Fit>& sorted) {
   std::vector<Fit> out;
   for (const Fit& fit : sorted) {
@@ -87,7 +88,7 @@ std::vector<Fit> one_for_each_name(const std::vector<Fit>& sorted) {
   return out;
 }
 
-// Returns true if anything moves: what is held in its place tells nothing of the cause.
+// Returns true if anything moves: bodies held in place do not show the cause.
 bool moves(const std::vector<Recorded>& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const Recorded& run) {
     for (std::size_t b = 0; b < run.scene.bodies.size(); ++b)
@@ -96,7 +97,7 @@ bool moves(const std::vector<Recorded>& runs) {
   });
 }
 
-// Adds a mistake in each manner in which it fits.
+// Adds each variant of a mistake that fits.
 void add_fits(const Predictable& mistake, Predictions& predictions, const Outcome& outcome, std::size_t check,
               std::vector<Fit>& out) {
   for (std::size_t manner = 0; manner < predictions.manners(); ++manner) {
@@ -112,18 +113,18 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
     out.push_back({.name = mistake.name, .says = mistake.says, .planted = planted, .off = share});
     out.back().generated = mistake.generated;
     predictions.refute(planted, check, out.back());
-    // A mistake that is made in some cases only may pass a check that it would fail in all.
+    // A mistake that is made only in some cases may pass a check that it would otherwise fail.
     out.back().exact = share <= kEqual && moves(wrong->runs) && same_figures(outcome.finding, wrong->finding);
     if (out.back().refuted && !out.back().exact) out.pop_back();
   }
 }
 
-// Returns true if a mistake gives every verdict and every wrong reading of the chapter.
+// Returns true if a mistake predicts every verdict and every wrong reading of the chapter.
 bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 0; }
 
-// Returns the mistakes that fit, the best first, one for each name. Those that explain all of the chapter by
-// another check, `likely`, come first, and the others only if none of them fits; the generated families only
-// if no other mistake explains all.
+// Returns the mistakes that fit, the best first, one for each name. Mistakes that explain the whole chapter
+// by another check, `likely`, come first; other mistakes are returned only if none of these fits, and
+// generated families only if no other mistake explains everything.
 std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
                       const std::vector<Outcome>& chapter, std::size_t check, const std::string& named,
                       const std::vector<Fit>& likely) {
@@ -155,15 +156,15 @@ std::size_t wrong_readings(const std::vector<Outcome>& chapter) {
   return out;
 }
 
-// Returns a factor as text: as dt if it is that or its inverse, which tells more than a number.
+// Returns a factor as text: as dt or 1/dt if it equals one of these, which is more informative than a number.
 std::string factor_text(double factor, double dt) {
   const auto is = [&](double other) { return std::abs(factor / other - 1) < 0.01; };
   if (is(dt)) return "dt";
   return is(1 / dt) ? "1/dt" : fmt::format("{:.3g}", factor);
 }
 
-// Returns the quantities that give the motion with some factor. The factor is fitted to one check; what the
-// others show, or the whole path, must agree with it.
+// Returns the quantities whose factor can be fitted to the motion. The factor is fitted to one check; the
+// other checks, or the whole path, must agree with it.
 std::vector<Fit> fitted(Predictions& predictions, const std::vector<Outcome>& chapter, std::size_t check) {
   constexpr std::size_t kTried = 3;  // manners
   std::vector<Fit> out;
@@ -200,16 +201,18 @@ void narrow(std::vector<Fit>& found, const Outcome& outcome) {
   if (!found.empty()) {
     const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
     const Fit best = found.front();
-    // Contacts found at other times than here shift a path; a best one that lies closer shows that none were.
+    // Contacts found at other times than here shift a path. If the best path is nearer than such a shift,
+    // there was none.
     const double equal = exact ? kRounding : best.off < kExactPath ? kExactPath : kEqual;
     const double most = kClearly * std::max(best.off, equal);
-    // The other checks refute a mistake unless its motion here fits clearly better than that of the best.
+    // The other checks refute a mistake unless its motion in this check fits clearly better than that of the
+    // best.
     const double least = best.off / kClearly;
     std::erase_if(found, [&](const Fit& fit) {
       const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
       return fit.off > most || (worse && (fit.off >= least || best.off <= equal));
     });
-    // So do their motions there, if none is refuted by figures.
+    // If figures refute none, the motions in the other checks decide.
     double nearest = std::numeric_limits<double>::infinity();
     int signs = std::numeric_limits<int>::max();
     for (const Fit& fit : found)
@@ -220,7 +223,8 @@ void narrow(std::vector<Fit>& found, const Outcome& outcome) {
   }
 }
 
-// Keeps one of several mistakes: the one that an earlier check has named, or that alone fits another check.
+// Keeps one of several mistakes: the one that an earlier check has named, or the only one that fits another
+// check.
 void choose(std::vector<Fit>& found, const std::string& known, const std::set<std::string>& alone) {
   if (found.size() < 2) return;
   const auto keep = [&](const auto& is_it) {
@@ -242,14 +246,14 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
     return std::any_of(mistakes.begin(), mistakes.end(),
                        [&](const Predictable& mistake) { return name == mistake.name; });
   };
-  // Lets what was seen besides decide among several. If its own motion cannot be computed, only a close fit
-  // is better evidence.
+  // Lets symptoms decide among several mistakes. If the motion of a symptom's mistake cannot be computed,
+  // only a close fit is better evidence.
   const bool among =
       std::any_of(found.begin(), found.end(), [&](const Fit& fit) { return finding.mistake == fit.name; });
   const bool close = found.size() == 1 && found.front().off <= kEqual;
   if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
     return;
-  // A family is no better evidence than an experiment.
+  // A generated family is no better evidence than an experiment.
   if (finding.proven && std::all_of(found.begin(), found.end(), [](const Fit& fit) { return fit.generated; }))
     return;
   if (found.size() == 1) {
@@ -263,7 +267,7 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.name, fit.says);
     return;
   }
-  // Names nothing that was only suspected, and gives another motion.
+  // Does not name a mistake that was only suspected if its motion differs.
   if (finding.proven || finding.mistake.empty() || (!computed(finding.mistake) && !finding.observed)) return;
   unname(finding);
 }
@@ -300,10 +304,10 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
       choose(found[i], known, alone);
       name_check(mistakes, found[i], finding);
     }
-    // A suspicion that no motion confirms is dropped, where motions cannot be compared as well.
+    // Drops a suspicion that no motion confirms, also where motions cannot be compared.
     if (!chapter[i].check->repeatable && finding.observed && !finding.proven && finding.mistake != known)
       unname(finding);
-    // Blames no second mistake for what the first one does as well.
+    // Names no second mistake for a failure that the first mistake explains equally well.
     if (found[i].empty() && !known.empty() && finding.mistake != known &&
         fails_as_well(ways_to_make(mistakes, known, found), predictions, i,
                       finding.proven ? finding.mistake : "")) {
@@ -316,7 +320,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
                                    [&](const Fit& fit) { return finding.mistake == fit.name; });
     if (known.empty() && finding.computed) known = finding.mistake;
   }
-  // Gives the only mistake that the motions show to the checks that it fails and that have no name.
+  // If the motions show a single mistake, assigns it to the failed checks without a name.
   if (alone.size() != 1 || !alone.contains(known)) return;
   for (std::size_t i = 0; i < chapter.size() && chapter[i].finding.mistake != known; ++i) {
     Finding& finding = chapter[i].finding;

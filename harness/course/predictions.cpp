@@ -13,17 +13,18 @@
 namespace plumb::course {
 namespace {
 
-// Largest distance of two paths that count as the same, as a fraction of their distance from the right one. A
+// Largest distance of two paths that count as equal, as a fraction of their distance from the correct one. A
 // contact that is found a step sooner or later shifts a path by about a hundredth of it.
 constexpr double kSamePath = 0.1;
 
-// Right engines of different manners differ by this much in their paths, so that a wrong one may as well.
+// Correct engines of different design differ by this much in their paths, so a wrong one may deviate as much.
 constexpr double kManners = 2, kLoosePath = 0.3;
 
-// A share of the engine's distance from the right paths that a factor near the best one leaves, if it is far.
+// Largest distance that a factor near the best one leaves, as a fraction of the engine's distance from the
+// correct paths.
 constexpr double kHopeless = 0.2;
 
-// Paths that a mistake does not change are those of a right engine, to this distance.
+// Paths nearer than this to those of a correct engine count as not changed by a mistake.
 constexpr double kUnchanged = 1e-6;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -44,8 +45,8 @@ struct TooFar : std::runtime_error {
   TooFar() : std::runtime_error("too far") {}
 };
 
-// Ways to work that the learner's engines of a chapter differ in. Where one mistake makes sweeps differ from
-// each other, their number counts.
+// Design variants of the learner's engine by chapter. If a mistake makes results depend on the number of
+// iterations, variants with different numbers are included.
 std::vector<Manner> manners_of(int chapter) {
   switch (chapter) {
     case 1:
@@ -85,7 +86,7 @@ const std::optional<Attempt>& Predictions::of(const Planted& planted, std::size_
   return place->second;
 }
 
-// Runs a check until its paths are farther than `limit` from the engine's: nullopt then.
+// Runs a check until its paths are farther than `limit` from the engine's; returns nullopt in that case.
 std::optional<Attempt> Predictions::within(const Planted& planted, std::size_t check, double limit) const {
   const Outcome& outcome = chapter_[check];
   const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
@@ -111,9 +112,9 @@ const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::s
   return attempts_.emplace(std::pair{planted, check}, std::move(run)).first->second;
 }
 
-// Returns a distance of the engine's paths from those of a mistake beyond which `near` is false. With r for
-// the right paths, w for the mistake's and e for the engine's, `near` asks |e - w| <= a |r - w| + b, and
-// |r - w| <= |r - e| + |e - w|. That holds as long as paths are compared over the same times.
+// Returns a distance of the engine's paths from those of a mistake above which `near` is false. With r for
+// the correct paths, w for the mistake's and e for the engine's, `near` requires |e - w| <= a |r - w| + b,
+// and |r - w| <= |r - e| + |e - w|. The bound holds if all paths are compared over the same times.
 double Predictions::farthest(std::size_t check, std::size_t manner) {
   const auto [place, is_new] = farthest_.try_emplace({check, manner}, kInfinity);
   const auto& right = of({"", manner}, check);
@@ -144,7 +145,7 @@ void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {
   fit.signs += sees_another(check, of(planted, check)->finding);
 }
 
-// Returns true if a check sees a mistake in the motion that was predicted, and not in the engine's.
+// Returns true if a check detects a mistake in the predicted motion, but not in the engine's.
 bool Predictions::sees_another(std::size_t check, const Finding& predicted) const {
   return predicted.observed && predicted.mistake != seen_[check];
 }
@@ -169,7 +170,7 @@ bool Predictions::near(std::size_t check, std::size_t manner, const Attempt& wro
          far <= std::max(kSamePath * way + kManners * spread(check), kLoosePath * way);
 }
 
-// Returns the largest distance of the paths of right engines that work differently.
+// Returns the largest distance between the paths of correct engines of different design.
 double Predictions::spread(std::size_t check) {
   const auto [place, is_new] = spreads_.try_emplace(check, 0);
   if (!is_new) return place->second;
@@ -187,7 +188,7 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
   const auto& right = of({"", manner}, check);
   const std::size_t right_runs = right ? right->runs.size() : 0;
   double least = kInfinity;
-  // Returns infinity for what is farther than `limit`.
+  // Returns infinity for distances above `limit`.
   const auto far = [&](double factor, double limit) {
     const auto run = within({fmt::format("{}*{:.17g}", quantity, factor), manner}, check, limit);
     const double way = run ? distance(chapter_[check].runs, run->runs, right_runs) : kInfinity;
@@ -208,7 +209,7 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
   double lower = high - kGolden * (high - low), upper = low + kGolden * (high - low);
   double at_lower = far(lower, kInfinity), at_upper = far(upper, kInfinity);
   for (int i = 0; i < 24; ++i) {
-    // A twentieth of the interval changes the path by little: what is not near by then never is.
+    // A twentieth of the interval changes the path little: if it is not near then, it never is.
     if (i == 7 && least > kHopeless * all) return std::nullopt;
     if (at_lower < at_upper) {
       high = std::exchange(upper, lower);

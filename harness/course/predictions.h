@@ -20,7 +20,7 @@ struct Attempt {
   std::vector<Recorded> runs;
 };
 
-/// A mistake as the learner's engine makes it, in one of the ways in which engines work.
+/// A mistake as the learner's engine makes it, in one of the engine's design variants.
 struct Planted {
   std::string mistake;
   std::size_t manner = 0;
@@ -32,14 +32,14 @@ struct Planted {
 struct Fit {
   std::string name, says;
   Planted planted;
-  double off = 0;  ///< distance of the paths over that from the right ones
+  double off = 0;  ///< ratio of the paths' distance to the mistake's distance from the correct paths
   // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
   int verdicts = 0, readings = 0;
   double elsewhere = 0;    ///< largest `off` of the other checks that fail
   bool generated = false;  ///< one of a family
-  bool exact = false;      ///< its figures are the engine's, and its paths as good as
+  bool exact = false;      ///< its figures equal the engine's, and its paths fit as well
   bool refuted = false;    ///< another check, which the engine passes, would clearly fail
-  int signs = 0;           ///< checks that see a mistake in its motion, and not in that of the engine
+  int signs = 0;           ///< number of checks that detect a mistake in its motion, but not in the engine's
 };
 
 /// Runs each check at most once for each mistake.
@@ -50,11 +50,11 @@ class Predictions {
   /// Returns nullopt if the check throws.
   const std::optional<Attempt>& of(const Planted& planted, std::size_t check);
 
-  /// Returns nullopt as well if the paths are too far from the engine's for `near`. Such a run ends as soon
-  /// as that is clear, which for most mistakes is early in the first scene.
+  /// Also returns nullopt if the paths are too far from the engine's for `near`. Such a run ends as soon as
+  /// that is certain, which for most mistakes is early in the first scene.
   const std::optional<Attempt>& nearby(const Planted& planted, std::size_t check);
 
-  /// Returns the share of an overlap that a step removes.
+  /// Returns the fraction of an overlap that a step removes.
   double share(std::size_t manner) const { return manners_[manner].after_move ? 1 : manners_[manner].share; }
 
   double dt() const { return lab_.dt(); }
@@ -64,17 +64,17 @@ class Predictions {
   /// Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
   void refute(const Planted& planted, std::size_t check, Fit& fit);
 
-  /// Returns the distance of the engine's paths from those of a mistake, over that of the right ones from
-  /// them. If only velocities are wrong it is 0: readings decide alone.
+  /// Returns the distance of the engine's paths from those of a mistake, divided by the distance of the
+  /// mistake's from the correct ones. If only velocities are wrong it is 0: only readings decide then.
   double off(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong);
 
-  /// Returns true if the engine's paths are those of a mistake. If its figures are exactly those, paths may
-  /// differ by more: by what right engines differ in, and by how overlaps are corrected that only the mistake
-  /// causes.
+  /// Returns true if the engine's paths equal those of a mistake. If its figures are exactly equal, paths may
+  /// differ by more: by the differences between correct engines, and by the correction of overlaps that only
+  /// the mistake causes.
   bool near(std::size_t check, std::size_t manner, const Attempt& wrong);
 
-  /// Returns the factor with which the learner's engine comes nearest to the engine's paths, or nullopt if it
-  /// does not come near them with any.
+  /// Returns the factor that brings the learner's engine nearest to the engine's paths, or nullopt if no
+  /// factor brings it near.
   std::optional<double> factor(const std::string& quantity, std::size_t manner, std::size_t check);
 
  private:
@@ -85,7 +85,7 @@ class Predictions {
 
   const Lab& lab_;
   const std::vector<Outcome>& chapter_;
-  std::vector<std::string> seen_;  ///< the mistakes that the checks themselves saw
+  std::vector<std::string> seen_;  ///< the mistakes that the checks themselves detected
   std::vector<Manner> manners_;
   std::map<std::pair<Planted, std::size_t>, std::optional<Attempt>> attempts_;
   std::set<std::pair<Planted, std::size_t>> too_far_;

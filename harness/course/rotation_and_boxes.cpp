@@ -187,7 +187,7 @@ Body upright(Crate crate) {
 
 // Lets two boxes of 2 kg and 1 kg with fixed rotation collide along x, at different heights.
 Finding upright_boxes_collide(const Lab& lab) {
-  // At restitution 1, two collisions give back the velocities that the two came with.
+  // At restitution 1, a second collision restores the initial velocities.
   const double u = 2, heavy = 2, light = 1, e = 0.7, j = (1 + e) * u / (1 / heavy + 1 / light);
   const Body a = upright({.name = "a",
                           .position = {-2.01, 0.2},
@@ -235,7 +235,7 @@ Finding least_overlap(const Lab& lab) {
       upright({.position = {x, start}, .velocity = {0, -v}, .width = 0.8, .height = 0.6, .restitution = e});
   const Trace trace = lab.run(scene_of("edge", {}, {box, platform}), 1);
   const double t = trace.duration();
-  // Moved by the whole overlap along x.
+  // Moves by the whole overlap along x.
   const double beside = (4 + 0.8) / 2;
   const bool out_at_the_side =
       std::abs(trace.last(0).position.x - beside) < 0.01 && std::abs(trace.last(0).velocity.x) < 0.002 * v;

@@ -18,7 +18,7 @@ struct Ball {
   std::string name = "ball";
   Vec2d position{}, velocity{};
   double mass = 1;
-  double radius = 0.4;  ///< not 0.5: with radii that sum to 1 m, an unnormalised normal is right by chance
+  double radius = 0.4;  ///< not 0.5: with a sum of 1 m, an unnormalised normal is correct by chance
   double restitution = 1;
 };
 
@@ -44,8 +44,8 @@ Scene scene_of(std::string name, Vec2d gravity, std::vector<Body> bodies);
 /// Returns the force `force` on the body's point `point` from `start` for `duration`.
 PointForce push(const std::string& body, Vec2d force, Vec2d point = {});
 
-/// Returns the least gain of downward speed in a step in which a ball of radius r is above the floor at 0,
-/// before and after, over g dt. It is 1 for any method.
+/// Returns the least gain of downward speed in a step, divided by g dt, over the steps in which a ball of
+/// radius r is above the floor at 0, before and after. It is 1 for any method.
 double least_gain_above(const Lab& lab, const Trace& trace, double r, double g);
 
 /// Returns the largest change of velocity, m/s, of two balls that pass a static box without touching it: one

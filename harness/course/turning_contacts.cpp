@@ -34,7 +34,7 @@ Body ground(double restitution, double friction) {
                           .friction = friction}));
 }
 
-// Returns the ratio of the speed to that of the step before, if it is the same and below 1 in most steps.
+// Returns the ratio of the speed to that in the previous step, if it is constant and below 1 in most steps.
 std::optional<double> slowed_by_ratio(const Trace& trace) {
   const std::size_t n = trace.states.size(), middle = n / 2;
   const auto ratio = [&](std::size_t k) {
@@ -59,8 +59,8 @@ Finding ball_hits_rod(const Lab& lab) {
         make(Crate{.name = "rod", .position = at, .mass = rod_mass, .width = width, .height = height});
     return lab.run(scene_of("rod", {}, rod_first ? std::vector{rod, ball} : std::vector{ball, rod}), 0.6);
   };
-  // Rods so light that the lever takes most of the effective mass: sweeps do not mend an impulse without it.
-  // On the long one, a lever that is not squared is as wrong as none.
+  // Rods so light that the lever has most of the effective mass: iterations do not repair an impulse computed
+  // without it. On the long one, a lever that is not squared is as wrong as none.
   struct LightRod {
     double mass, height, reach;
   };
@@ -92,7 +92,7 @@ Finding ball_hits_rod(const Lab& lab) {
   const auto off = [&](const Trace& t) { return std::abs(t.last(1).angular_velocity - w); };
   const double off_at_origin = off(meet({}));
   const bool right_at_origin = off_at_origin < 0.02 * std::abs(w) && 5 * off_at_origin < off(trace);
-  // A rod that turns about its centre at 2 rad/s, its end towards a ball that rests.
+  // A rod that rotates about its centre at 2 rad/s, its end moving towards a ball at rest.
   const auto turns_into_ball = [&] {
     Body rod = make(Crate{.name = "rod", .mass = rod_mass, .width = width, .height = height});
     rod.angular_velocity = -2;
@@ -100,7 +100,7 @@ Finding ball_hits_rod(const Lab& lab) {
     return lab.run(scene_of("turning rod", {}, {ball, rod}), 0.3).last(0).velocity.x;
   };
   const bool passes = trace.last(0).velocity.x != v && std::abs(turns_into_ball()) < 1e-9;
-  // Two boxes that collide off their centres: each has an arm of its own, while a ball's is along the normal.
+  // Two boxes that collide off-centre: each has a lever arm, while that of a ball is along the normal.
   const auto boxes_spin = [&] {
     const Trace t = lab.run(
         scene_of(
@@ -137,13 +137,14 @@ Finding ball_hits_rod(const Lab& lab) {
       .finding();
 }
 
-// Throws a ball at a long and at a short side of a static box that is turned by 15 degrees. In the box's
-// frame, only the velocity along the side's normal changes.
+// Throws a ball at a long and at a short side of a static box rotated by 15 degrees. In the box's frame, only
+// the velocity along the side's normal changes.
 Finding turned_box(const Lab& lab) {
   const double angle = 15 / kDegrees, e = 0.6, v = 2, along = 0.5, r = 0.3;
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const Vec2d at{0.5, -0.3};
-  // Ways to a side are no whole number of steps: rounding would decide in which one it is met.
+  // Distances to a side are no whole number of steps, otherwise rounding would decide in which step it is
+  // hit.
   const auto thrown = [&](Vec2d from, Vec2d velocity) {
     const Body ball =
         make(Ball{.position = at + q * from, .velocity = q * velocity, .radius = r, .restitution = e});
@@ -174,8 +175,8 @@ Finding lands_flat(const Lab& lab) {
                               .height = side,
                               .restitution = e});
   const Trace trace = lab.run(scene_of("flat", {}, {box, ground(e, 0)}), 0.8);
-  // A push at one corner of a tall box lifts the other corner as well, so that what the first one got must in
-  // part be taken back.
+  // A push at one corner of a tall box lifts the other corner as well, so part of the first corner's impulse
+  // must be removed again.
   const Body tall = make(Crate{
       .position = {0.3, 2}, .velocity = {0, -v}, .mass = 2, .width = 0.6, .height = 2, .restitution = 0});
   const Trace standing = lab.run(scene_of("tall", {}, {tall, ground(0, 0)}), 0.8);
@@ -183,7 +184,7 @@ Finding lands_flat(const Lab& lab) {
     return std::abs(landing.last(0).velocity.y - e * v) <= 0.005 * v &&
            std::abs(landing.last(0).angular_velocity) <= 0.02;
   };
-  // On ground of its own width there is nothing to clip.
+  // On ground of the box's own width there is nothing to clip.
   const auto lands_on_its_width = [&] {
     Body narrow = ground(e, 0);
     narrow.position.x = box.position.x;
@@ -333,7 +334,7 @@ Finding discs_rub(const Lab& lab) {
   a.shapes.front().friction = b.shapes.front().friction = 1;
   const Trace trace = lab.run(scene_of("discs", {}, {a, b}), 1);
   const double j = (1 + e) * v / (1 / ma + 1 / mb);
-  // A contact that is found a step late lies as deep, which changes an arm.
+  // A contact that is found a step late is one step's displacement deep, which changes an arm.
   const double share = 2 * v * lab.dt() / rb + 0.01;
   const Vec2d va = q.inverse() * trace.last(0).velocity, vb = q.inverse() * trace.last(1).velocity;
   const double spin_a = w - ra * across / ia, spin_b = -rb * across / ib;

@@ -6,7 +6,8 @@
 /// Checks of chapter 4 on bodies that turn and touch.
 namespace plumb::course {
 
-/// Says what is wrong with a lever arm that starts at the origin: checks of forces and of impacts find it.
+/// Describes the mistake of a lever arm that starts at the origin, which checks of forces and of impacts
+/// detect.
 inline constexpr const char* kLever =
     "The arm r is measured from the world's origin: measure it from the body's centre to the point.";
 

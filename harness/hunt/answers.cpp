@@ -14,7 +14,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 // Tolerance, as a fraction of the sizes of both shapes and the length of a cast: a hundred times the error of
-// shapes and rotations that are rounded to floats.
+// shapes and rotations rounded to floats.
 constexpr double kRounding = 2e-5;
 constexpr int kQueries = 12, kPlaces = 8;
 
@@ -157,7 +157,7 @@ class Questions {
     return {};
   }
 
-  // Sees a shape as its own rule says: 64 categories, each as good as another.
+  // Lets the query see a shape by a random rule: one of 64 categories.
   std::string filtered() {
     const Known& target = some();
     QueryFilter filter;

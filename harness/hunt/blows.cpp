@@ -1,5 +1,5 @@
-// Judges impacts, friction, motors and limits in small scenes of its own, whose answers are known in closed
-// form, or by Routh's method in many small parts.
+// Judges impacts, friction, motors and limits in small scenes of its own, whose results are known in closed
+// form, or by integrating an impact in many small parts (Routh's method).
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-/// Velocities of a body at the point where it strikes a floor, up and to the right.
+/// Velocities of a body at the point that strikes a floor, up and to the right.
 struct Blow {
   double mass = 1, inertia = 1;
   Vec2d arm{};  // m, from the centre
@@ -52,7 +52,7 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
     Blow then = at;
     then.push(own, friction * own);
     if (!stopped && then.along() * way <= 0) {
-      // Ends this part where the slip does.
+      // Ends this part at the impulse where the slip stops.
       own *= at.along() / (at.along() - then.along());
       stopped = true;
     }
@@ -61,7 +61,7 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
     work += 0.5 * own * (from + at.up());
   }
   if (rules.tangential_restitution > 0 && stopped && std::abs(at.along()) < 1e-6 * std::abs(slip)) {
-    // The largest part of what is to be restored that friction, the gap and the energy allow.
+    // The largest fraction of the requested restitution that friction, the gap and the energy allow.
     double low = 0, high = rules.tangential_restitution * std::abs(slip) / tt;
     const auto allowed = [&](double more) {
       Blow then = at;
@@ -82,7 +82,7 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
 }
 
 // Drops a box on a floor, on a corner or flat, and compares the velocities after the impact with the law of
-// its scene. In a World only with restitution: without, impacts are left to the step's solver.
+// its scene. A World is judged only with restitution: without it, impacts are left to the step's solver.
 std::string blown(Random& random, const Accuracy& accuracy) {
   const bool precise = std::holds_alternative<Precise>(accuracy);
   const double s = random.ladder(0.2, 5), wide = s, high = s * random.within(0.2, 1),
@@ -118,7 +118,7 @@ std::string blown(Random& random, const Accuracy& accuracy) {
            .shapes = {{.geometry = Box{wide, high}, .friction = mu, .restitution = e}}};
   box.velocity = {random.within(-2, 2) * speed, -speed};
   const bool level = flat && random.chance(0.5);  // both corners together
-  // A World meets what flies within a step; without spin it strikes as it starts.
+  // A World resolves impacts within a step. Without spin the box strikes with its initial angle.
   box.angular_velocity = level || !precise ? 0 : random.within(-1, 1) * speed / s;
   Blow blow{mass, inertia_of(box), arm, box.velocity, box.angular_velocity};
   scene.bodies.push_back(box);
@@ -142,7 +142,7 @@ std::string blown(Random& random, const Accuracy& accuracy) {
     double normal = (wanted * tt + slip * nt) / determinant,
            tangent = -(wanted * nt + slip * nn) / determinant;
     if (std::abs(tangent) > mu * normal) {
-      // Friction opposes the slip, or where there is none the one that it cannot stop.
+      // Friction opposes the slip or, at zero slip, the sliding that it cannot prevent.
       const double share = (slip != 0 ? slip < 0 : tangent > 0) ? mu : -mu;
       normal = wanted / (nn + share * nt), tangent = share * normal;
       right.push(normal, tangent);
@@ -176,7 +176,7 @@ std::string blown(Random& random, const Accuracy& accuracy) {
   const BodyState found = run.state(1);
   const double off =
       length(found.velocity - right.velocity) + s * std::abs(found.angular_velocity - right.spin);
-  // Impacts in flight are solved to rounding; Routh's method here is one of finite parts.
+  // A World's impacts in flight are exact to rounding; Routh's method here has finite parts.
   const auto* realtime = std::get_if<Realtime>(&accuracy);
   const double share = realtime == nullptr ? 4e-3 : realtime->precision == Precision::Double ? 1e-9 : 2e-4;
   if (off > share * (length(box.velocity) + s * std::abs(box.angular_velocity)))
@@ -189,8 +189,8 @@ std::string blown(Random& random, const Accuracy& accuracy) {
   return {};
 }
 
-// Checks that a block on a floor or a slope slides by its kinetic friction, and starts only beyond the static
-// one.
+// Checks that a block on a floor or a slope slides with its kinetic friction, and starts only above the limit
+// of static friction.
 std::string slid(Random& random) {
   const double s = random.ladder(0.2, 5), mu = random.within(0.1, 0.8), share = random.within(0.3, 1),
                g = 9.81;
@@ -249,7 +249,7 @@ std::string driven_hinge(Random& random) {
     return fmt::format(
         "a motor of {:.4g} rad/s and {:.4g} N m under {:.4g} N m turns at {:.7g} rad/s, not {:.7g}", w, most,
         load, found, right);
-  // A bar that its weight holds on a limit, and a ball that falls on its end.
+  // A bar whose weight holds it at a limit, and a ball that falls on its end.
   const double e = random.within(0, 1), speed = random.within(1, 5), radius = 0.1 * s;
   Scene stop{.name = "stop"};
   stop.bodies = {{.name = "bar",

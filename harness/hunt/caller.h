@@ -47,7 +47,7 @@ class Caller {
   // Returns true for a body that calls can wake.
   bool simulated() const { return dynamic() && world_.enabled(body_); }
 
-  /// Positions and velocities of three material points of a body: a change of mass leaves them as they are.
+  /// Positions and velocities of three material points of a body, which a change of mass must not change.
   struct MaterialPoints {
     std::vector<Vec2d> local, place, velocity;
     double spin = 0, fastest = 0;
@@ -60,15 +60,16 @@ class Caller {
   std::string moves_otherwise(const char* call, const MaterialPoints& before) const;
   /// Returns an objection if a change of mass has moved points of the body, or has not woken it.
   std::string mass_is_wrong(const char* call, const MaterialPoints& before);
-  /// Returns the hashes of awake bodies, as recordings have them after a step; none while changes of mass
+  /// Returns the hashes of awake bodies, as recordings store them after a step; none while changes of mass
   /// wait for the next step or call.
   std::vector<BodyHash> single_hashes() const;
-  /// Returns an objection if the call left the hash of the (awake) body unchanged, or changed another's.
+  /// Returns an objection if the call left the hash of the (awake) body unchanged, or changed that of another
+  /// body.
   std::string hash_is_wrong(const char* call, const std::vector<BodyHash>& before) const;
   /// Returns an objection if mass, centre and inertia are not those of the shapes' outlines.
   std::string mass_by_shapes();
   ShapeDefinition shape_of(double s);
-  /// Returns an objection if a sleeping body lies in a solid shape of the body, which may touch it.
+  /// Returns an objection if a sleeping body overlaps a solid shape of the body that it may touch.
   std::string sleepers_inside() const;
   bool is_joined(BodyId other) const;
 
@@ -111,7 +112,7 @@ class Caller {
   std::string destroy_shape();
   std::string change();
   std::string loads();
-  // Creates a joint anew that breaks at about its present load.
+  // Replaces a joint by one that breaks at about its present load.
   std::string rejoin();
   std::string destroy_joint();
 

@@ -13,7 +13,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 // Overlap, as a fraction of a shape's size, from which a new shape must wake a sleeping body. Below it the
-// two may count as touching, or not.
+// world may or may not count the two as touching.
 constexpr double kOverlap = 0.02;
 
 }  // namespace
@@ -24,7 +24,7 @@ std::string Caller<Real, Target>::make() {
   Make call = on_world();
   if (!bodies_.empty() && random_.chance(0.85)) {
     body_ = random_.pick(bodies_);
-    // Sleepers are what a call may fail to wake.
+    // Chooses sleeping bodies preferentially: these are what a call may fail to wake.
     for (int tries = 0; tries < 4 && (world_.awake(body_) || world_.type(body_) != BodyType::Dynamic);
          ++tries)
       body_ = random_.pick(bodies_);
@@ -39,7 +39,7 @@ std::string Caller<Real, Target>::make() {
   try {
     return (this->*call)();
   } catch (const Error&) {
-    return {};  // out of range, or of no such body
+    return {};  // a handle out of range, or of no such body
   }
 }
 
@@ -74,7 +74,7 @@ template <class Real, class Target>
 std::string Caller<Real, Target>::moves_otherwise(const char* call, const MaterialPoints& before) const {
   if (!dynamic()) return {};
   const MaterialPoints now = motion();
-  // A centre of mass away from the body shows the rounding of its place.
+  // A centre of mass far from the body's origin makes the rounding of its position visible.
   const double far = length(world_.centre(body_) - world_.position(body_)) + size();
   for (std::size_t i = 0; i < before.place.size(); ++i) {
     const Vec2d place = world_.world_point(body_, before.local[i]);
@@ -167,7 +167,7 @@ ShapeDefinition Caller<Real, Target>::shape_of(double s) {
 
 template <class Real, class Target>
 std::string Caller<Real, Target>::sleepers_inside() const {
-  // Leaves out bodies that move: they wake others when they meet them, in a step.
+  // Leaves out moving bodies, because they wake others when they hit them in a step.
   if (!world_.enabled(body_) || world_.type(body_) != BodyType::Static) return {};
   for (const ShapeId own : world_.shapes(body_)) {
     if (world_.sensor(own) || world_.valid(world_.chain(own))) continue;

@@ -9,10 +9,11 @@
 /// Random calls of a world's interface, as a game makes them between steps.
 namespace plumb::harness::hunt {
 
-/// Draws a call by the state of `world` and makes it through `target`: the world itself, or its recorder.
-/// Draws the usual values of a definition as often as others. Returns what is wrong afterwards (an answer
-/// that is not what was set, a motion that a change of mass changes, a sleeper that is not woken, a hash that
-/// does not change), or an empty text. Calls that are refused with an `Error` are left out.
+/// Draws a call for the state of `world` and makes it through `target`: the world itself, or its recorder.
+/// Draws the default values of a definition as often as others. Returns a description of the first error
+/// afterwards (a getter whose answer differs from the set value, a change of mass that changes the motion, a
+/// sleeping body that is not woken, a hash that does not change), or an empty text. Ignores calls that are
+/// rejected with an `Error`.
 template <class Real, class Target>
 std::string make_call(Random& random, const BasicWorld<Real>& world, Target& target);
 

@@ -83,7 +83,7 @@ std::string Caller<Real, Target>::destroy_shape() {
 template <class Real, class Target>
 std::string Caller<Real, Target>::change() {
   JointKind wanted = world_.kind(joint_);
-  // A member at a time goes back to its usual value; a motor or a spring comes and goes.
+  // Resets one member at a time to its default; switches a motor or a spring on or off.
   std::visit(
       [&](auto& kind) {
         const std::remove_reference_t<decltype(kind)> usual{};
@@ -112,7 +112,7 @@ std::string Caller<Real, Target>::change() {
 template <class Real, class Target>
 std::string Caller<Real, Target>::loads() {
   const JointReading reading = world_.read(joint_);
-  // Near what it bears, so that a little more or less decides.
+  // Near its present load, so that a slightly larger or smaller load decides.
   const double force = random_.chance(0.2) ? 0 : reading.force * random_.within(0.85, 1.02),
                torque = random_.chance(0.6) ? 0 : reading.torque * random_.within(0.85, 1.02);
   target_.set_load_events(joint_, force, torque);

@@ -51,7 +51,7 @@ enum class Quantity : std::uint8_t {
 inline constexpr std::string_view kQuantityNames[] = {
     "x", "y", "angle", "velocity_x", "velocity_y", "angular_velocity", "drift"};
 
-/// Requirement of an expectation: masses and inertias are those of the composition.
+/// Special value of `needs`: the expectation requires the composed masses and inertias.
 inline constexpr std::string_view kMasses = "masses";
 
 /// Property of the motion that is known from a scene's composition.

@@ -19,10 +19,10 @@ struct CaseSeed {
 /// Throws as `case_file::read_case`.
 CaseSeed read_seed(const std::string& path);
 
-/// Draws case `index` of a hunt among `seeds`, which must not be empty. Each seed comes first as it is.
-/// Then come variations: finer steps and sleep, for which the file's expectations still apply; or other
-/// masses, materials, places, frames and disturbances, for which only the laws do. The same arguments give
-/// the same case on every machine.
+/// Draws case `index` of a hunt among `seeds`, which must not be empty. Each seed comes first unchanged. Then
+/// come two kinds of variations: finer steps and sleep, for which the file's expectations still apply; and
+/// other masses, materials, positions, frames and disturbances, for which only the laws apply. The same
+/// arguments give the same case on every machine.
 Case vary(std::uint64_t seed, std::uint64_t index, const std::vector<CaseSeed>& seeds);
 
 /// Judges the engine by the expectations of the case's file, if its scene is the file's; nothing otherwise.

@@ -1,4 +1,5 @@
-// The motion of smooth discs that strike each other and what stands, event by event: closed forms alone.
+// Computes the motion of smooth discs that strike each other and static obstacles, event by event, from
+// closed forms alone.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +15,7 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// Largest growth of a perturbation for which a step's errors stay below the bound.
+// Largest growth of a perturbation for which the errors of a step stay below the bound.
 constexpr double kPerturbation = 1e-7, kGrown = 8;
 // Time between two impacts of one body, as a fraction of a step, up to which they count as simultaneous: for
 // these, mechanics determines no answer.
@@ -38,8 +39,8 @@ struct Obstacle {
   double restitution = 0;
 };
 
-/// Returns the first time at which a point that moves from `at` comes within `reach` of another, if it
-/// closes.
+/// Returns the first time at which a point that moves from `at` comes within `reach` of another, if they
+/// approach.
 double time_to_point(Vec2d at, Vec2d velocity, Vec2d other, double reach) {
   const Vec2d d = at - other;
   const double closing = dot(d, velocity), speed = dot(velocity, velocity);
@@ -58,7 +59,8 @@ struct Impact {
 
 class Discs {
  public:
-  /// Returns discs without friction that nothing else acts on; none if the scene has more.
+  /// Returns the frictionless discs of a scene on which nothing else acts; none if the scene contains
+  /// anything else.
   static std::optional<Discs> of(const Case& one) {
     const Scene& scene = one.scene;
     if (length(scene.gravity) > 0 || !scene.joints.empty() || !scene.forces.empty() || !one.sensors.empty())
@@ -99,10 +101,10 @@ class Discs {
 
   std::vector<Disc>& discs() { return discs_; }
   std::size_t impacts() const { return impacts_; }
-  std::vector<Impact> all() const;  ///< that each pair comes to as it moves
+  std::vector<Impact> all() const;  ///< next impact of each pair, for the present motion
 
-  /// Advances by step number `step`. Returns false where mechanics does not say what follows: impacts at the
-  /// same time, discs in each other, a heap that comes to rest.
+  /// Advances by step number `step`. Returns false if mechanics does not determine the motion: simultaneous
+  /// impacts, overlapping discs, a heap that comes to rest.
   bool step(int step) {
     for (const Action& action : *actions_)
       if (action.step == step && !act(action)) return false;
@@ -201,7 +203,7 @@ class Discs {
     const double closing = dot(impact.normal, a.velocity - (b != nullptr ? b->velocity : Vec2d{}));
     double fastest = 0;
     for (const Disc& disc : discs_) fastest = std::max(fastest, length(disc.velocity));
-    // Gives up at discs that touch softly or without restitution: they stay together.
+    // Gives up at discs that touch at low speed or without restitution: they stay together.
     if (closing > -1e-3 * fastest || e < 0.05) return false;
     const double impulse = -(1 + e) * closing / (a.inverse_mass + (b != nullptr ? b->inverse_mass : 0));
     a.velocity += impulse * a.inverse_mass * impact.normal;
@@ -273,7 +275,7 @@ bool are_smooth_discs(const Case& one) { return Discs::of(one).has_value(); }
 Verdict collisions_relation(const Case& one, const Engine& engine, const Motion& motion) {
   auto discs = Discs::of(one);
   if (!discs || !motion.failure.empty()) return {};
-  // Runs that begin a little elsewhere: what they part by is not known.
+  // Runs from slightly perturbed starts: the result is uncertain by the distance between them.
   std::vector<Discs> others(2, *discs);
   double largest = 0;
   for (const Disc& disc : discs->discs()) largest = std::max(largest, disc.radius);
@@ -292,7 +294,7 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
     if (discs->impacts() > 0) ++since;
     struck = discs->impacts() > before ? 0 : struck + 1;
     double fastest = 0, off = 0, wrong = 0, grown = 0;
-    // A step that ends at an impact ends before it for some.
+    // A step that ends at an impact ends before it in some runs.
     bool alike = true;
     for (Discs& other : others) {
       if (!other.step(step)) return {};

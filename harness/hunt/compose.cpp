@@ -95,7 +95,7 @@ Case compose(std::uint64_t seed, std::uint64_t index, const std::vector<const Id
   for (int tries = 0;; ++tries) {
     Draft attempt = draft;
     const Idiom* support = drawn(random, supports);
-    attempt.random = random;  // so that the next attempt is another
+    attempt.random = random;  // so that the next attempt draws different numbers
     build(attempt, *support);
     if (!accepts(*structure, attempt.site) && tries < 100) {
       random = attempt.random;

@@ -10,7 +10,7 @@ namespace plumb::harness::hunt {
 
 namespace {
 
-// Judges that cost no more than the run itself, or that each scene of theirs is made for.
+// Judges that cost no more than the run itself, or that every scene which they apply to is drawn for.
 bool is_always_due(const std::string& name) {
   static const std::set<std::string> cheap{"life",        "twins",   "collisions",  "integrated", "formulas",
                                            "wind",        "systems", "as_formulas", "damaged",    "loops",
@@ -18,8 +18,8 @@ bool is_always_due(const std::string& name) {
   return cheap.contains(name);
 }
 
-// Checks two of the relations per scene, in turn, because each costs a run or more, and those that are always
-// due; or the one called `law`.
+// Checks two of the relations per scene, in turn, because each costs a run or more, and all relations that
+// are always checked; or only the one called `law`.
 void check_some(const std::vector<Relation>& relations, const Engine& engine, const Case& one,
                 const std::string& law, const Motion& motion, Examined& out) {
   std::vector<const Relation*> apply;
@@ -67,7 +67,7 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
     if (!verdict) continue;
     verdict->law = each.name;
     out.objections.push_back(std::move(*verdict));
-    // A run that broke off is not checked against the other laws.
+    // A run that ended early is not checked against the other laws.
     if (each.name == "finite") return out;
   }
   // A run that broke a law is already known to be wrong. Promises hold for wrong motions as well.

@@ -55,7 +55,8 @@ std::string made_of(const Case& one, const std::string& law) {
   for (const Action& action : one.actions)
     actions.insert(std::string(kActionNames[static_cast<std::size_t>(action.kind)]));
   if (law == "events" || law == "sensors") return joined(actions);  // only actions matter
-  // Shapes matter only if they may touch: bodies that pass each other in the air are points.
+  // Shapes matter only if they may touch: for bodies that never touch, only the motion of their centres
+  // matters.
   pairs = !grounds.empty() || joints.empty();
   std::string out = joined(joints);
   if (pairs) {

@@ -1,4 +1,4 @@
-// Formulas: random ones against their value here, and force laws written as formulas.
+// Judges formulas: random ones against their value computed here, and force laws written as formulas.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -21,14 +21,15 @@ namespace {
 
 constexpr int kFormulas = 25;
 constexpr double kTolerance = 1e-9;
-// Error that a rounding causes at the end of a function's domain, as of acos at 1: the root of the rounding.
+// Error that a rounding causes at the end of a function's domain, as of acos at 1: the square root of the
+// rounding.
 constexpr double kRootOfRounding = 1e-7;
-// Relative error of a slope by differences, if two widths agree to a tenth of that.
+// Relative error of a slope by finite differences, if two step widths agree to a tenth of that.
 constexpr double kSlopeTolerance = 1e-5;
 
 using Number = long double;
 
-/// A random expression in x and y, as text and as a value that the standard library says.
+/// A random expression in x and y, as text and as its value computed by the standard library.
 class Expression {
  public:
   Expression(Random& random, int depth) {
@@ -179,7 +180,7 @@ class Expression {
 std::string wrong_formula(const Expression& expression, double x, double y) {
   static constexpr std::string_view kNames[] = {"x", "y"};
   const Formula formula(expression.text(), kNames);
-  // Values that rounding of the arguments changes are not known.
+  // Skips values that change with the rounding of the arguments.
   Number largest = 0;
   const Number right = expression.at(x, y, largest);
   const auto slope = [&](Number h) {
@@ -200,14 +201,14 @@ std::string wrong_formula(const Expression& expression, double x, double y) {
     return fmt::format("{} is {:.12g} at {}, {}, not {:.12g}", text, value, x, y, static_cast<double>(right));
   const Jet jets[] = {{x, 1}, {y, 0.5}};
   const Jet jet = formula.at(std::span<const Jet>(jets));
-  if (!std::isfinite(value) || !std::isfinite(jet.first)) return {};  // a pole, or an end, of a part
+  if (!std::isfinite(value) || !std::isfinite(jet.first)) return {};  // a pole, or outside of a domain
   if (!(std::abs(jet.first - narrow) <= kSlopeTolerance * (1 + std::abs(narrow))))
     return fmt::format("{} has the slope {:.9g} at {}, {}, not {:.9g}", expression.text(), jet.first, x, y,
                        static_cast<double>(narrow));
   return {};
 }
 
-/// Writes force laws that last as formulas. Returns nothing if there is none, or one that cannot be.
+/// Writes persistent force laws as formulas. Returns nothing if there is none, or one that cannot be written.
 std::optional<Case> as_formulas(const Case& one) {
   Case out = one;
   bool any = false;
@@ -282,8 +283,8 @@ bool has_laws_as_formulas(const Case& one, const Engine& engine) {
   return engine.kind != Engine::Kind::Other && !one.world_only() && as_formulas(one).has_value();
 }
 
-// Laws that lag a step behind, and such as are solved with the velocities that they change, differ by the way
-// of steps and by what forces do in one.
+// Laws that are evaluated a step late, and laws solved implicitly with the velocities, differ by the
+// displacement in a few steps and by the velocity that forces add in one.
 Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion& motion) {
   const auto other = as_formulas(one);
   if (!other || !motion.failure.empty()) return {};

@@ -17,8 +17,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-/// Mixes words into a hash: FNV-1a, with the upper half folded into the lower, which its products do not
-/// reach.
+/// Mixes words into a hash: FNV-1a, with the upper half folded into the lower one, which products alone do
+/// not carry down to.
 class Mixer {
  public:
   void add(std::uint64_t word) {
@@ -150,7 +150,7 @@ std::vector<Call> calls_to_refuse(BasicWorld<Real>& world) {
 constexpr double kLargest = 1e12;
 
 /// Returns a body in the simulation that is faster than the limits; empty if there is none. Positions are
-/// left to the caller: the world refuses some beyond 1e12, but does not look at where bodies go.
+/// left to the caller: the world rejects some beyond 1e12, but does not check where bodies move to.
 template <class Real>
 std::string beyond(const BasicWorld<Real>& world) {
   for (const BodyId body : world.bodies()) {
@@ -163,7 +163,7 @@ std::string beyond(const BasicWorld<Real>& world) {
   return {};
 }
 
-/// Returns what is wrong with the reports of quarantined bodies, and with their release.
+/// Returns errors in the reports of quarantined bodies, and in their release.
 template <class Real>
 std::string release_all(BasicWorld<Real>& world) {
   for (const QuarantineEvent& event : world.events().quarantined)

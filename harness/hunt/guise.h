@@ -6,7 +6,7 @@
 
 #include "engine/world/world.h"
 
-/// Ways to run a world that must not change its motion, and what they are compared by.
+/// Ways to run a world that must not change its motion, and the digests by which runs are compared.
 namespace plumb::harness::hunt {
 
 enum class Guise : std::uint8_t {
@@ -18,14 +18,14 @@ enum class Guise : std::uint8_t {
   Narrow,      ///< with vector registers of 16 bytes
   Observed,    ///< read, queried, saved and monitored after each step
   Refused,     ///< with calls between the steps that must be refused
-  Overrun,     ///< with a body that goes beyond the world's numbers after half of the steps
-  Asked,       ///< asked queries, whose answers are held against the shapes' outlines
+  Overrun,     ///< with a body that exceeds the world's limits after half of the steps
+  Asked,       ///< with queries, whose answers are compared with the shapes' outlines
   Labelled,    ///< with other names and user data, and hit events
 };
 
 /// Digests of a world after a step.
 struct Digest {
-  std::uint64_t whole = 0;    ///< of all that a snapshot has
+  std::uint64_t whole = 0;    ///< of all data in a snapshot
   std::uint64_t visible = 0;  ///< of the bodies' states, and the joints' and contacts' readings
   std::uint64_t events = 0;   ///< of the step
   friend bool operator==(const Digest&, const Digest&) = default;
@@ -37,7 +37,7 @@ Digest digest_of(const BasicWorld<Real>& world);
 /// Returns settings that all differ from those of `definition`.
 WorldDefinition contrary(const WorldDefinition& definition);
 
-/// Puts bodies, a joint and a force into a world and steps it, so that there is something to replace.
+/// Puts bodies, a joint and a force into a world and steps it, so that restoring has something to replace.
 template <class Real>
 void litter(BasicWorld<Real>& world);
 
@@ -45,17 +45,17 @@ void litter(BasicWorld<Real>& world);
 template <class Real>
 void look_at(const BasicWorld<Real>& world);
 
-/// Gives bodies and shapes other names and user data, and asks for their hits.
+/// Gives bodies and shapes other names and user data, and switches on their hit events.
 template <class Real>
 void label(BasicWorld<Real>& world);
 
-/// Makes calls with numbers out of range and handles of what is not there. Returns those that were not
-/// refused with the right kind of error, or that changed the world; empty if there are none.
+/// Makes calls with numbers out of range and invalid handles. Returns those that were not rejected with the
+/// right kind of error, or that changed the world; empty if there are none.
 template <class Real>
 std::string not_refused(BasicWorld<Real>& world);
 
-/// Pushes a body beyond the world's largest speed. Returns what is wrong then, or an empty text. The world is
-/// of no use afterwards.
+/// Pushes a body beyond the world's largest speed. Returns the resulting error, or an empty text. The world
+/// must not be used afterwards.
 template <class Real>
 std::string overrun(BasicWorld<Real>& world, double dt, int substeps);
 

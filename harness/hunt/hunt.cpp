@@ -23,10 +23,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// Processor time limits of a scene, and of a run.
+// Processor time limits for a scene, and for a run.
 constexpr double kSceneSeconds = 60, kRunSeconds = 10;
 constexpr double kMoreSeconds = 30;  // after the time limit, for shrinking findings
-// Stands for the law in a task whose scene's process died: each engine is then examined alone.
+// Stands for the law in a task whose scene's process died: each engine is then examined by itself.
 constexpr std::uint64_t kCrashed = 0xFF;
 
 /// A task packed into a number: a scene, or one finding in it to be shrunk.
@@ -174,7 +174,7 @@ class Hunt {
       if (line.contains("finding"))
         remember({line.at("scene_of").get<std::uint64_t>(), finding_from_json(line["finding"].dump())});
     }
-    // Queue the findings that were not shrunk in time.
+    // Queues the findings that were not shrunk in time.
     std::set<std::string> small;
     const auto key = [](const Found& found) {
       return fmt::format("{} {} {}", found.scene, found.finding.engine, found.finding.objection.law);

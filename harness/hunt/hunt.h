@@ -32,7 +32,7 @@ struct Kind {
   std::uint64_t first = 0;            ///< number of scenes drawn until it appeared
   std::uint64_t count = 0;            ///< number of findings
   Finding smallest{};
-  std::string file{};  ///< of the smallest, in the folder
+  std::string file{};  ///< file of the smallest scene, in the folder
 };
 
 struct Hunted {

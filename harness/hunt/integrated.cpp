@@ -1,4 +1,4 @@
-// The motion of free bodies under force laws, integrated here and independently of every engine.
+// Computes the motion of free bodies under force laws, independently of every engine.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 constexpr int kSteps = 48;
 constexpr double kKnown = 0.1;
 // For Precise: the bound, as a fraction of the scene's size, and the largest growth of perturbations for
-// which errors of its tolerance stay below that.
+// which errors of its tolerance stay below that bound.
 constexpr double kPreciseShare = 1e-6, kGrown = 1000;
 // Largest change of a result when its step is halved, as a fraction of the bound.
 constexpr double kSteady = 0.25;
@@ -54,7 +54,8 @@ class Free {
     return out;
   }
 
-  /// Integrates from `from` to `to` by the classical method of order four, in parts between switches.
+  /// Integrates from `from` to `to` by the classical fourth-order Runge-Kutta method, in parts between the
+  /// times at which forces switch on or off.
   void advance(std::vector<BodyState>& states, double from, double to, int steps) const {
     std::vector<double> ends{from};
     for (const double at : switches_)
@@ -183,7 +184,7 @@ class Free {
   mutable double middle_ = 0;  // s, of the part that is integrated
 };
 
-/// Returns true if shapes that may touch come so near to each other that they might within a sample.
+/// Returns true if shapes that may touch are so near to each other that they might touch within a sample.
 bool may_meet(const Case& one, const std::vector<BodyState>& states) {
   const std::vector<double> reach = reaches(one.scene);
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -224,7 +225,7 @@ std::vector<bool> pulled_beside_centre(const Scene& scene) {
 
 double bound_of(const Case& one, const Engine& engine, double fastest, double hardest, double time) {
   if (engine.kind == Engine::Kind::Precise) return kPreciseShare * largest_size(one.scene);
-  // Allows the displacement of three steps, and that of velocities that are one step late.
+  // Tolerates the displacement of three steps, and a velocity that is one step late.
   return kShare * largest_size(one.scene) + 3 * one.dt * fastest + one.dt * hardest * time;
 }
 
@@ -232,7 +233,7 @@ double bound_of(const Case& one, const Engine& engine, double fastest, double ha
 
 namespace {
 
-// Returns true if bodies are free up to where they meet, under forces that are integrated here.
+// Returns true if bodies move freely until they meet, under forces that are integrated here.
 bool are_free(const Case& one) {
   if (!one.scene.joints.empty() || has_formulas(one.scene)) return false;
   return std::none_of(one.scene.bodies.begin(), one.scene.bodies.end(),
@@ -276,7 +277,7 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     if (!(distance(coarse, fine) <= kKnown * bound)) return {};
     const double off = distance(motion.samples[k].states, fine);
     if (off <= bound) continue;
-    // With half the step a first-order error halves: the motion is known no better than what then changes.
+    // Half the step halves a first-order error, so the change is the remaining uncertainty.
     if (engine.kind != Engine::Kind::Precise) {
       const std::vector<double> change = apart(one, motion, run(engine, one, {.refine = 2}));
       if (k >= change.size() || change[k] > kSteady * bound) return {};

@@ -1,5 +1,5 @@
-// Promises of the world's parts that no motion shows: snapshots that were tampered with, loops shared by
-// threads, monitors, and the ways to integrate free bodies.
+// Checks parts of the world that no motion shows: tampered snapshots, loops shared by threads, monitors, and
+// the methods that integrate free bodies.
 #include <algorithm>
 #include <atomic>
 #include <cfenv>
@@ -27,13 +27,14 @@ namespace {
 
 bool in_float(const Engine& engine) { return engine.kind == Engine::Kind::World; }
 
-/// Objects with `what`, unless it is empty.
+/// Returns an objection with the text `what`, unless it is empty.
 Verdict objection(const char* name, std::string what, const char* right) {
   if (what.empty()) return {};
   return Objection{.law = name, .judge = name, .what = std::move(what), .right = right};
 }
 
-// The header of a snapshot: 8 bytes that say what it is, version, layout, then size and checksum of the rest.
+// The header of a snapshot: 8 bytes that identify the format, version, layout, then size and checksum of the
+// rest.
 constexpr std::size_t kHeader = 32, kSizeAt = 16, kSumAt = 24;
 constexpr int kDamages = 40, kMostBytes = 60000;
 
@@ -44,8 +45,8 @@ void sign_anew(std::vector<std::byte>& bytes) {
   std::memcpy(bytes.data() + kSumAt, &sum, 8);
 }
 
-/// Returns what is wrong with the colours of joints and contacts: those of one colour are solved side by
-/// side, so no two may share a dynamic body.
+/// Returns errors in the colours of joints and contacts. Constraints of one colour are solved side by side,
+/// so no two may share a dynamic body.
 template <class Real>
 std::string shared_colours(const BasicWorld<Real>& world) {
   const WorldData<Real>& w = world.data();
@@ -92,7 +93,7 @@ std::string damaged_world(const Case& one, std::string& flags) {
         continue;
       }
       other.step(one.dt, one.substeps);
-      // Joints that are made get the colours that the snapshot says are free.
+      // Creates joints, which get the colours that are free according to the snapshot.
       const std::vector<BodyId> bodies = other.bodies();
       for (std::size_t k = 0; k + 1 < bodies.size() && k < 6; ++k) {
         other.create_joint(bodies[k], bodies[k + 1], {});
@@ -101,7 +102,7 @@ std::string damaged_world(const Case& one, std::string& flags) {
       }
       other.step(one.dt, one.substeps);
     } catch (const Error&) {
-      // Refused, or nonsense that a step names.
+      // The snapshot is refused, or a step reports the invalid data.
     }
     bytes = sound;
   }
@@ -143,7 +144,7 @@ std::string shared_loops(Random& random) {
   return {};
 }
 
-/// Steps a world with a monitor, and returns the field of what it objects to; empty if it does not.
+/// Steps a world with a monitor, and returns the field that the monitor reports; empty if it reports none.
 template <class Real>
 std::string violation_of(BasicWorld<Real>& world, int steps, const std::function<void()>& before_step = {},
                          int substeps = 4) {
@@ -192,8 +193,8 @@ std::string watched(Random& random) {
       return wrong;
   }
   {
-    // A mass on a spring that its program pulls by hand, with w h < 0.3: explicit Euler makes energy, (w h)^2
-    // a step, and the exact one less than the bound.
+    // A mass on a spring whose force the program adds before each step, with w h < 0.3. Explicit Euler gains
+    // energy, (w h)^2 a step; the exact method gains less than the bound.
     const bool makes = random.chance(0.5);
     const double w = random.within(10, 18), from = s;
     WorldDefinition definition = weightless;
@@ -227,7 +228,7 @@ std::string watched(Random& random) {
       return wrong;
   }
   {
-    // A box that is put into another and pushed out, slowly: the overlap shrinks.
+    // A box that overlaps another one and is pushed out slowly, so that the overlap shrinks.
     BasicWorld<Real> world({.sleeping = false});
     world.create_body({.type = BodyType::Static, .position = {0, -s}}, {.geometry = Box{40 * s, 2 * s}});
     const BodyId lower = world.create_body({.position = {0, 0.5 * s}}, {.geometry = Box{s, s}});
@@ -247,8 +248,8 @@ std::string watched(Random& random) {
   return {};
 }
 
-// Checks free fall by each method, for which textbooks have a closed form. With force laws, which are
-// evaluated in substeps, a step of n substeps must equal n steps of one.
+// Checks free fall by each method against the closed form of textbooks. With force laws, which are evaluated
+// in substeps, a step of n substeps must equal n steps of one substep.
 std::string integrated_by(Random& random, Precision precision) {
   const double dt = 1.0 / random.pick({30, 60, 120}), v = random.within(-5, 5), g = random.within(1, 20);
   const int substeps = random.whole(1, 8), steps = random.whole(2, 30);

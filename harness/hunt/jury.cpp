@@ -1,4 +1,4 @@
-// Other engines as references: Precise alone, and the rivals with Precise as a jury.
+// Compares with other engines: with Precise alone, and with a majority of Precise and the rivals.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -49,7 +49,7 @@ std::optional<Motion> run_by(const char* name, const Case& one) {
   return out;
 }
 
-// Returns true if forces change so much within a step that methods of fixed steps miss them.
+// Returns true if forces change so much within a step that methods with fixed steps miss the change.
 bool has_quick_forces(const Case& one) {
   const auto is_quick = [&](const ForceLaw& law) {
     if (const auto* force = std::get_if<SinusoidalForce>(&law))
@@ -64,7 +64,7 @@ bool has_quick_forces(const Case& one) {
 // Returns false for cases without a reliable reference: initial overlaps or joint errors are resolved
 // differently by each engine.
 bool judged(const Case& one, const Motion& motion) {
-  // Free bodies under forces are judged by `integrated`, whose bound knows how hard they are pushed.
+  // Free bodies under forces are judged by `integrated`, whose bound depends on the strength of the forces.
   return motion.failure.empty() && !integrable(one) && !has_quick_forces(one) && starts_closed(one.scene) &&
          starts_apart(one.scene) && one.scene.bodies.size() <= 3 * kMost;
 }
@@ -80,7 +80,7 @@ std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motio
 }
 
 /// Returns true if an engine's motion up to sample `k` stays within `kSteady` of the bound with half the
-/// step. Precise chooses its own.
+/// step. Always true for Precise, which chooses its own steps.
 bool steady(const Case& one, const char* name, const Motion& motion, const std::vector<double>& bound,
             std::size_t k) {
   const Engine engine(reference::find_backend(name));
@@ -116,7 +116,7 @@ Verdict precise_relation(const Case& one, const Engine& engine, const Motion& mo
   const std::vector<double> bound = bounds(one, *precise);
   const auto k = parting(one, motion, *precise, bound);
   if (!k) return {};
-  // If a perturbation within a step's error leads to a different motion, both are right.
+  // If a perturbation within a step's error leads to a different motion, both motions are correct.
   const std::vector<double> calm = growth(one, engine, motion);
   const std::vector<double> own = growth(one, Engine(reference::find_backend("plumb-precise")), *precise);
   if (*k >= calm.size() || *k >= own.size() || std::max(calm[*k], own[*k]) > kCalm * kCalm * bound[*k])

@@ -17,7 +17,7 @@ struct Found {
 /// Returns judge, engine and structure: the key known before a finding is shrunk.
 std::string coarse_key(const Finding& finding);
 
-/// Groups findings by the common parts of their smallest scenes. Those that were not shrunk count for the
+/// Groups findings by the common parts of their smallest scenes. Findings that were not shrunk count for the
 /// first kind of their judge, engine and structure.
 std::vector<Kind> kinds_of(const std::vector<Found>& findings);
 

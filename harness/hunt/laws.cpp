@@ -13,10 +13,10 @@ namespace {
 // Semi-implicit Euler conserves an energy that differs from the true one by a fraction of w h / 2.
 constexpr double kEnergyShare = 0.02, kMostShare = 0.3;
 constexpr double kPreciseShare = 1e-5;
-// s, of processor time, that a body or joint may cost in a step: thirty times that of the costliest scenes
-// drawn, so that a slow machine is not taken for a search without end.
+// s, processor time that a step may cost per body or joint: thirty times that of the costliest scenes drawn,
+// so that a slow machine is not mistaken for an endless search.
 constexpr double kCost = 1e-3;
-// 1/s: bodies up to this share of their extents a second fall asleep, by the world's definition.
+// 1/s: bodies slower than this fraction of their extents a second fall asleep, by the world's definition.
 constexpr double kSleepShare = 0.05;
 
 /// Energies that bound a motion's energy.
@@ -126,7 +126,7 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
   const double most = kCost * static_cast<double>(1 + one.scene.bodies.size() + one.scene.joints.size());
   for (std::size_t k = 0; k < motion.costs.size(); ++k) {
     if (motion.costs[k] <= most) continue;
-    // Other processes may have held it up: a step that is slow takes as long each time.
+    // Other processes may have delayed it: a step that is really slow takes as long each time.
     double least = motion.costs[k];
     for (int again = 0; again < 3 && least > most; ++again) {
       Case part = one;
@@ -148,9 +148,9 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
 
 namespace {
 
-// Returns true if force laws act that grow without bound where bodies meet, as attraction does, and an eighth
-// of the step gains less than a quarter: an error of order one or more, of how a close pass is stepped
-// through.
+// Returns true if force laws act that grow without bound where bodies meet, as attraction does, and with an
+// eighth of the step the gain is less than a quarter. The gain is then an error of order one or more in the
+// stepping through a close pass.
 bool is_of_the_step(const Case& one, const Engine& engine, std::size_t sample, double gain, double rest) {
   if (std::none_of(one.scene.forces.begin(), one.scene.forces.end(),
                    [](const ForceLaw& law) { return std::holds_alternative<AttractionForce>(law); }))
@@ -209,9 +209,9 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
   const Sizes sizes = sizes_of(one.scene);
   const double duration = one.steps * one.dt;
   const std::vector<double> reach = reaches(one.scene);
-  // kg m/s: what bodies had left where they fell asleep.
+  // kg m/s: momentum that bodies lost when they fell asleep.
   double slept = 0;
-  // Rounding moves bodies even at rest: allow a displacement of their reach over the whole run.
+  // Rounding moves bodies even at rest: tolerate a displacement of their extent over the whole run.
   double most = std::max(first.sum_of_momenta, sizes.mass_times_reach / duration);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const double time = static_cast<double>(k) * one.dt;
@@ -225,8 +225,8 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     const double off = length(now.momentum - first.momentum - time * weight);
     const double roundings = 8.0 * static_cast<double>(k) * one.substeps + 100;
     const double tolerance = engine.kind == Engine::Kind::Precise ? 1e-6 : 0;
-    // Continuous collision stops what is fast where it meets something: the weight does not act on the rest
-    // of its way in that step. Some such impacts are allowed for.
+    // Continuous collision stops fast bodies in front of an obstacle: their weight does not act in the rest
+    // of that step. Tolerate a few such impacts.
     const double unfallen = dynamic_bodies(one.scene) > 1 && engine.is_world()
                                 ? length(weight) * one.dt * static_cast<double>(std::min<std::size_t>(k, 8))
                                 : 0;
@@ -270,8 +270,8 @@ Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion
     const double time = static_cast<double>(k) * one.dt;
     const double energy = first.kinetic + stored(one.scene, time);
     most = std::max(most, std::min(now.sum_of_angular_momenta, 4 * most));
-    // An impulse J on bodies that pass each other at v acts at most a step's displacement v dt beside its
-    // line.
+    // An impulse J on bodies that pass each other at v acts beside its line by at most a step's displacement
+    // v dt.
     impulse = std::max(impulse, 2 * energy * one.dt);
     const double off = std::abs(now.angular_momentum - first.angular_momentum);
     const double share = engine.kind == Engine::Kind::Precise ? 1e-6 : 0.05;

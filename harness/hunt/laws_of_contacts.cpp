@@ -86,8 +86,8 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
     }
   std::vector<int> in(pairs.size(), 0);
   std::vector<double> least(pairs.size(), INFINITY);
-  std::vector<bool> given(pairs.size(), false);  // penetrating from the start: joints may keep them so
-  // Bodies that joints connect with such a one are pulled along as it is pushed out.
+  std::vector<bool> given(pairs.size(), false);  // overlapping from the start: joints may keep them so
+  // Bodies that joints connect with an overlapping body are pulled along when it is pushed out.
   const std::vector<std::size_t> group = joint_groups(one.scene);
   std::set<std::pair<std::size_t, std::size_t>> given_groups;
   const auto groups_of = [&](std::size_t n) {
@@ -117,13 +117,12 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
                          : std::max({kWidthShare * std::min(a.width, b.width), kReachShare * least_reach,
                                      2 * length(one.scene.gravity) * one.dt * one.dt}));
   }
-  bool overlapped = false;  // something lies in another from the start
+  bool overlapped = false;  // some shapes overlap from the start
   for (std::size_t k = 0; k < motion.samples.size(); ++k) {
     const Sample& sample = motion.samples[k];
     for (std::size_t i = 0; i < parts.size(); ++i)
       now[i] = placed(parts[i].outline, sample.states[parts[i].body]);
-    // For each body, the static and kinematic bodies that it overlaps: nothing can separate it from two of
-    // these.
+    // For each body, the static and kinematic bodies that it overlaps: it cannot leave two of these at once.
     std::map<std::size_t, std::set<std::size_t>> pressed_by;
     for (std::size_t n = 0; n < pairs.size(); ++n) {
       const auto [i, j] = pairs[n];
@@ -146,7 +145,7 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
     for (std::size_t n = 0; n < pairs.size(); ++n) {
       const Part &a = parts[pairs[n].first], &b = parts[pairs[n].second];
       const double depth = depths[n], bound = bounds[n];
-      // A body that was put onto another may be unable to escape; it must be awake then.
+      // A body placed onto another one may be unable to escape, but must then be awake.
       const bool asleep = sample.asleep[a.body] || sample.asleep[b.body];
       const bool is_pressed =
           (intruded || overlapped) && (pressed_by[a.body].size() > 1 || pressed_by[b.body].size() > 1);

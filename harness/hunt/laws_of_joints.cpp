@@ -24,7 +24,7 @@ bool may_break(const Joint& joint) {
   return std::visit([](const auto& j) { return j.break_force > 0 || j.break_torque > 0; }, joint);
 }
 
-// Returns true if a rope's end comes to its pulley. The rope then has no direction, so the motion is not
+// Returns true if a rope's end reaches its pulley. The rope then has no direction, so the motion is not
 // determined.
 bool at_its_pulley(const Case& one, const Joint& joint, const std::vector<BodyState>& states) {
   const auto* rope = std::get_if<PulleyJoint>(&joint);

@@ -1,4 +1,4 @@
-// The promises of a world whose owner calls it between steps: random calls in every scene.
+// Judges a world whose owner calls it between steps: random calls in every scene.
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,9 +26,9 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Steps of a life, and calls before each at most.
+// Number of steps of a run, and largest number of calls before each.
 constexpr int kSteps = 90, kMostCalls = 2;
-// Steps between restores and between faults of hooks, of the twin.
+// Steps between restores, and between exceptions of hooks, of the second world.
 constexpr int kBetweenRestores = 11, kBetweenFaults = 17;
 
 WorldDefinition definition_of(const Case& one) {
@@ -37,7 +37,7 @@ WorldDefinition definition_of(const Case& one) {
   return out;
 }
 
-/// A name of a file that nothing else has; removes it in the end.
+/// A unique file name; removes the file in the end.
 class Scratch {
  public:
   Scratch() {
@@ -110,7 +110,7 @@ std::string live_recorded(const Case& one, std::string& part) {
   return {};
 }
 
-/// Sets how numbers are rounded, and the width of vector registers, for as long as it lives.
+/// Sets the rounding mode and the width of vector registers during its lifetime.
 class OtherMachine {
  public:
   OtherMachine(int rounding, VectorWidth width) : rounding_(std::fegetround()), width_(vector_width()) {
@@ -129,11 +129,11 @@ class OtherMachine {
   VectorWidth width_;
 };
 
-/// Exception of a hook, which no engine throws.
+/// Exception type thrown only by the hook, and by no engine.
 struct Fault {};
 
-/// Returns what is wrong with a world whose hook throws in a step, and tries to change it. Its twin's hook
-/// does neither: the failed step must have left nothing, so both go on alike.
+/// Returns errors of a world whose hook throws in a step and tries to change the world. The other world's
+/// hook does neither: the failed step must leave no trace, so both continue alike.
 template <class Real>
 std::string hooked(const BasicWorld<Real>& world, const Case& one) {
   BasicWorld<Real> other(definition_of(one));
@@ -172,7 +172,7 @@ std::string hooked(const BasicWorld<Real>& world, const Case& one) {
   return {};
 }
 
-/// Ways in which the second of two twins is run.
+/// Ways in which the second of two equal worlds is run.
 struct Otherwise {
   bool threads = true, widths = true, restores = true;
 };
@@ -188,7 +188,7 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
     world.set_threads(2);
     world.data().crew.set_eager(true);
   };
-  // Hooks that are set wake bodies, so both worlds get theirs at the same time.
+  // Setting a hook wakes bodies, so both worlds get theirs at the same time.
   const auto hook = [](BasicWorld<Real>& world) {
     world.on_pre_solve([](const ContactReading&) { return true; });
   };
@@ -198,12 +198,12 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
     const int calls = calls_of(one, random, step);
     calls_of(one, same, step);
     for (int i = 0; i < calls; ++i) {
-      // Leaves the answers to the recorded life, which judges them.
+      // Ignores the answers here: the recorded run judges them.
       make_call(random, plain, plain), make_call(same, other, other);
     }
     plain.step(dt_of(one, step), one.substeps);
     {
-      // Keeps the width where numbers are not rounded to the nearest: -(a b) and (-a) b differ there.
+      // Keeps the width if numbers are not rounded to nearest: -(a b) and (-a) b then differ.
       const OtherMachine narrow(rounding, otherwise.widths && step % 2 == 0 && rounding == FE_TONEAREST
                                               ? VectorWidth::None
                                               : usual);
@@ -248,7 +248,7 @@ Verdict twins(const Case& one, const Engine& engine, const Motion&) {
   };
   std::string what = live({});
   if (what.empty()) return {};
-  // One of the ways alone, if it suffices, names the judge.
+  // If one of the differences alone suffices, it names the judge.
   struct Way {
     const char* name;
     Otherwise otherwise;

@@ -1,5 +1,5 @@
-// The linear systems under both engines: random ones, of which some rows nearly depend on others, against an
-// elimination of its own in long double and the conditions that a solution must meet.
+// Judges the linear solvers of both engines with random systems, some with rows that nearly depend on others.
+// Compares with an independent elimination in long double, and checks the conditions of a solution.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,7 +30,7 @@ constexpr double kBeside = 0.01;
 // diagonal.
 constexpr double kNothing = 1e-12;
 
-/// Pivots of complete pivoting in long double, in their order, and whether two were so near each other that
+/// Pivots of complete pivoting in long double, in their order. Also tells if two were so near each other that
 /// rounding may have chosen between them.
 std::vector<Wide> pivots_of(std::size_t n, const std::vector<double>& matrix) {
   std::vector<Wide> a(matrix.begin(), matrix.end()), out;
@@ -89,7 +89,7 @@ std::string dense(Random& random) {
   } else {
     for (std::size_t i = 0; i + 1 < n; ++i)
       for (std::size_t j = 0; j < n; ++j) matrix[i * n + j] = some_number(random);
-    // Kept far from the threshold by the others: each is larger in a column of its own.
+    // The others keep it far from the threshold: each is larger in a different column.
     for (std::size_t i = 0; i + 1 < n; ++i) matrix[i * n + i] += 2;
     for (std::size_t j = 0; j < n; ++j) matrix[(n - 1) * n + j] = matrix[j];
     matrix[n * n - 1] += some_share(random, 3 * kNothing);
@@ -143,7 +143,7 @@ std::string envelope(Random& random) {
       for (int k = 0; k <= j; ++k) sum += lower[at(i, k)] * d[static_cast<std::size_t>(k)] * lower[at(j, k)];
       matrix.at(i, j) = full[at(i, j)] = full[at(j, i)] = static_cast<double>(sum);
     }
-  // The fraction that rounding to double leaves.
+  // The relative error of rounding to double.
   std::vector<Wide> l(static_cast<std::size_t>(n * n), 0), pivots(static_cast<std::size_t>(n));
   for (int i = 0; i <= near; ++i) {
     for (int j = 0; j < i; ++j) {
@@ -176,7 +176,7 @@ std::string envelope(Random& random) {
   return residual_of(static_cast<std::size_t>(n), full, solution, right, largest, 0, "an envelope");
 }
 
-// Rows of bodies in a line, and of one of them a second row that nearly says the same.
+// Rows of bodies in a line, and for one of them a second, nearly equal row.
 template <class Real>
 std::string of_joints(Random& random) {
   constexpr double kThreshold = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
@@ -232,8 +232,8 @@ std::string complementary(Random& random) {
   return {};
 }
 
-// Solves a net of bodies with rows between them, some bounded. Checks the conditions of the minimum if it was
-// found by pivots, and in any case that no energy is gained.
+// Solves a network of bodies with rows between them, some bounded. Checks the conditions of the minimum if it
+// was found by pivoting, and in any case that no energy is gained.
 std::string bounded(Random& random) {
   BoundedRows system;
   const int bodies = random.whole(2, 14), joints = random.whole(1, 2 * bodies);
@@ -281,7 +281,7 @@ std::string bounded(Random& random) {
   const double before = energy();
   system.solve();
   const double after = energy();
-  // The compliance that shares the load of redundant rows is some 1e-9 of their own.
+  // The compliance by which redundant rows share their load is some 1e-9 of the rows' own.
   if (!(after <= before * (1 + 1e-9)))
     return fmt::format("bounded rows that only hold raise the energy from {:.9g} to {:.9g} J", before, after);
   for (const BoundedRow& row : system.rows)

@@ -1,4 +1,4 @@
-// The loads of wind on a scene's bodies, integrated here over their outlines.
+// Judges the loads of wind on a scene's bodies, integrated here over their outlines.
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kBodies = 3;    // number of bodies in a scene
 constexpr int kPieces = 400;  // number of straight pieces that approximate an arc
-// Tolerance, as a fraction of the load: the body turns in the wind during the step, and the engine limits the
-// load's effect.
+// Tolerance, as a fraction of the load: the body rotates in the wind during the step, and the engine limits
+// the load's effect.
 constexpr double kShare = 0.01;
 constexpr double kRounding = 2e-6;  // relative tolerance of the velocities of a World in float
 
@@ -35,8 +35,8 @@ void press(Load& load, Vec2d flow, Vec2d normal, double size, Vec2d at, double d
   load.torque += cross(at, force);
 }
 
-/// Returns the load on an outline about the origin, which moves at `velocity` and turns at `spin`. The wind
-/// on an edge is that at its middle, on an arc that at its centre.
+/// Returns the load on an outline about the origin, which moves at `velocity` and rotates at `spin`. The wind
+/// on an edge is evaluated at its middle, on an arc at its centre.
 Load load_of(const Outline& outline, const Wind& wind, Vec2d velocity, double spin) {
   Load out;
   const auto flow_at = [&](Vec2d at) { return wind.velocity - velocity - spin * Vec2d{-at.y, at.x}; };
@@ -95,7 +95,7 @@ std::string blown(const Body& body, Random& random) {
     const Load part = load_of(outline, wind, velocity, spin);
     right.force += part.force, right.torque += part.torque;
   }
-  // So heavy that a step changes its velocity by a hundredth.
+  // Mass for which a step changes the velocity by a hundredth.
   const double fastest = length(wind.velocity - velocity) + reach * std::abs(spin);
   const double mass = 100 * dt * wind.density * fastest * reach + 1e-3, inertia = mass * reach * reach;
   BasicWorld<Real> world({.gravity = {0, 0}});
@@ -129,7 +129,7 @@ Verdict wind(const Case& one, const Engine& engine, const Motion&) {
     try {
       what = engine.kind == Engine::Kind::World ? blown<float>(body, random) : blown<double>(body, random);
     } catch (const Error&) {
-      continue;  // a shape that no world takes
+      continue;  // a shape that no world accepts
     }
     if (!what.empty())
       return Objection{.law = "wind",

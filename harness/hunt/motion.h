@@ -37,9 +37,9 @@ struct Motion {
   };
   std::vector<EventFault> event_faults{};
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
-  std::vector<double> costs{};               ///< s of processor time, of each step of a World
+  std::vector<double> costs{};               ///< s, processor time of each step of a World
   std::vector<Digest> digests{};             ///< of a World after each step, if asked for
-  std::string broken_promise{};              ///< of a World in a guise, in one line; empty if there is none
+  std::string broken_promise{};              ///< first one of a World in a guise; empty if there is none
 };
 
 /// An engine with its kind and precision.

@@ -1,4 +1,5 @@
-// Judges Precise beyond its motion: forces, derivatives, error estimates, refusals, and methods that agree.
+// Judges Precise beyond its motion: forces, derivatives, error estimates, rejected scenes, and agreement of
+// methods.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,9 +19,9 @@
 namespace plumb::harness::hunt {
 namespace {
 
-constexpr std::size_t kMostBodies = 8;  // dynamic ones, of a scene that is run several times
+constexpr std::size_t kMostBodies = 8;  // dynamic bodies, because the scene is run several times
 
-/// Runs a check in a process of its own and objects with what it returns.
+/// Runs a check in a separate process and returns its text as an objection.
 Verdict judged(const char* name, const char* right, const std::function<std::string()>& check) {
   const std::string what = checked_apart(check);
   if (what.empty()) return {};
@@ -120,7 +121,7 @@ std::string balanced(const Case& one) {
       const Vec2d missing = body.mass * rate(velocity) - own - loads[i].force;
       const double turning =
           inertia * (rate(spin) + body.angular_damping * now.angular_velocity) - loads[i].torque;
-      // A difference of order two is off by more than that of order four by far.
+      // The error of a second-order difference is far larger than that of a fourth-order one.
       const double slack = body.mass * length(rate(velocity) - rough(velocity)),
                    slack_turn = inertia * std::abs(rate(spin) - rough(spin));
       const double rounding = 1e-11 / h * (body.mass * (length(now.velocity) + 1) + inertia);
@@ -137,7 +138,7 @@ std::string balanced(const Case& one) {
   return {};
 }
 
-/// Returns a number of the scene by which its motion may be differentiated.
+/// Returns a number of the scene with respect to which its motion can be differentiated.
 std::string some_parameter(const Scene& scene, Random& random) {
   std::vector<std::string> names{"gravity.y"};
   for (const Body& body : scene.bodies) {
@@ -153,7 +154,7 @@ std::string some_parameter(const Scene& scene, Random& random) {
   return random.pick(names);
 }
 
-// Derivatives by a number of the scene are those of runs in which it differs a little, to either side.
+// Checks derivatives by a number of the scene against runs in which it differs a little, to either side.
 std::string derived(const Case& one) {
   const Scene& scene = one.scene;
   if (dynamic_bodies(scene) > 4 || has_formulas(scene)) return {};
@@ -200,7 +201,7 @@ std::string derived(const Case& one) {
       const double x = of(here[i]);
       const double right = (of(up.states[i]) - x) / step, right2 = (of(up2.states[i]) - x) / (step / 2),
                    left = (x - of(down.states[i])) / step, left2 = (x - of(down2.states[i])) / (step / 2);
-      // Each side's own limit, by Richardson; sides that do not settle are not known.
+      // Extrapolates the limit of each side separately (Richardson); gives up on sides that do not converge.
       const double to_right = 2 * right2 - right, to_left = 2 * left2 - left;
       const double settled = std::abs(right2 - right) + std::abs(left2 - left);
       const double scale_of =
@@ -219,7 +220,7 @@ std::string derived(const Case& one) {
   return wrong;
 }
 
-// Checks that the estimate of the error is of the error's size.
+// Checks that the estimated error is of the order of the true one.
 std::string estimated(const Case& one) {
   if (dynamic_bodies(one.scene) > kMostBodies) return {};
   const int steps = std::min(one.steps, 60);
@@ -229,7 +230,7 @@ std::string estimated(const Case& one) {
   double off = 0;
   for (int k = 0; k < steps; ++k) {
     run.step(), truth.step();
-    // An event may be met in one of them alone.
+    // Only one of the runs may meet an event.
     if (events_of(run.statistics()) > 0 || events_of(truth.statistics()) > 0) return {};
     const auto a = states_of(run), b = states_of(truth);
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -238,7 +239,7 @@ std::string estimated(const Case& one) {
   }
   const ErrorEstimate error = run.statistics().error;
   if (!error.known) return "does not know the error that it was asked to estimate";
-  // "Within a factor of ten" on motions that are named; of any motion a thousand.
+  // The documentation promises a factor of ten for some named motions; a thousand is allowed for any motion.
   if (off > 1e-10 * largest_size(one.scene) && error.position < 1e-3 * off)
     return fmt::format("is off by {:.3g} m, and estimates {:.3g}", off, error.position);
   return {};
@@ -281,7 +282,7 @@ std::string refuses_start(const Case& one) {
   return {};
 }
 
-// Compares two methods of integration, which have nothing in common but the equations.
+// Compares two methods of integration that share nothing but the equations.
 std::string alike_by_methods(const Case& one, const Motion& motion, const Engine& engine) {
   if (dynamic_bodies(one.scene) > kMostBodies) return {};
   const int steps = std::min(one.steps, 90);
@@ -298,7 +299,7 @@ std::string alike_by_methods(const Case& one, const Motion& motion, const Engine
     if (off <= 1e-7 * size) continue;
     if (calm.empty()) calm = growth(one, engine, motion);
     const auto at = static_cast<std::size_t>(k) + 1;
-    // Perturbations of 3e-5 grow to `calm`, so the tolerance's 1e-10 to 3e-6 of that.
+    // Perturbations of 3e-5 grow to `calm`, so an error of the tolerance 1e-10 grows to 3e-6 of that.
     if (at >= calm.size() || off <= 1e-7 * size + 1e-3 * calm[at] || calm[at] > 0.03 * size) return {};
     return fmt::format("is {:.3g} m off by another method at {:.3g} s, where a perturbation is {:.2g} m", off,
                        first.time(), calm[at]);

@@ -15,7 +15,7 @@ double processor_seconds() {
 Outcome isolate_within(double seconds, const std::function<std::string()>& work) {
   return isolate(
       [&] {
-        // The signal at the limit says why the process ended; a second later it is killed.
+        // The signal at the limit records the reason of the end; a second later the process is killed.
         const auto most = static_cast<rlim_t>(seconds);
         const rlimit limit{most, most + 1};
         setrlimit(RLIMIT_CPU, &limit);

@@ -10,7 +10,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Steps that are compared: the later ones cost as much and seldom say more.
+// Number of steps that are compared: later steps cost as much and seldom find more.
 constexpr int kMostSteps = 150;
 
 /// Compares a World in a guise with one without it, by all of its bits or by the visible ones.

@@ -8,15 +8,15 @@
 
 namespace plumb::harness::hunt {
 
-/// Returns the promises that the engine's interface makes of any scene: runs in a guise that keep every bit.
-/// Judged like relations.
+/// Returns the promises of the engine's interface that hold for any scene: runs in a guise that must keep
+/// every bit. Judged like relations.
 const std::vector<Relation>& promises();
 
-/// Returns the text of `check`, or an empty one if it throws `Error`: a run that is refused is not judged.
+/// Returns the text of `check`, or an empty one if it throws `Error`: a rejected run is not judged.
 std::string checked(const std::function<std::string()>& check);
 
-/// Does the same in a process of its own, which Precise needs: it may take any time. Returns an empty text
-/// after 2 s of processor time.
+/// Does the same in a separate process, which Precise needs because it may take arbitrarily long. Returns an
+/// empty text after 2 s of processor time.
 std::string checked_apart(const std::function<std::string()>& check);
 
 // Judges random calls between the steps of a world.
@@ -46,7 +46,7 @@ Verdict estimates(const Case& one, const Engine& engine, const Motion& motion);
 Verdict starts(const Case& one, const Engine& engine, const Motion& motion);
 Verdict methods(const Case& one, const Engine& engine, const Motion& motion);
 
-// Judges small scenes of impacts, of Precise (also of friction, motors and limits) and of a World.
+// Judges small scenes with impacts, of Precise (also with friction, motors and limits) and of a World.
 Verdict blows(const Case& one, const Engine& engine, const Motion& motion);
 Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 

@@ -101,8 +101,8 @@ Verdict sleep(const Case& one, const Engine& engine, const Motion& motion) {
 }
 
 /// Returns true if a perturbation of the velocities halfway, or after three quarters, grows more than
-/// kGrown-fold up to sample `end`. What comes to rest in an unstable equilibrium (a needle that stands at a
-/// wall) has absorbed all perturbations of the start.
+/// kGrown-fold up to sample `end`. Perturbing the start is not enough: a body that comes to rest in an
+/// unstable equilibrium (a needle that stands at a wall) has lost all perturbations of the start.
 bool is_unstable_later(const Case& one, const Engine& engine, const Motion& motion, std::size_t end) {
   if (!one.scene.forces.empty()) return false;  // they may depend on the time
   for (const std::size_t from : {end / 2, end - end / 4}) {
@@ -142,7 +142,8 @@ Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
   ends.samples = {motion.samples.front(), motion.samples.back()};
   const double off = apart(one, ends, other).back(), bound = kSampled * largest_size(one.scene);
   if (off <= bound) return {};
-  // A perturbation that grows more than a thousandfold is chaos: errors of the tolerance may then show.
+  // If a perturbation grows more than a thousandfold, the motion is chaotic, and errors of the tolerance may
+  // show.
   const std::vector<double> calm = growth(one, engine, motion);
   if (calm.size() != motion.samples.size() ||
       calm.back() > kGrown * 30 * kPerturbation * largest_size(one.scene) ||

@@ -29,7 +29,7 @@ Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion
 /// Returns true if all force laws of a case can be written as formulas, and there are some.
 bool has_laws_as_formulas(const Case& one, const Engine& engine);
 
-/// Returns true if the harness itself knows how bodies collide: discs without friction or gravity.
+/// Returns true if the harness can compute the collisions of the bodies: discs without friction or gravity.
 bool are_smooth_discs(const Case& one);
 
 /// Returns the distance of two motions at each sample, m: that of the dynamic body that is farthest off,

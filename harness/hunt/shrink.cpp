@@ -56,7 +56,7 @@ void remove_body(Case& one, std::size_t index) {
   forget(one, name);
 }
 
-// Returns true if an expectation needs the body or joint: as it is, with its springs, motors and limits.
+// Returns true if an expectation requires the body or joint unchanged, with its springs, motors and limits.
 bool is_needed(const Case& one, const std::string& name) {
   return std::any_of(one.expectations.begin(), one.expectations.end(), [&](const Expectation& each) {
     return std::find(each.needs.begin(), each.needs.end(), name) != each.needs.end();

@@ -63,8 +63,7 @@ void StateWatch<Real>::before_step() {
 
 template <class Real>
 std::string StateWatch<Real>::after_step(double dt) {
-  // Turns of so many a step are not counted to a part of one. Of what a joint holds they may be taken back
-  // within the step: as many as its way has sizes.
+  // Rotations of several turns a step are not counted exactly. A joint may reverse them within the step.
   for (const BodyId body : world_.bodies()) {
     const auto before = before_.find(key_of(body));
     if (before == before_.end()) continue;
@@ -74,7 +73,7 @@ std::string StateWatch<Real>::after_step(double dt) {
         (!world_.joints(body).empty() && dt * speed > kWhirl * length(box.upper - box.lower)))
       whirled_.insert(key_of(body));
   }
-  // Asks large worlds less often: most checks cost as much as a step or more.
+  // Checks large worlds less often, because most checks cost as much as a step or more.
   const bool asks_all = world_.step_count() % (1 + world_.counts().shapes / 8) == 0;
   struct Check {
     const char* name;
@@ -149,8 +148,8 @@ std::string StateWatch<Real>::touches() {
   return {};
 }
 
-// Checks that touching pairs have begun to touch, and that pairs far apart have ended. Contacts are found
-// where a step begins, so shapes may have moved as far as a step takes them.
+// Checks that touching pairs have begun to touch, and that pairs far apart have ended. Contacts are found at
+// the start of a step, so shapes may have moved by the displacement of a step since.
 template <class Real>
 std::string StateWatch<Real>::distances(double dt) {
   struct Placed {
@@ -176,8 +175,8 @@ std::string StateWatch<Real>::distances(double dt) {
     }
   }
   std::map<Pair, int> wrong;
-  // Returns true in the third step in which something is wrong with a pair: what calls have just put
-  // somewhere is found a step later.
+  // Returns true in the third consecutive step with an error of a pair, because contacts of a body that a
+  // call has moved are found a step later.
   const auto lasts = [&](const Pair& pair) {
     const auto known = wrong_.find(pair);
     return (wrong[pair] = known != wrong_.end() ? known->second + 1 : 1) >= 3;
@@ -203,8 +202,8 @@ std::string StateWatch<Real>::distances(double dt) {
           (world_.type(a.body) != BodyType::Dynamic && world_.type(b.body) != BodyType::Dynamic) ||
           (!world_.awake(a.body) && !world_.awake(b.body)))
         continue;
-      // A point in two shapes at once, also of one body, may be taken for the other's, so only pairs that lie
-      // alone are judged.
+      // A point in two overlapping shapes may belong to either, even if both are of one body, so only pairs
+      // without other shapes nearby are judged.
       const auto meets_others = [&](const Placed& one, const Placed& other) {
         return std::any_of(all.begin(), all.end(), [&](const Placed& third) {
           return third.shape != one.shape && third.shape != other.shape &&
@@ -219,7 +218,7 @@ std::string StateWatch<Real>::distances(double dt) {
   return {};
 }
 
-// Joints keep the bodies that they join from colliding, unless they say otherwise.
+// Joined bodies do not collide unless their joint allows it.
 template <class Real>
 bool StateWatch<Real>::is_held(BodyId one, BodyId other) const {
   for (const JointId joint : world_.joints(one)) {
@@ -229,7 +228,7 @@ bool StateWatch<Real>::is_held(BodyId one, BodyId other) const {
   return false;
 }
 
-// Checks that bodies that touch or are joined sleep as a whole.
+// Checks that groups of touching or joined bodies sleep as a whole.
 template <class Real>
 std::string StateWatch<Real>::islands() const {
   const auto differs = [&](BodyId a, BodyId b) {
@@ -294,7 +293,7 @@ std::string StateWatch<Real>::joints() const {
       if (a != body || !world_.enabled(a) || !world_.enabled(b)) continue;
       const JointReading reading = world_.read(joint);
       const JointDefinition definition = world_.definition(joint);
-      // Loads of sleepers are those of before, and are not told again.
+      // Sleeping bodies keep their last loads, which are not reported again.
       const auto is_awake = [&](BodyId of) {
         const auto before = before_.find(key_of(of));
         return before != before_.end() && before->second.dynamic && before->second.awake && world_.awake(of);

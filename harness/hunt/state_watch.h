@@ -11,7 +11,7 @@
 
 namespace plumb::harness::hunt {
 
-/// Checks what a world says of itself after each step: each answer against another, or against the shapes'
+/// Checks what a world reports after each step: each answer against another one, or against the shapes'
 /// outlines.
 template <class Real>
 class StateWatch {
@@ -21,7 +21,7 @@ class StateWatch {
   /// Call it before a step, after the calls that precede it.
   void before_step();
 
-  /// Returns what is wrong after a step of `dt` s, or an empty text.
+  /// Returns the first error after a step of `dt` s, or an empty text.
   std::string after_step(double dt);
 
   /// Returns the name of the check that objected.
@@ -40,7 +40,7 @@ class StateWatch {
     double inertia = 0;
     bool held = false;     // by a joint
     bool touched = false;  // has contacts, or touches that have begun and not ended
-    Pair only{};           // of its contact, where it has a single one
+    Pair only{};           // the pair of its contact, if it has exactly one
   };
 
   /// Distance beyond which shapes must be in no contact, as a fraction of their sizes. Contacts of a step are
@@ -76,10 +76,10 @@ class StateWatch {
   const BasicWorld<Real>& world_;
   std::map<Key, Before> before_;
   std::set<Pair> open_;
-  std::set<Key> met_;  // bodies of touches that were open in the last step, or began or ended in it
+  std::set<Key> met_;  // pairs of bodies whose touch was open in the last step, or began or ended in it
   std::set<std::pair<Key, Key>> links_;  // of bodies, by those touches
-  std::map<Key, BodyId> owners_;         // of shapes, also of destroyed ones
-  std::set<Key> whirled_;                // that have turned too far in a step for their angle to be known
+  std::map<Key, BodyId> owners_;         // bodies of shapes, including destroyed shapes
+  std::set<Key> whirled_;  // bodies that have rotated too far in a step for their angle to be known
   std::string failed_;
   std::map<Pair, int> wrong_;  // steps on end
 };

@@ -12,8 +12,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Largest difference of a change of momentum along a normal from the impulse, as a fraction of that: contacts
-// turn with the bodies.
+// Largest difference between the change of momentum along a normal and the impulse, as a fraction of the
+// impulse: contacts rotate with the bodies.
 constexpr double kBalance = 0.05;
 // Tolerance of the speed and the displacement of a body in flight, in roundings of a Real, for a step of 16
 // substeps.
@@ -24,8 +24,8 @@ constexpr double kLargest = 1e12;
 }  // namespace
 
 // Checks the motion of bodies without joints and without a touch in the step. Only gravity and applied forces
-// may change it, with constant accelerations, which the world integrates exactly; nothing changes that of a
-// kinematic body. Another change requires a reported touch.
+// may change it, with constant accelerations, which the world integrates exactly; the motion of a kinematic
+// body must not change. Any other change requires a reported touch.
 template <class Real>
 std::string StateWatch<Real>::flights(double dt) const {
   const double rounding = kFlightRoundings * std::numeric_limits<Real>::epsilon() / 2;
@@ -47,7 +47,7 @@ std::string StateWatch<Real>::flights(double dt) const {
         continue;
       gain = dt * (world_.gravity_scale(body) * world_.gravity() + (1 / before.mass) * before.force);
       if (before.inertia > 0) turn = dt * before.torque / before.inertia;
-      // Locks end a velocity in the next step.
+      // Locks take effect on the velocity in the next step.
       if (locks.x) gain.x = -before.velocity.x;
       if (locks.y) gain.y = -before.velocity.y;
     }
@@ -57,7 +57,7 @@ std::string StateWatch<Real>::flights(double dt) const {
     const Vec2d gone = world_.centre(body) - before.position;
     const double speed = length(before.velocity) + length(gain);
     const Aabb<double> box = world_.box(body);
-    // Includes the way to the centre, whose place is computed from the origin.
+    // Includes the offset of the centre of mass, whose position is computed from the origin.
     const double size = length(box.upper - box.lower) + length(world_.centre(body) - world_.position(body));
     const double off = length(world_.velocity(body) - before.velocity - gain), strayed = length(gone - way);
     const double spun = std::abs(world_.angular_velocity(body) - before.spin - turn);
@@ -66,10 +66,10 @@ std::string StateWatch<Real>::flights(double dt) const {
         off <= rounding * speed + 1e-30 &&
         strayed <= rounding * (dt * speed + 1e-2 * size) + 1e-12 * length(before.position) + 1e-30;
     if (!flies) {
-      // Continuous collision may stop it within the step, in front of what it meets in the next one: a part
-      // of its way, and of what it would have gained.
+      // Continuous collision may stop it within the step, in front of an obstacle that it touches in the next
+      // one: it then has only a part of its displacement and of its velocity gain.
       const double whole = length(way), part = whole > 0 ? dot(gone, way) / (whole * whole) : 1;
-      // Slower by no more than what the forces would have done on the rest of its way.
+      // Slower by no more than the forces would have changed its velocity on the rest of its path.
       const Vec2d now = world_.velocity(body), lost = before.velocity + gain - now;
       const double most = dt > 0 ? 2 * length(gain) / dt * length(way - gone) : 0;
       const bool is_stopped = dynamic && part < 1 &&
@@ -86,7 +86,7 @@ std::string StateWatch<Real>::flights(double dt) const {
             world_.name(body), world_.velocity(body).x, world_.velocity(body).y, before.velocity.x + gain.x,
             before.velocity.y + gain.y, gone.x, gone.y, way.x, way.y);
     }
-    // A lock keeps moments from turning a body; a spin that calls give it is the next check's.
+    // A locked rotation ignores torques; a spin set by a call is checked below.
     if (!locks.rotation && !stopped && spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
       return fmt::format("'{}' touches nothing, and its spin is {:.3g} rad/s off that of its flight",
                          world_.name(body), spun);
@@ -95,8 +95,8 @@ std::string StateWatch<Real>::flights(double dt) const {
   return {};
 }
 
-// Returns true if a shape of another body is within `way` m of one of the body's, or moved off it in the
-// step.
+// Returns true if a shape of another body is within `way` m of one of the body's shapes, or has moved away
+// from it in the step.
 template <class Real>
 bool StateWatch<Real>::meets_something(BodyId body, double way) const {
   for (const ShapeId own : world_.shapes(body)) {
@@ -172,7 +172,7 @@ std::string StateWatch<Real>::wakings() const {
         const BodyId a = world_.body(contact.shape_a), b = world_.body(contact.shape_b);
         reached = reached || moved(a == at->second ? key_of(b) : key_of(a));
       }
-      // A joint that broke has gone.
+      // A broken joint no longer exists.
       reached = reached || !world_.events().broken.empty();
       if (reached)
         at = woken.erase(at), spreads = true;
@@ -184,8 +184,8 @@ std::string StateWatch<Real>::wakings() const {
   return fmt::format("'{}' wakes, and nothing that moved has reached it", world_.name(woken.begin()->second));
 }
 
-// Checks bodies with one contact, with a body that does not move and whose friction has no part along the
-// normal: their momentum along the normal changes by their weight and the contact's impulse.
+// Checks bodies with exactly one contact, with a non-dynamic body at rest, whose friction has no component
+// along the normal: their momentum along the normal changes by their weight and the contact's impulse.
 template <class Real>
 std::string StateWatch<Real>::impulses(double dt) const {
   for (const BodyId body : world_.bodies()) {
@@ -222,7 +222,7 @@ std::string StateWatch<Real>::impulses(double dt) const {
     if (!counted || world_.type(other) != BodyType::Static || locks.x || locks.y) continue;
     const double mass = world_.mass(body);
     if (mass != before->second.mass) continue;
-    // Skips what continuous collision stops: it does not feel its weight on the rest of its way.
+    // Skips bodies that continuous collision stops: their weight does not act in the rest of the step.
     const double speed = std::min(length(world_.velocity(body)), length(before->second.velocity));
     if (length(world_.centre(body) - before->second.position) < 0.9 * dt * speed) continue;
     const Vec2d n = is_a ? -1.0 * contact.normal : contact.normal;

@@ -20,12 +20,12 @@ double largest_size(const Scene& scene);
 /// Returns true if a joint keeps two bodies from colliding.
 bool joined(const Scene& scene, std::size_t a, std::size_t b);
 
-/// Returns for each body the first of those that joints connect it with, through dynamic bodies: its own
+/// Returns for each body the first of the bodies that joints connect it with, through dynamic bodies: its own
 /// index if there is none, and for static and kinematic bodies.
 std::vector<std::size_t> joint_groups(const Scene& scene);
 
-/// Returns true if work on the bodies is not bounded by the scene: moving kinematic bodies, surface speeds,
-/// forces that depend on time, actions during the run.
+/// Returns true if the scene does not bound the work on its bodies: it has moving kinematic bodies, surface
+/// speeds, time-dependent forces, or actions during the run.
 bool driven(const Case& one);
 
 /// Returns an upper bound, J: the work of motors with a speed up to `time`, and the initial energy of springs

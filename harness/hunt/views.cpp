@@ -233,7 +233,7 @@ Case perturbed(Case one, double by, std::uint64_t seed) {
     body.velocity.x += size * off(), body.velocity.y += size * off();
     if (!body.fixed_rotation) body.angular_velocity += off();
   }
-  // Places of joints on the world are rounded as well, which loops feel where they pass a singular position.
+  // Anchors of joints on the world are rounded as well, which changes loops that pass a singular position.
   const double size = largest_size(one.scene);
   for (Joint& joint : one.scene.joints)
     std::visit(

@@ -4,7 +4,7 @@
 
 #include "harness/hunt/case.h"
 
-/// Transformations of a case under which its motion must transform alike. Cases have no actions.
+/// Transformations of a case under which its motion must transform in the same way. Cases have no actions.
 namespace plumb::harness::hunt {
 
 Case mirrored(Case one);           ///< x becomes -x

@@ -114,7 +114,7 @@ class EventBook {
   std::map<Key, std::size_t> bodies_;
 };
 
-/// Returns true if joints that do not break hold springs, or motors with a speed: they do work.
+/// Returns true if unbreakable joints have springs, or motors with a speed: they do work.
 bool is_driven_by_joints(const Scene& scene) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
     return std::visit(
@@ -144,7 +144,7 @@ class WithWidth {
   VectorWidth before_ = vector_width();
 };
 
-// Interval, in steps, of shorter steps; used where digests are compared.
+// Interval, in steps, of shorter steps in runs whose digests are compared.
 constexpr int kBetweenShort = 3;
 // Steps that a world runs ahead before it is rolled back, and interval, in steps, of such rollbacks.
 constexpr int kAhead = 3, kBetween = 4;

@@ -14,9 +14,9 @@ namespace {
 
 /// Tolerance of fitted motions: figures have three digits.
 constexpr double kFitted = 1e-5;
-/// Most steps, each with one derived motion a drop, and tries of all steps.
+/// Largest number of steps, each with one motion with derivatives per drop, and of attempts in all steps.
 constexpr int kMostSteps = 14, kMostTries = 60;
-/// Fall of the loss below which the fit is done.
+/// Decrease of the loss below which the fit ends.
 constexpr double kDone = 1e-5;
 /// Levenberg's damping: at first, its growth after a step that failed, and the largest.
 constexpr double kDamping = 1e-2, kHarder = 4, kHardest = 1e4;

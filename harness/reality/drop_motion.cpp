@@ -10,7 +10,8 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// Returns the time of the first touch after the start, s: of the flight's parabola, so of no law.
+/// Returns the time of the first touch after the start, s, from the free-flight parabola, so it does not
+/// depend on a contact law.
 double first_touch(const BodyState& start, std::span<const double> values, double gravity) {
   const auto height = [&](double t) {
     const double angle = start.angle + values[2] + start.angular_velocity * t;
@@ -28,10 +29,10 @@ double first_touch(const BodyState& start, std::span<const double> values, doubl
   return after;
 }
 
-/// Places of measured frames that are as long after the computed ones as the delay says.
+/// Positions of measured frames, each as long after the computed one as the fitted delay.
 struct Place {
   std::size_t before = 0;
-  double share = 0;  // of the way to the next frame
+  double share = 0;  // fraction of the interval to the next frame
 };
 std::optional<std::array<Place, kTimes.size()>> places_of(const DropStart& start, const DropLaw& law,
                                                           std::span<const double> values) {

@@ -13,11 +13,11 @@
 
 namespace plumb::harness::reality {
 
-/// Poses of a drop at its times; nothing where it was not finished.
+/// Poses of a drop at its times; empty if the run did not finish.
 using Poses = std::optional<std::array<MeasuredPose, kTimes.size()>>;
 
-/// Frames after the start that are nearest to the times after the first touch: engines read there without
-/// anything between their steps being made up.
+/// Frames after the start that are nearest to the times after the first touch. Engines are read at these
+/// frames, so that no pose has to be interpolated between their steps.
 std::array<int, kTimes.size()> frames_of(const DropStart& start, const Scene& scene,
                                          std::span<const double> values);
 
@@ -26,7 +26,7 @@ inline MeasuredPose pose_of(const BodyState& state) { return {state.position, st
 /// Returns the exact motion under a law, to a tolerance.
 Poses solve(const DropStart& start, const DropLaw& law, std::span<const double> values, double tolerance);
 
-/// Derivatives of a pose by the law's parameters; nothing where one does not exist.
+/// Derivatives of a pose by the law's parameters; empty if one does not exist.
 using PoseDerivatives = std::optional<std::vector<MeasuredPose>>;
 
 /// The exact motion with its derivatives, by time.
@@ -37,15 +37,15 @@ struct DerivedPoses {
 DerivedPoses solve_derived(const DropStart& start, const DropLaw& law, std::span<const double> values,
                            double tolerance);
 
-/// Returns the measured poses, as long after the computed ones as the delay says.
+/// Returns the measured poses, each as long after the computed one as the fitted delay.
 Poses measured(const DropStart& start, const DropLaw& law, std::span<const double> values);
-/// Returns the velocities of the measured poses, 1/s: how they change with the delay.
+/// Returns the velocities of the measured poses, 1/s: their derivatives by the delay.
 Poses measured_rates(const DropStart& start, const DropLaw& law, std::span<const double> values);
 
-/// Weight of a squared angle beside squared places in `pose_distance`, m^2: the inertia over the mass of a
+/// Weight of a squared angle relative to squared positions in `pose_distance`, m^2: inertia over mass of a
 /// uniform square of 60 mm.
 inline constexpr double kAngleWeight = 0.06 * 0.06 / 6;
-/// Returns the difference of two poses as the norm of the kinetic energy weighs it, m.
+/// Returns the difference of two poses in the norm of the kinetic energy, m.
 double pose_distance(const MeasuredPose& a, const MeasuredPose& b);
 
 /// Returns `of` for all drops, computed on two threads.

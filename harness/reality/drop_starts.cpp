@@ -6,7 +6,7 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// m/s^2, where it was measured to three digits.
+/// m/s^2, measured to three digits at the place of the experiment.
 constexpr double kGravity = 9.81;
 
 /// Largest and smallest number of frames before the first impact from which a start is computed.

@@ -11,7 +11,7 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// Tolerance of the exact motion that engines are held against.
+/// Tolerance of the exact motion that engines are compared with.
 constexpr double kExact = 1e-9;
 
 /// Number of drops of the training half that a law is fitted on.

@@ -18,7 +18,7 @@ namespace plumb::harness::reality {
 /// Times after the first impact at which motions are compared, s.
 inline constexpr std::array<double, 4> kTimes{0.02, 0.06, 0.1, 0.2};
 
-/// A drop as it is computed: from the frame before it first touches the floor.
+/// A drop as it is computed: from the frame before its first contact with the floor.
 struct DropStart {
   int number = 0;
   BodyState state{};
@@ -36,12 +36,12 @@ struct ScaledNumber {
 };
 
 /// Law of the drops: the contact rules and coefficients of a scene from fitted values. The first two
-/// parameters are half the square's side and the delay of what was measured.
+/// parameters are half the square's side and the delay of the measurement.
 struct DropLaw {
   std::string name, text;
   std::vector<Parameter> parameters;
   std::function<void(Scene&, std::span<const double>)> apply;
-  std::vector<std::vector<ScaledNumber>> numbers{};  ///< by parameter: what it sets in the scene
+  std::vector<std::vector<ScaledNumber>> numbers{};  ///< by parameter: the numbers of the scene that it sets
 };
 const std::vector<DropLaw>& drop_laws();
 
@@ -56,7 +56,7 @@ struct Differences {
   std::array<Estimate, kTimes.size()> angle_ninetieth;  ///< rad, 90th percentile
 };
 
-/// A law solved to a tolerance, against the measurement.
+/// A law solved to a tolerance, compared with the measurement.
 struct DropFinding {
   std::string name, text;
   std::vector<Parameter> parameters;
@@ -73,17 +73,17 @@ struct EngineFinding {
   int failed = 0;         ///< drops that it did not finish
   Differences numerical;  ///< against the same law solved to a tolerance
   Differences measured;   ///< against the measurement
-  Differences share;      ///< numerical over the law's error: numbers
+  Differences share;      ///< ratio of `numerical` to the law's error, without unit
 };
 
 struct DropFindings {
-  int drops = 0, left_out = 0;  ///< measured; of these without enough frames before the first impact
+  int drops = 0, left_out = 0;  ///< all drops; of these those with too few frames before impact
   int tested = 0;
   std::vector<DropFinding> laws;
   std::vector<EngineFinding> engines;
 };
 
-/// Fits every law on one half of the drops, tests it on the other, and runs the engines on that.
+/// Fits every law on one half of the drops, tests it on the other, and runs the engines on the latter.
 DropFindings examine_drops(std::span<const MeasuredDrop> drops,
                            std::span<const reference::Backend* const> engines, std::uint64_t seed);
 

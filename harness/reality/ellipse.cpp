@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kEvaluations = 1000, kFolds = 5;
 
-/// Step of the differences that give the derivatives, of a parameter's first step in a fit.
+/// Step of the finite differences for the derivatives, relative to a parameter's first step in a fit.
 constexpr double kDifference = 1e-5;
 
 using precise::ContactImpulse;
@@ -24,8 +24,8 @@ ImpactPoint point_of(const MeasuredImpact& impact, double inertia) {
           1 + n * n / inertia, n * t / inertia, 1 + t * t / inertia};
 }
 
-/// Difference of the velocity that an impulse leaves from the measured one, relative to that: its length is
-/// the error.
+/// Difference between the velocity after an impulse and the measured one, relative to the latter: its length
+/// is the error.
 using Off = std::array<double, 3>;
 
 double length_of(const Off& off) { return std::sqrt(off[0] * off[0] + off[1] * off[1] + off[2] * off[2]); }

@@ -14,15 +14,15 @@
 
 namespace plumb::harness::reality {
 
-/// Inertia over mass of a uniform ellipse of 70 mm x 50 mm, m^2: (a^2 + b^2) / 4. It weighs all errors alike,
-/// whatever inertia a law is fitted with.
+/// Inertia over mass of a uniform ellipse of 70 mm x 50 mm, m^2: (a^2 + b^2) / 4. It weighs the errors of all
+/// laws in the same way, whatever inertia a law is fitted with.
 inline constexpr double kUniformEllipse = (0.035 * 0.035 + 0.025 * 0.025) / 4;
 
 /// A law of impact with its parameters. The first is always the inertia over the mass, m^2.
 struct EllipseLaw {
   std::string name, text;
   std::vector<Parameter> parameters;
-  bool of_this_floor = false;  ///< has a parameter of the place, which says nothing of another floor
+  bool of_this_floor = false;  ///< a parameter depends on the position on this one floor
   std::function<precise::ContactImpulse(const precise::ImpactPoint&, const MeasuredImpact&,
                                         std::span<const double>)>
       impulse;
@@ -64,7 +64,7 @@ struct EllipseEngine {
 };
 
 struct EllipseFindings {
-  int impacts = 0, doubted = 0;                  ///< measured; of these left out
+  int impacts = 0, doubted = 0;                  ///< measured impacts; number of these left out as doubtful
   std::vector<EllipseFinding> laws;              ///< in the order of `ellipse_laws`
   EllipseFinding bound;                          ///< the best impulse at the contact, with the best inertia
   std::size_t best = 0, best_of_all_floors = 0;  ///< laws with the least `validated`

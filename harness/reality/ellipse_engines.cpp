@@ -8,13 +8,13 @@
 #include "harness/reality/ellipse.h"
 #include "harness/reality/parallel.h"
 
-// Engines have no ellipses. An impact depends on the contact point alone: a disc that is held where the
-// measured contact was, on a body of the fitted inertia, touches at the same levers and has the same rates.
+// Engines have no ellipses. An impact depends on the contact point alone. So a disc at the measured contact,
+// on a body of the fitted inertia, has the same lever arms and the same contact velocities.
 namespace plumb::harness::reality {
 namespace {
 
 constexpr double kRadius = 0.01;  // m, of the disc
-/// Frames from the start to where velocities are read: the impact is within the second.
+/// Frames from the start to the time at which velocities are read: the impact is within the second frame.
 constexpr int kFrames = 4;
 /// Tolerance of the exact impacts.
 constexpr double kExact = 1e-9;
@@ -44,7 +44,7 @@ Scene scene_of(const MeasuredImpact& impact, std::span<const double> values, std
   return scene;
 }
 
-/// Velocities after the impact; nothing where it was not finished.
+/// Velocities after the impact; empty if the run did not finish.
 using Result = std::optional<BodyState>;
 
 Result exact(const Scene& scene) {

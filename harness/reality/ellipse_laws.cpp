@@ -11,7 +11,8 @@ using precise::ImpactCoefficients;
 using precise::ImpactPoint;
 using Values = std::span<const double>;
 
-// The ellipse of 70 mm x 50 mm: a uniform disc has 4.6e-4 m^2, a mass nearer to the centre less.
+// Bounds of inertia over mass for the ellipse of 70 mm x 50 mm: a uniform one has 4.6e-4 m^2, one with its
+// mass nearer to the centre less.
 const Parameter kInertia{"inertia / mass", "m^2", 4e-4, 3e-5, 2e-4, 7e-4};
 const Parameter kFriction{"friction", "", 0.2, 0.03, 0, 1};
 const Parameter kRestitution{"restitution", "", 0.55, 0.03, 0, 1};
@@ -25,8 +26,8 @@ const Parameter kSlope{"restitution along the floor", "1/m", 0, 0.3, -4, 4};
 /// and the coefficient at this speed remain to be fitted.
 constexpr double kYieldSpeed = 2;
 
-/// Place from which restitution along the floor is counted, m: about the middle of the impacts, so that the
-/// two parameters can be told apart.
+/// Position at which restitution along the floor is its constant part, m: about the middle of the impacts, so
+/// that the two parameters can be distinguished.
 constexpr double kMiddle = 0.38;
 
 using Rule = ContactImpulse (*)(const ImpactPoint&, const ImpactCoefficients&);

@@ -18,8 +18,8 @@ struct Fit {
   double loss = 0;
 };
 
-/// Returns the parameters with the least `loss`, by Nelder and Mead's simplex (Computer Journal 7 (1965) 308)
-/// started again from what it found: such losses have kinks. At most `evaluations` calls of `loss`.
+/// Returns the parameters with the least `loss`, by Nelder and Mead's simplex (Computer Journal 7 (1965)
+/// 308), restarted from its result, because such losses have kinks. At most `evaluations` calls of `loss`.
 Fit minimise(std::span<const Parameter> parameters, int evaluations,
              const std::function<double(std::span<const double>)>& loss);
 

@@ -14,8 +14,8 @@ namespace plumb::harness::reality {
 /// error.
 struct Residual {
   std::vector<double> off;
-  std::vector<double> by{};  ///< derivatives, a row a component; empty: there are none, or no residual
-  double error = 0;          ///< length of `off`; infinite where nothing was computed
+  std::vector<double> by{};  ///< derivatives, one row per component; empty if there are none, or no residual
+  double error = 0;          ///< length of `off`; infinite if nothing was computed
 };
 
 /// Residuals of all measured motions at one time.

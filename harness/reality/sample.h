@@ -7,7 +7,7 @@
 
 namespace plumb::harness::reality {
 
-/// A statistic of a sample, and the interval that holds 95 % of what bootstrap samples give.
+/// A statistic of a sample, and the interval that holds 95 % of its bootstrap values.
 struct Estimate {
   double value = 0, low = 0, high = 0;
 };
@@ -25,11 +25,11 @@ double quantile(std::vector<double> values, double share);
 /// value to the next when all change a little. Nan for none.
 double middle_mean(std::vector<double> values);
 
-/// Returns a value with the interval that holds 95 % of what bootstrap samples gave.
+/// Returns a value with the interval that holds 95 % of its bootstrap values.
 Estimate interval_of(double value, const std::vector<double>& found);
 
-/// Returns the quantile with its interval from 1000 bootstrap samples (percentiles 2.5 and 97.5 of theirs).
-/// Source: Efron and Tibshirani, An Introduction to the Bootstrap (1993), 13.3.
+/// Returns the quantile with its interval, percentiles 2.5 and 97.5 of 1000 bootstrap samples. Source: Efron
+/// and Tibshirani, An Introduction to the Bootstrap (1993), 13.3.
 Estimate estimate(std::span<const double> values, double share, std::uint64_t seed);
 
 /// Returns the quantile of `values` divided by that of `others`, whose elements belong together pair by pair,

@@ -10,8 +10,8 @@
 
 namespace plumb::harness::report {
 
-/// Reads from a file or folder of results the runs that `replays_of` chooses of all. They are few: each
-/// replay is a process forked from this one, which takes long where a million runs are in memory.
+/// Reads from a file or folder of results only the runs that `replays_of` chooses. Reading all would be slow:
+/// each replay is a process forked from this one, which takes long if a million runs are in memory.
 std::vector<Result> rows_to_replay(const std::string& folder_or_file);
 
 /// Repeats for each scene and engine the run in `rows` with the step nearest to 1/60 s. Each has a process of

@@ -22,10 +22,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFrames = 241;                   // frames of the truth's motion
-constexpr std::size_t kLargestMotion = 40000;  // poses per scene: scenes of many bodies have fewer frames
-// Room of a page, which browsers should open within three seconds and mail should carry: 20 MB with the
-// charts' library. A run takes about 450 bytes; all kinds of settings are there once. What the runs leave,
-// motions get.
+constexpr std::size_t kLargestMotion = 40000;  // poses per scene; scenes of many bodies have fewer frames
+// Size limit of a page, so that browsers open it within three seconds and mail can carry it: 20 MB with the
+// charts' library. A run takes about 450 bytes; each kind of settings is stored once. Motions get the room
+// that runs leave.
 constexpr std::size_t kRoom = 18'000'000;    // bytes
 constexpr std::size_t kShown = 14'000;       // runs
 constexpr std::size_t kShownOfAnEngine = 4;  // runs, minimum a scene: default, best, two of the front
@@ -110,7 +110,7 @@ double drawn(double value) {
   return std::isfinite(value) ? std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr) : value;
 }
 
-/// Effective settings, each kind once: they take more room than all else of a run.
+/// Effective settings, each kind stored once, because they take more room than the rest of a run.
 class SettingsTable {
  public:
   std::size_t place_of(const Result& row) {
@@ -204,8 +204,8 @@ Json motion_json(const Stage& stage) {
   return {{"times", stage.times}, {"poses", frames}};
 }
 
-/// Motions of a scene, apart from the rest of it, which must be known before it is known how much room they
-/// have.
+/// Motions of a scene. They are stored separately, because their room is known only when the rest of the
+/// scene is.
 struct Motions {
   Json truth;                             ///< null if there is none
   std::map<std::size_t, Json> replays{};  ///< by the place of their row

@@ -11,8 +11,8 @@
 /// browser opens at once; curves look the same with fewer points.
 namespace plumb::harness::report {
 
-/// Returns the largest c for which the sum of min(count, c) over `counts` is at most `room`, at least
-/// `least`: what small groups leave, large ones get.
+/// Returns the largest c for which the sum of min(count, c) over `counts` is at most `room`, but at least
+/// `least`: large groups get the room that small ones leave.
 std::size_t fair_share(std::vector<std::size_t> counts, std::size_t room, std::size_t least);
 
 /// Returns the places of the rows to show, in order, at most `most` of each engine. In this order of

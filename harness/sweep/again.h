@@ -18,9 +18,9 @@ struct AgainOptions {
   double seconds_a_run = 300;                        ///< wall time after which a run is stopped
 };
 
-/// Makes the runs of `rows` again, each with the settings that it was asked for and measured at the same
-/// instants. Costs are not measured. Rows of other scenes and engines are left out. `finished` is called with
-/// the runs of a scene; returns false after an interrupt, which loses those of the scene under way.
+/// Repeats the runs of `rows`, each with the settings that were requested for it and measured at the same
+/// instants. Costs are not measured. Rows of other scenes and engines are left out. Calls `finished` with the
+/// runs of each scene. Returns false after an interrupt, which loses the runs of the current scene.
 bool run_again(std::span<const Result> rows, const AgainOptions& options, const CompareEvents& events);
 
 }  // namespace plumb::harness::sweep

@@ -5,9 +5,9 @@
 namespace plumb::harness::sweep {
 
 /// Computes the two-sided Wilcoxon-Mann-Whitney test. Returns the probability that two samples of one
-/// distribution are ranked at least as unevenly as `a` and `b`. Exact, with ties at their middle ranks: the
-/// fraction of all divisions of the common order into two such groups whose rank sum is at least as far from
-/// the middle. Only the first `kMostRanked` of each sample count. Returns 1 if one is empty.
+/// distribution are ranked at least as unevenly as `a` and `b`. It is exact, with ties at their middle ranks:
+/// of all divisions of the combined ranking into two such groups, the fraction whose rank sum is at least as
+/// far from the middle. Only the first `kMostRanked` of each sample count. Returns 1 if one is empty.
 double rank_test(std::span<const double> a, std::span<const double> b);
 
 inline constexpr std::size_t kMostRanked = 50;

@@ -21,8 +21,8 @@ struct SweepOptions {
   std::vector<const reference::Backend*> engines;
   std::string folder;   ///< folder of results.jsonl and sweep.jsonl
   double budget = 540;  ///< s of wall time for all instances
-  /// s for finding the fronts of all instances, of which no cost is measured then and no result written: that
-  /// is for the sweep that goes on `from` this folder. 0: fronts and costs.
+  /// s for finding the fronts of all instances. If set, no cost is measured and no result is written: a later
+  /// sweep with this folder in `from` does that. 0: fronts and costs.
   double only_explore = 0;
   std::vector<std::string>
       from{};                    ///< folders of sweeps whose runs are taken over, by the same build of plumb

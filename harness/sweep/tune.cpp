@@ -161,8 +161,8 @@ bool Tuner::meets(const Trial& trial) const {
   return options_.tolerance ? trial.error <= *options_.tolerance : trial.ns_a_second() <= *goal_.cost;
 }
 
-// Returns true if `a` is nearer to the goal: of two that meet it the cheaper, or the more accurate; else the
-// one that misses by less.
+// Returns true if `a` is nearer to the goal. If both meet it, that is the cheaper or the more accurate one,
+// else the one that misses by less.
 bool Tuner::better(const Trial& a, const Trial& b) const {
   const bool a_meets = meets(a);
   if (a_meets != meets(b)) return a_meets;

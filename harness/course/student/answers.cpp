@@ -5,11 +5,11 @@
 
 #include "harness/course/student/world.h"
 
-// Answers contacts: by impulses along the normal, by friction, and by moving bodies apart.
+// Resolves contacts: by impulses along the normal, by friction, and by moving bodies apart.
 namespace plumb::course {
 namespace {
 
-constexpr double kSlop = 0.001;  // m that resting bodies stay in each other, so that they still touch
+constexpr double kSlop = 0.001;  // m, overlap that is not corrected, so that resting bodies still touch
 
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
 

@@ -7,22 +7,21 @@
 
 namespace plumb::course {
 
-/// How an engine works, apart from mistakes: right engines differ in it.
+/// Design of an engine, apart from mistakes; correct engines differ in it.
 struct Manner {
-  int sweeps = 40;    ///< over joints and contacts, a step
-  bool once = false;  ///< contacts are answered once a step
-  bool after_move =
-      false;  ///< contacts are found and answered after bodies have moved, and pushed fully apart
+  int sweeps = 40;          ///< iterations over joints and contacts, per step
+  bool once = false;        ///< contacts are solved once a step
+  bool after_move = false;  ///< contacts are found and solved after bodies have moved, and pushed fully apart
   bool by_positions =
       false;           ///< joints are closed by positions, and velocities are displacements over the step
-  double share = 0.5;  ///< of an overlap that a step removes by positions
-  bool deep = false;   ///< a circle whose centre is in a box is pushed out at the nearest side
-  double fed = 0;      ///< share of a joint's error that velocities close in a step, in place of positions
+  double share = 0.5;  ///< fraction of an overlap that a step removes by positions
+  bool deep = false;   ///< a circle with its centre inside a box is pushed out at the nearest side
+  double fed = 0;      ///< fraction of a joint's error that velocities close in a step, instead of positions
 };
 
 /// A learner's engine, as the course builds it: circles and boxes, sequential impulses, hinges and sticks. It
-/// makes the one mistake that is asked for ("" for none); world.cpp has their names. `scheme` is
-/// semi-implicit Euler, explicit Euler or velocity Verlet.
+/// makes the requested mistake ("" for none); world.cpp has the names. `scheme` is semi-implicit Euler,
+/// explicit Euler or velocity Verlet.
 std::unique_ptr<reference::Backend> make_student(
     std::string mistake, reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, Manner manner = {});
 

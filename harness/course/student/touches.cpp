@@ -15,7 +15,7 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   const double ra = radius(bodies_[a]), rb = radius(bodies_[b]);
   const Vec2d way = bodies_[b].position - bodies_[a].position;
   const double d = length(way);
-  // The overlap is taken from r1 + r2, or from the same wrong reach.
+  // The overlap is computed from r1 + r2, or from the mistake's wrong sum.
   constexpr std::string_view kInDepth = "_in_depth";
   const bool in_depth = mistake_.ends_with(kInDepth);
   const std::string_view name =

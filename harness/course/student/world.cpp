@@ -75,7 +75,8 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     if (mistake_ == name) mistake_ = scaled;
   read_mistake(mistake_);
   for (const Joint& joint : scene_.joints) ends_.push_back(indices(scene_, joint));
-  // Sweeps mend what a single answer gets wrong: these are made by who has none yet, unless asked otherwise.
+  // Iterations repair errors of a single solve: these mistakes are made by engines without iterations, unless
+  // requested otherwise.
   for (const char* name :
        {"one_body_only", "inverse_mass_forgotten", "masses_in_place_of_inverses",
         "masses_in_place_of_inverses_of_moving", "masses_swapped", "masses_swapped_of_moving",
@@ -182,7 +183,7 @@ void StudentWorld::advance() {
 
 int StudentWorld::sweeps() const { return is("too_few_iterations") ? 1 : manner_.sweeps; }
 
-// Finds contacts, and goes over them and, if they are held by velocities, over joints.
+// Finds contacts, and iterates over them and, if joints are held by velocities, over joints.
 void StudentWorld::answer_touches(bool with_joints) {
   std::vector<Touch> found = touches();
   if (is("first_contact_only") && found.size() > 1) found.resize(1);

@@ -13,7 +13,7 @@
 
 namespace plumb::course {
 
-/// The name of a mistake or a quantity. Names are compared by a hash, as a step compares many.
+/// The name of a mistake or a quantity. Names are compared by a hash, because each step compares many.
 struct Name {
   std::uint64_t hash;
 
@@ -64,10 +64,10 @@ class StudentWorld {
   void answer_touches(bool with_joints);
   void move_and_project(bool moves);
   void correct_all(int sweeps);
-  std::vector<BodyState> truly() const;  ///< the states of now, whatever is answered
+  std::vector<BodyState> truly() const;  ///< the current states, even if the engine reports others
   bool scales(Name quantity) const { return quantity.hash == scaled_hash_; }
   double times(Name quantity) const { return scales(quantity) ? factor_ : 1; }
-  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with its x and y as the mistake takes them
+  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with its x and y as the mistake changes them
   void read_mistake(const std::string& mistake);
   double shown(double angle) const;
   double radius(const Rigid& body) const;

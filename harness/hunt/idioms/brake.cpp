@@ -29,7 +29,7 @@ void build(Draft& draft) {
   const int steps = draft.out.steps = std::max(2, static_cast<int>(time / dt));
   const double t = std::min(steps * dt, stops);
   const double right = from + speed * t - 0.5 * braking * t * t;
-  // A step late or early, and the loss of a landing from slightly above the floor.
+  // Tolerance: one step late or early, and the energy lost in a landing from slightly above the floor.
   const double slack = 0.02 * way + speed * dt + 0.002 * s;
   Expectation& brakes = draft.expect("brakes", made, Quantity::X);
   brakes.lower = right - slack, brakes.upper = right + slack;

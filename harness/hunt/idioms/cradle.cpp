@@ -8,8 +8,8 @@ namespace plumb::harness::hunt {
 namespace {
 
 // Builds a row of balls, each as large as the one before or smaller, of which the first strikes the second.
-// They strike one after the other, also those that touch: a ball of mass m hands (1 + e) m / (m + m') of its
-// speed to one of m', and follows it more slowly.
+// They strike one after the other, even balls that touch: a ball of mass m gives (1 + e) m / (m + m') of its
+// speed to a ball of mass m', and follows it more slowly.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, speed = random.ladder(0.5, 20) * s;
@@ -17,7 +17,7 @@ void build(Draft& draft) {
   const bool touching = random.chance(0.5);
   const double shrinks = random.pick({1.0, 1.0, 0.8});
   draft.friction = 0;
-  draft.out.scene.gravity = {0, 0};  // with it, impacts below 4 g dt do not bounce
+  draft.out.scene.gravity = {0, 0};  // with gravity, impacts below 4 g dt would not bounce
   draft.restitution = touching ? 1 : random.pick({0.5, 0.8, 1.0});
   double x = 0, radius = random.within(0.1, 0.5) * s, now = speed, struck = 0;
   for (int i = 0; i < balls; ++i) {

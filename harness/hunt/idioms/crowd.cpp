@@ -6,9 +6,9 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds smooth discs without weight that fly into each other, between pins and walls: some are dense enough
-// that a disc is struck several times in a step, some at rest, some moved or pushed while they are. How discs
-// collide is known.
+// Builds smooth discs without gravity that fly into each other, between pins and walls. Some crowds are so
+// dense that a disc is struck several times in a step; some discs are at rest; some are moved or pushed
+// during the run. The exact motion is computed from the discs' collisions.
 void build(Draft& draft) {
   Random& random = draft.random;
   Case& out = draft.out;
@@ -19,7 +19,7 @@ void build(Draft& draft) {
   draft.restitution = random.pick({1.0, 1.0, 0.8, 0.5});
   const int across = random.whole(1, 4), along = random.whole(1, 4), first = draft.count();
   const double cell = s * random.within(0.5, 1.5), gap = random.ladder(0.002, 0.4) * cell;
-  // Speeds by which a disc crosses a small or a large part of its size in a step.
+  // Speeds at which a disc moves by a small or a large part of its size in a step.
   const double speed = random.ladder(0.01, 1) * cell / out.dt;
   const bool alike = random.chance(0.5), rest = random.chance(0.4);
   for (int i = 0; i < across; ++i)
@@ -50,7 +50,7 @@ void build(Draft& draft) {
   out.steps = std::min(240, static_cast<int>((away + 6 * along * cell) / (speed * out.dt)) + 10);
   out.sleeping = random.chance(0.3);
   if (random.chance(0.25)) {
-    // A disc that stands, or flies, is pushed on; or put somewhere near.
+    // Pushes a disc at rest or in flight, or moves it to a nearby position.
     const int step = random.whole(1, std::max(1, out.steps / 2));
     out.actions.push_back({.kind = ActionKind::Push,
                            .step = step,

@@ -39,7 +39,7 @@ void build(Draft& draft) {
     owed.lower = y - 0.1 * length, owed.upper = y + 0.1 * length;
     owed.why = "a joint bears what it is said to bear";
   } else {
-    owed.upper = y - 0.25 * g * time * time;  // half of the fall: breaking may take a while
+    owed.upper = y - 0.25 * g * time * time;  // half of the free fall, because breaking may take a while
     owed.from = owed.to = time;
     owed.why = "a joint lets go of what is more than it is said to bear";
   }

@@ -6,8 +6,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a disc that is thrown up against a ceiling, or swings up against it on a spring: it meets the
-// ceiling near the top of its path, between two places where it does not.
+// Builds a disc that is thrown up against a ceiling, or swings up against it on a spring. It meets the
+// ceiling near the top of its path, between two positions at which it does not touch.
 void build(Draft& draft) {
   Random& random = draft.random;
   Case& out = draft.out;
@@ -17,7 +17,7 @@ void build(Draft& draft) {
   const double g = -out.scene.gravity.y, radius = s * random.within(0.1, 0.5);
   draft.friction = 0, draft.restitution = 0;
   const bool swings = random.chance(0.5);
-  // The approach is fast enough to be told from a step's fall, and seldom much faster.
+  // The approach is fast enough to be distinguished from a step's fall, and seldom much faster.
   const double meets = random.within(6, 40) * g * dt;
   const double fall = random.within(0.1, 2) * s, speed = std::sqrt(meets * meets + 2 * g * fall);
   const int made = draft.disc({0, 0}, radius);
@@ -26,7 +26,7 @@ void build(Draft& draft) {
   const double width = 20 * s + 6 * std::abs(draft.body(made).velocity.x) * speed / g;
   const int ceiling = draft.box({0, at + s / 2}, width, s, 0, BodyType::Static);
   if (swings) {
-    // A force that swings is no part of gravity: the path is known in the vertical direction alone.
+    // A sinusoidal force is not part of gravity: the path is known in the vertical direction alone.
     const double rate = random.within(2, 20);
     out.scene.forces.push_back(
         SinusoidalForce{.body = draft.name(made),
@@ -34,7 +34,7 @@ void build(Draft& draft) {
                         .angular_frequency = rate});
   }
   const double until = (speed - meets) / g, top = speed / g;
-  // The place where it would come down again, had there been no ceiling: it has then fallen for longer.
+  // The position to which it would return without a ceiling, after a longer fall.
   const int steps = out.steps = std::max(4, static_cast<int>((until + 2 * (top - until) + 0.3 * top) / dt));
   const double end = steps * dt;
   Expectation& below = draft.expect("is_stopped_by_a_ceiling", made, Quantity::Y);

@@ -3,7 +3,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds bodies of all kinds, needles among them, that fall on the ground and come to rest there.
+// Builds bodies of all kinds, including needles, that fall on the ground and come to rest there.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;

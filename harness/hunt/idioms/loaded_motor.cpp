@@ -7,8 +7,9 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a bar on a hinge, or a slide, whose motor turns at its speed from the start, and a load with it or
-// against it: below the motor's strength the speed is kept, above it the excess accelerates.
+// Builds a bar on a hinge, or a slide, whose motor runs at its speed from the start, and a load that acts
+// with or against it. Below the motor's strength the speed is kept; above it the excess load accelerates the
+// body.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size;
@@ -38,7 +39,7 @@ void build(Draft& draft) {
   const double right = speed + rate * steps * draft.out.dt;
   Expectation& holds =
       draft.expect("holds_its_speed", made, slides ? Quantity::VelocityX : Quantity::AngularVelocity);
-  // A motor that is just strong enough gives way by what its load does in a step.
+  // If the motor is only just strong enough, the speed changes by what the load adds in a step.
   const double slack = 0.02 * std::abs(right) + 1.1 * std::abs(load) / inert * draft.out.dt;
   holds.lower = right - slack, holds.upper = right + slack;
   holds.from = holds.to = steps * draft.out.dt;

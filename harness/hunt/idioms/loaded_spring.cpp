@@ -7,15 +7,15 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds an arm on a hinge with a damped spring, which its weight, or that of a load at its end, bends: it
-// rests where the spring's torque I w^2 (angle - target) is that of the weights, I the arm's own inertia
-// about the hinge.
+// Builds an arm on a hinge with a damped spring, which its weight, or that of a load at its end, deflects. It
+// rests where the spring's torque I w^2 (angle - target) balances that of the weights; I is the arm's own
+// inertia about the hinge.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, g = random.within(2, 20), thick = random.within(0.05, 0.3) * s;
   draft.site.kind = Site::Kind::Air;
   draft.out.scene.gravity = {0, -g};
-  draft.out.sleeping = false;  // it may creep up to its rest more slowly than what falls asleep
+  draft.out.sleeping = false;  // it may approach its rest position at less than the speed of sleep
   const int arm = draft.box({0.5 * s, 0}, s, thick);
   RevoluteJoint& hinge = draft.revolute(-1, arm, {0, 0});
   const bool loaded = random.chance(0.5);
@@ -23,7 +23,7 @@ void build(Draft& draft) {
   double moment = draft.body(arm).mass * 0.5 * s;  // kg m, of the weights at the angle 0
   std::vector<std::string> needs{draft.name(arm), hinge.name, std::string(kMasses)};
   const double own = inertia_of(draft.body(arm)) + draft.body(arm).mass * 0.25 * s * s;
-  // Bent by about as much as is drawn.
+  // Chooses the stiffness so that the deflection is about the drawn one.
   const double bend = random.within(0.05, 0.4);
   const double heavy = loaded ? random.pick({0.2, 1.0, 5.0}) : 0;
   moment += heavy * draft.body(arm).mass * s;
@@ -42,7 +42,7 @@ void build(Draft& draft) {
     const Vec2d to = direction(angle);
     angle -= (stiffness * angle + moment * g * to.x) / (stiffness - moment * g * to.y);
   }
-  // A load slows it down: the periods of the whole.
+  // A load slows the swing: uses the period of arm and load together.
   const double rate =
       6.283185307179586 * hertz / std::sqrt(1 + heavy * draft.body(arm).mass * s * s * 1.1 / own);
   const double time = std::min(12.0, 40 / rate);

@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a grid or a tree of many bodies on hinges, more than are solved at once: chain mail, a crowd of
+// Builds a grid or a tree of many bodies on hinges, too many for a direct solve: chain mail, a crowd of
 // ragdolls.
 void build(Draft& draft) {
   Random& random = draft.random;

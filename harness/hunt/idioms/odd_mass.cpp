@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Makes one body heavier or lighter than its size suggests, or sets its inertia.
+// Makes one body heavier or lighter than its size suggests, or gives it another inertia.
 void build(Draft& draft) {
   Random& random = draft.random;
   const int first = random.whole(0, draft.count() - 1);

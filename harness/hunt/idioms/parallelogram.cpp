@@ -6,8 +6,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds two parallel cranks, or three, and a bar between their tips, which turn through the positions in
-// which all lie in one line. Without gravity they go on at their rate, and the bar keeps its direction.
+// Builds two or three parallel cranks and a bar between their tips, which turn through the positions in which
+// all of them lie in one line. Without gravity they turn at a constant rate, and the bar keeps its direction.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, apart = random.within(0.8, 2) * s, rate = random.within(1, 6);
@@ -17,7 +17,8 @@ void build(Draft& draft) {
   const double start = random.within(0.3, 2.5);
   const Vec2d to = direction(start), tip = s * to;
   std::vector<int> cranks;
-  // A base of its own: places in its frame have more digits than those of a world that lies far away.
+  // Uses its own static base: positions in its frame are more precise than those of a world far from the
+  // origin.
   const int base = draft.box({0.5 * apart, -0.1 * s}, apart, 0.1 * s, 0, BodyType::Static);
   const int count = random.pick({2, 2, 2, 3});
   std::vector<std::string> needs{std::string(kMasses), draft.name(base)};

@@ -6,8 +6,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a chain that hangs straight down with a load at its end, and stays so; or is turned aside by a few
-// degrees as a whole, and swings with about the period of its load.
+// Builds a chain with a load at its end that hangs straight down and stays so, or is rotated by a few degrees
+// as a whole and swings with about the period of its load.
 void build(Draft& draft) {
   Random& random = draft.random;
   Case& out = draft.out;

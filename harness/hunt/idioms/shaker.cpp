@@ -26,7 +26,7 @@ void build(Draft& draft) {
   force.amplitude = up ? Vec2d{0, mass * peak} : Vec2d{mass * peak, 0};
   if (!up) force.point = {0, -height / 2};  // so that it does not tip
   draft.out.scene.forces.push_back(force);
-  // The run ends when the force has fallen to that value again.
+  // The run ends when the force has fallen to the same value again.
   const int steps = draft.out.steps = std::max(2, static_cast<int>((3.141592653589793 - start) / rate / dt));
   const double t = steps * dt, span = std::max(0.0, t - start / rate);
   const Vec2d first = direction(start), last = direction(std::max(rate * t, start));
@@ -38,7 +38,7 @@ void build(Draft& draft) {
   moves.lower = from + right - slack, moves.upper = from + right + slack;
   moves.from = moves.to = t;
   moves.why = "what is pushed harder than it is held moves by the difference";
-  // It needs the parts of the floor along its path.
+  // The expectation requires the parts of the floor along the path.
   for (int i = 0; i < made; ++i) {
     const std::vector<Shape>& shapes = draft.body(i).shapes;
     const double reach = shapes.size() > 1 ? draft.site.width : reach_of(shapes.front().geometry);

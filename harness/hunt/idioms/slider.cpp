@@ -35,7 +35,7 @@ void build(Draft& draft) {
   Expectation& keeps = draft.expect("keeps_speed", made, Quantity::VelocityX);
   keeps.lower = 0.98 * speed, keeps.upper = 1.02 * speed;
   keeps.why = "what slides on a level floor without friction keeps its speed";
-  // It needs the parts of the floor along its path.
+  // The expectation requires the parts of the floor along the path.
   for (int i = 0; i < made; ++i) {
     const double reach =
         draft.body(i).shapes.size() > 1 ? draft.site.width : reach_of(draft.body(i).shapes.front().geometry);

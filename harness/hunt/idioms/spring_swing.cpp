@@ -25,7 +25,8 @@ void build(Draft& draft) {
     joint.spring = spring;
     joint.target_angle = away;
   }
-  // After half a period it is at twice the displacement. An implicit method damps by w h / 2 a radian.
+  // After half a period it is at twice the displacement. An implicit method damps the amplitude by the
+  // fraction w h / 2 per radian of phase.
   const double half = 0.5 / hertz;
   draft.out.steps = static_cast<int>(1.2 * half / draft.out.dt) + 2;
   Expectation& swings = draft.expect("swings_at_its_frequency", made, slides ? Quantity::X : Quantity::Angle);

@@ -6,8 +6,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Returns a force law on a body, and perhaps another: each kind that a scene may have, also such as change
-// faster than steps, and pulses that begin and end between them.
+// Returns a force law on a body, perhaps with a second body: any kind that a scene may have, including forces
+// that change within a step, and pulses that begin and end within a step.
 ForceLaw some_law(Draft& draft, int made, int other) {
   Random& random = draft.random;
   const Body& body = draft.body(made);

@@ -22,8 +22,8 @@ void build(Draft& draft) {
     draft.body(made).angular_velocity = random.within(-spin, spin);
   }
   if (random.chance(0.6) || count > 1) draft.pass_each_other(first);
-  // As shapes may lie in each other by 2 g dt^2 (`penetration`), the centres of thin ones may lie in a wall
-  // by that, up to its middle; for g and dt at least those that cases are made small with.
+  // Shapes may overlap by 2 g dt^2 (`penetration`), so the centres of thin ones may lie inside a wall, up to
+  // its middle. Uses at least the g and dt to which cases are shrunk.
   const double g = std::max(10.0, length(draft.out.scene.gravity)), dt = std::max(1.0 / 60, draft.out.dt);
   const double into = std::min(draft.site.wall / 2, 2 * g * dt * dt);
   for (int i = first; i < draft.count(); ++i) {

@@ -7,15 +7,15 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a tall box that leans on one edge and falls over it, with more friction than it needs: a pendulum
-// upside down, integrated here, as long as it leans little enough to press on its edge and not to slip.
+// Builds a tall box that leans on one edge and falls over it, with more friction than it needs: an inverted
+// pendulum, integrated here, as long as it leans so little that it presses on its edge and does not slip.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, wide = random.within(0.2, 0.5) * s, g = -draft.out.scene.gravity.y;
   draft.friction = random.pick({1.0, 2.0}), draft.restitution = 0;
   for (int i = 0; i < draft.count(); ++i)
     for (Shape& shape : draft.body(i).shapes) shape.friction = draft.friction, shape.restitution = 0;
-  // Beyond the angle at which its centre is over the edge.
+  // Leans beyond the angle at which its centre is above the edge.
   const double diagonal = std::sqrt(s * s + wide * wide) / 2, upright = std::atan2(wide, s);
   const double beyond = random.within(0.05, 0.2), lean = upright + beyond;
   const Vec2d to = direction(-lean);

@@ -5,13 +5,13 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// Blocks behind the first that still move: each is slower than the one before it.
+/// Number of blocks behind the first one that still move: each is slower than the one before it.
 constexpr int kBlocks = 100;
-/// Share of a block's equation in the sum below which it and those behind it are left out.
+/// Fraction of the sum below which a block's equation, and those of the blocks behind it, are left out.
 constexpr double kLeast = 1e-9;
 constexpr int kSteps = 50;  // steps of fourth order for the first block's turn between two impacts
-/// Impacts that it takes at most until the speed is the same to `kSteady`. Each leaves a third to nine tenths
-/// of the difference.
+/// Maximum number of impacts until the speed is constant to `kSteady`. Each leaves a third to nine tenths of
+/// the difference.
 constexpr int kImpacts = 1000;
 constexpr double kSteady = 1e-13;
 
@@ -21,7 +21,7 @@ struct Motion {
   double inertia = 0, bend = 0, torque = 0;
 };
 
-/// Lengths over the height, times over the root of the height over gravity.
+/// Lengths are relative to the height, times to the square root of height over gravity.
 class Row {
  public:
   explicit Row(const DominoRow& row)

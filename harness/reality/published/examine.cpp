@@ -30,7 +30,7 @@ double measure(const reference::Backend& engine, const PublishedLaw& law, const 
   return law.measure(samples);
 }
 
-/// Runs all starts, the first alone: where that does not finish, the others are not run.
+/// Runs all starts, the first one alone: if it does not finish, the others are not run.
 void run_starts(const reference::Backend& engine, const PublishedLaw& law, PublishedFinding& finding) {
   std::vector<double> found;
   const auto run = [&](std::size_t first, std::size_t end) {

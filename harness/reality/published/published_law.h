@@ -10,9 +10,9 @@
 #include "harness/reality/sample.h"
 #include "reference/backend.h"
 
-/// Laws of real matter that were published, as scenes: an engine's figure beside the published band. A single
-/// run of a collapse is no figure: starts that differ by less than anyone could measure end far apart. Each
-/// law is run from several starts, and its figure is their median.
+/// Published laws of real matter, as scenes: an engine's figure is compared with the published band. A single
+/// run of a collapse is not meaningful, because starts that differ by less than anyone could measure end far
+/// apart. So each law is run from several starts, and its figure is their median.
 namespace plumb::harness::reality {
 
 /// States of all bodies at one time.
@@ -23,7 +23,7 @@ struct PublishedLaw {
   std::string quantity;  ///< measured, with its unit
   std::string source;    ///< of the band
   double low = 0, high = 0;
-  std::vector<Scene> starts;            ///< the first as described, in the others places differ slightly
+  std::vector<Scene> starts;            ///< the first as described; in the others positions differ slightly
   double duration = 1, dt = 1.0 / 120;  ///< s
   /// Returns the quantity from the samples, one a step from the start on.
   std::function<double(std::span<const Sample>)> measure;
