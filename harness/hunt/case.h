@@ -13,9 +13,9 @@
 namespace plumb::harness::hunt {
 
 enum class ActionKind : std::uint8_t {
-  Create,        ///< a body of the scene that does not exist before
+  Create,        ///< creates a body of the scene, which does not exist before
   Destroy,       ///< a body
-  CreateJoint,   ///< a joint of the scene that does not exist before
+  CreateJoint,   ///< creates a joint of the scene, which does not exist before
   DestroyJoint,  ///< a joint
   Teleport,      ///< a body to `position` and `angle`
   Push,          ///< a body: its velocity becomes `position` per second, its angular velocity `angle`

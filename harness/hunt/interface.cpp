@@ -180,7 +180,7 @@ std::string watched(Random& random) {
       return wrong;
   }
   {
-    // Two hinges hold a bar at points farther apart than its own.
+    // Two hinges hold a bar at points farther apart than the bar's anchors.
     BasicWorld<Real> world(weightless);
     const BodyId frame = world.create_body({.type = BodyType::Static}),
                  bar = world.create_body({.mass = mass});

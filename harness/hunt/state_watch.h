@@ -77,7 +77,7 @@ class StateWatch {
   std::map<Key, Before> before_;
   std::set<Pair> open_;
   std::set<Key> met_;  // pairs of bodies whose touch was open in the last step, or began or ended in it
-  std::set<std::pair<Key, Key>> links_;  // of bodies, by those touches
+  std::set<std::pair<Key, Key>> links_;  // pairs of bodies with such a touch
   std::map<Key, BodyId> owners_;         // bodies of shapes, including destroyed shapes
   std::set<Key> whirled_;  // bodies that have rotated too far in a step for their angle to be known
   std::string failed_;

@@ -17,7 +17,7 @@ bool write_report(const std::string& folder_or_file, const std::string& out,
 /// Draws a folder's stress.jsonl as SVG. Throws `Error` (Io; Syntax; Value if there is none).
 void write_extremes_picture(const std::string& folder, const std::string& out);
 
-/// Returns report.html in the folder, or beside the file.
+/// Returns the report's path: report.html in the folder, or beside the file.
 std::string default_report_path(const std::string& folder_or_file);
 
 }  // namespace plumb::harness::report

@@ -51,7 +51,7 @@ struct Trial {
   Motion exact{};
 };
 
-/// One file in extremes/, registered nowhere else.
+/// A family is one file in extremes/, which registers itself.
 struct Family {
   std::string name{};
   std::string title{};  ///< "a heavy box on a light one"

@@ -50,7 +50,7 @@ class Record {
     }
     for (std::size_t i = 1; i < journal_.lines().size(); ++i) {
       try {
-        // Gathered cells may have the environment of another machine before them.
+        // Gathered results may begin with the environment of another machine.
         if (const Json line = Json::parse(journal_.lines()[i], nullptr, false);
             line.is_object() && line.value("kind", Json()) == "environment") {
           require_same(line, now);

@@ -37,8 +37,8 @@ struct Threshold {
   std::string judged;    ///< criterion of failure, and why the run is long enough to tell
   SearchRange range{};   ///< without the resolution
 
-  /// Returns the exact value for an engine with this method; nothing if there is none, as when any value
-  /// holds.
+  /// Returns the exact value for an engine with this method; nothing if there is none, for example because
+  /// any value holds.
   std::function<std::optional<double>(const reference::Method& method)> exact{};
 
   /// Builds the run at `value`, long enough to detect a deviation of half a `resolution` from the exact

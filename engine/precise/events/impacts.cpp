@@ -185,8 +185,9 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<ContactCandidate>& touc
       strike_point(time, worst, touches, states, y, restitution);
       continue;
     }
-    // Corners of one shape that approach together are one impact. If one of them opens, it is resolved after
-    // the other, and so on in turn: the limit of corners that touch at slightly different times.
+    // Corners of one shape that approach together are one impact. If one of them opens, the corners are
+    // resolved in turn, until neither approaches: the limit of corners that touch at slightly different
+    // times.
     const ContactCandidate& struck = touches[worst];
     bool both = true;
     for (int i = 0; i < struck.count; ++i) both = both && closes_at(struck, i);

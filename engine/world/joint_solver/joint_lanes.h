@@ -124,7 +124,7 @@ class JointBlocks {
   VectorWidth width_ = VectorWidth::None;
   int count_ = 0, narrow_ = 0;  ///< number of blocks; of these, blocks of 16 bytes
   std::vector<Joint*> alone_;
-  std::vector<int> places_;  ///< of the blocks: in blocks32_, or from -1 on downwards in blocks16_
+  std::vector<int> places_;  ///< by block: i >= 0 for blocks32_[i], -1 - i for blocks16_[i]
   std::vector<Block<16>> blocks16_;
   std::vector<Block<32>> blocks32_;
 };

@@ -3,7 +3,7 @@
 
 #include "harness/reality/published/published_law.h"
 
-// A ball of measured restitution is dropped: the height of its rebound. Sources: International Tennis
+// Drops a ball of measured restitution and measures the height of its rebound. Sources: International Tennis
 // Federation, Rules of Tennis, appendix I (2.54 m, 1.35 to 1.47 m on a rigid floor); International Table
 // Tennis Federation, leaflet T3 (305 mm, 240 to 260 mm on a steel block). The restitution is that of the
 // middle of the band.
