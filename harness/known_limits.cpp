@@ -130,7 +130,7 @@ constexpr KnownLimit kLimits[] = {
     {"bullet|bullet-double", "pushed_block/holds", "position_error|velocity_error", kOnset},
     {"bullet|bullet-double", "ramp_block/barely_holds", "position_error", kOnset},
     {"bullet-double", "pi_billiard/314", "velocity_error", kCrowded},
-    // Limits at other settings than the default ones alone.
+    // Limits that hold only at settings other than the default ones.
     {"box2d", "overhang[1]|table_edge/lies|toppling_block/stands|toppling_block/topples",
      "angle_error|angular_velocity_error", kBrink, true},
     {"bullet", "overhang[1]", "energy_drift", kBrink, true},

@@ -96,7 +96,7 @@ template <class Number>
   block.step_impulse = Number::load(sums);
 }
 
-/// Fills a block with the contacts to which it points, which are of one kind.
+/// Fills a block from its contacts, which are all of one kind.
 template <class Number, class Real>
 [[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const BodyMotion<Real>* motion) {
   using Block = ContactBlock<Number>;

@@ -22,7 +22,7 @@ constexpr std::size_t least_contacts(VectorWidth width) {
 constexpr int kLeastLanes = 2;
 
 // Number of blocks, and of single contacts, in a thread's task: 1 to 2 us of work. Joining a loop, or waiting
-// for the last thread, takes about 0.3 us. One thread solves colours that fit into one task alone.
+// for the last thread, takes about 0.3 us. So a colour that fits into one task is solved by one thread.
 constexpr int kBlocksOfTask = 16, kAloneOfTask = 48;
 
 struct WarmStart {

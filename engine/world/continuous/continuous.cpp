@@ -383,7 +383,7 @@ void meet_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
   }
 }
 
-// Adds the flights of the fast bodies. Returns true if their fat AABBs contained all of their motions.
+// Adds the flights of the fast bodies. Returns true if the fat AABBs of all of them contained their motions.
 template <class Real>
 bool add_fast_bodies(WorldData<Real>& w, double dt) {
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
