@@ -293,8 +293,10 @@ bool renew_bounds(JointedIsland<Real>& island, bool hold) {
 // gain 1 + mu^2 k goes to u = s at once.
 template <class Real>
 bool renew_slips(JointedIsland<Real>& island, bool hold) {
-  // Tolerated error of a velocity along the normal, as a share of the largest.
-  constexpr double kSame = 1e-5;
+  // Tolerated error of a velocity along the normal, as a share of the largest. What sticks has none: its slip
+  // is 0 at first. What goes on sliding begins with the slip of the last substep. At 1e-3 a drum of bodies
+  // takes 40 % more instructions, at 1e-5 57 %.
+  constexpr double kSame = 1e-2;
   bool changed = false;
   for (FrictionCone<Real>& cone : island.cones) {
     const ContactConstraint<Real>& c = *cone.contact;
