@@ -49,8 +49,11 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
   mark_as_advanced(CCACHE_PROGRAM)
   if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    # It keeps what was compiled with precompiled headers only where their macros may differ from what they were made with.
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+    # Keeps what was compiled with precompiled headers only where their macros may differ from what they were made with.
+    # Compares the text of headers (CCACHE_DEPEND), not what is left of it after preprocessing: where comments alone
+    # differ, the precompiled header of another checkout would be taken, which g++ then takes for another file and
+    # reads the header twice.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_DEPEND=1
       CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
   endif()
 endif()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Plants mistakes in the course's solved engines in Python and asks `plumb check` for their names.
 
-usage: planted_mistakes.py PLUMB WARM_START STARTERS [NAME...]    NAME: only these mistakes; prints what was said
+usage: planted_mistakes.py PLUMB WARM_START STARTERS [--part N/M | NAME...]
+    --part: every Mth mistake, from the Nth on; NAME: only these mistakes; prints what was said
 
 Each mistake is a text that is replaced in solved/chapterN.py. The first mistake that `plumb check` names, over the chapters
 up to that one, must be one of those that describe it. ONE_SWEEP marks mistakes that iteration repairs in part, as an engine
@@ -162,10 +163,13 @@ def first_named(plumb, warm, starters, mistake):
 
 def main():
     plumb, client, starters = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
-    chosen = sys.argv[4:]
+    mistakes, chosen = MISTAKES, sys.argv[4:]
+    if chosen[:1] == ["--part"]:
+        first, parts = map(int, chosen[1].split("/"))
+        mistakes, chosen = MISTAKES[first - 1 :: parts], []
     named, unnamed, false = 0, [], []
     with WarmStart(client) as warm:
-        for mistake in MISTAKES:
+        for mistake in mistakes:
             if chosen and not any(word in mistake[0] for word in chosen):
                 continue
             what, where, says, failed = first_named(plumb, warm, starters, mistake)
