@@ -161,10 +161,10 @@ class BouncingBall final : public Demo {
     return before_.position + fraction() * (now - before_.position);
   }
 
-  void write(ByteWriter& out) const override { out.values(simulation_->save()); }
-  void read(ByteReader& in) override {
+  void write(Encoder& out) const override { out.put(simulation_->save()); }
+  void read(Decoder& in) override {
     std::vector<std::byte> snapshot;
-    in.values(snapshot, "simulation");
+    in.get(snapshot, "simulation");
     Simulation restored = compiled();
     restored.restore(snapshot);
     simulation_.emplace(std::move(restored));

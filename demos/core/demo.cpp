@@ -230,34 +230,34 @@ void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
 
 std::vector<std::byte> Demo::save() const {
   std::vector<std::byte> bytes;
-  ByteWriter out(bytes);
-  out.text(about_.name);
-  out.value(static_cast<std::uint64_t>(controls_.size()));
-  for (const Control& control : controls_) out.value(control.value);
-  out.value(time_);
-  out.value(steps_);
+  Encoder out(bytes);
+  out.put(about_.name);
+  out.put(static_cast<std::uint64_t>(controls_.size()));
+  for (const Control& control : controls_) out.put(control.value);
+  out.put(time_);
+  out.put(steps_);
   write(out);
-  out.value(checksum(bytes));
+  out.put(checksum(bytes));
   return bytes;
 }
 
 void Demo::restore(std::span<const std::byte> bytes) {
   std::uint64_t sum = 0;
-  ByteReader::require(bytes.size() > sizeof(sum), "demo", "is cut off");
+  require(bytes.size() > sizeof(sum), "snapshot", "demo", "is cut off");
   const std::span<const std::byte> content = bytes.first(bytes.size() - sizeof(sum));
   std::memcpy(&sum, bytes.data() + content.size(), sizeof(sum));
-  ByteReader::require(sum == checksum(content), "demo", "is damaged");
-  ByteReader in(content);
-  in.require(in.text("demo") == about_.name, "demo", "is another one");
-  in.require(in.value<std::uint64_t>("controls") == controls_.size(), "controls", "are others");
+  require(sum == checksum(content), "snapshot", "demo", "is damaged");
+  Decoder in(content, "snapshot");
+  in.require(in.get<std::string>("demo") == about_.name, "demo", "is another one");
+  in.require(in.get<std::uint64_t>("controls") == controls_.size(), "controls", "are others");
   std::vector<double> values, before;
   for (const Control& control : controls_) {
-    values.push_back(in.value<double>("controls"));
+    values.push_back(in.get<double>("controls"));
     before.push_back(control.value);
     check(control, values.back());
   }
-  const auto time = in.value<double>("time");
-  const auto steps = in.value<std::int64_t>("steps");
+  const auto time = in.get<double>("time");
+  const auto steps = in.get<std::int64_t>("steps");
   const auto put_all = [&](const std::vector<double>& all) {
     for (std::size_t i = 0; i < all.size(); ++i) put(i, all[i]);
   };

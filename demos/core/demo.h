@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "demos/core/control.h"
+#include "engine/encoding/encoding.h"
 #include "engine/geometry/aabb.h"
-#include "engine/scene/bytes.h"
 #include "engine/scene/scene.h"
 #include "engine/world/debug_draw.h"
 #include "engine/world/world.h"
@@ -156,9 +156,9 @@ class Demo {
 
   virtual void build() = 0;  ///< builds the scene's start from the controls
   virtual void step() = 0;   ///< advances by dt()
-  virtual void write(ByteWriter& out) const = 0;
+  virtual void write(Encoder& out) const = 0;
   /// Reads the data of `write`. Controls already have the values saved with it. Changes nothing if it throws.
-  virtual void read(ByteReader& in) = 0;
+  virtual void read(Decoder& in) = 0;
 
   double dt_ = 1.0 / 60;  ///< s
 

@@ -104,22 +104,22 @@ Pose<double> WorldDemo::drawn_pose(BodyId body) const {
 }
 Vec2d WorldDemo::drawn_centre(BodyId body) const { return drawn_pose(body).position; }
 
-void WorldDemo::write(ByteWriter& out) const {
-  out.value(band_.index), out.value(band_.generation);
-  out.values(own());
+void WorldDemo::write(Encoder& out) const {
+  out.put(band_.index), out.put(band_.generation);
+  out.put(own());
   std::vector<std::byte> world;
   plumb::save(world_, world);
-  out.values(world);
+  out.put(world);
 }
 
-void WorldDemo::read(ByteReader& in) {
+void WorldDemo::read(Decoder& in) {
   JointId band;
-  band.index = in.value<std::uint32_t>("band");
-  band.generation = in.value<std::uint32_t>("band");
+  band.index = in.get<std::uint32_t>("band");
+  band.generation = in.get<std::uint32_t>("band");
   std::vector<double> own;
-  in.values(own, "own");
+  in.get(own, "own");
   std::vector<std::byte> world;
-  in.values(world, "world");
+  in.get(world, "world");
   plumb::restore(world_, world);
   band_ = band;
   set_own(own);

@@ -55,8 +55,8 @@ class WorldDemo : public Demo {
 
   void build() final;
   void step() final;
-  void write(ByteWriter& out) const final;
-  void read(ByteReader& in) final;
+  void write(Encoder& out) const final;
+  void read(Decoder& in) final;
 
   // A body held by the pointer at a point, as by a rubber band.
   /// Grabs the dynamic body at `point`, or the nearest one within `reach` m; false if there is none.

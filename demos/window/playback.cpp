@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "demos/core/view_scene.h"
-#include "engine/scene/bytes.h"
+#include "engine/encoding/encoding.h"
 #include "engine/world/checksum.h"
 
 namespace plumb::window {
@@ -77,11 +77,11 @@ std::uint64_t PlaybackDemo::hash() const {
   std::vector<BodyState> states(scene_.bodies.size());
   read_states(states);
   std::vector<std::byte> bytes;
-  ByteWriter out(bytes);
+  Encoder out(bytes);
   for (const BodyState& state : states) {
-    out.value(state.position.x);
-    out.value(state.position.y);
-    out.value(state.angle);
+    out.put(state.position.x);
+    out.put(state.position.y);
+    out.put(state.angle);
   }
   return checksum(bytes);
 }

@@ -33,8 +33,8 @@ class PlaybackDemo final : public demos::Demo {
  private:
   void build() override {}
   void step() override {}
-  void write(ByteWriter&) const override {}
-  void read(ByteReader&) override {}
+  void write(Encoder&) const override {}
+  void read(Decoder&) override {}
   void at(double time, std::span<BodyState> out) const;
 
   Scene scene_;

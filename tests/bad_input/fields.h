@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/text.h"
-#include "engine/world/snapshot/encoding.h"
+#include "engine/encoding/encoding.h"
 
 /// Every number of a definition, one after another: what definitions consist of is said by `Members`, whose
 /// lists do not compile when one is missing.

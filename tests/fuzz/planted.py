@@ -31,7 +31,7 @@ BUGS = [
     Mutation("awake bodies of a snapshot are not checked", "engine/world/snapshot/snapshot_check.cpp",
              'require(has_body(body) && listed.mark(body), "awake bodies", "are not there");', "listed.mark(body);",
              suite="snapshot"),
-    Mutation("a list's length is believed", "engine/world/snapshot/encoding.h",
+    Mutation("a list's length is believed", "engine/encoding/encoding.h",
              "require(count <= in_.size() / packed_size<T>(), field, \"is cut off\");", "", suite="recording"),
     Mutation("a sample's row may have any number of numbers", "reference/support/protocol.cpp",
              "if (!row.is_array() || row.size() != 6) {", "if (!row.is_array()) {", suite="host"),

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/collision/broad_phase/dynamic_tree.h"
-#include "engine/scene/bytes.h"
+#include "engine/encoding/encoding.h"
 
 // Functions that visit every node: measures, the check of all links, and snapshots, which rely on it.
 
@@ -28,10 +28,8 @@ bool is_count(std::int64_t count) {
 
 }  // namespace
 
-template <class Real>
-inline constexpr bool kWholeBytes<TreePair<Real>> = members_fill<
-    TreePair<Real>, Vec2<Real>, Vec2<Real>, std::uint32_t, std::int32_t, std::int32_t, std::int32_t,
-    Vec2<Real>, Vec2<Real>, std::uint32_t, std::int32_t, std::int32_t, std::int32_t>();
+PLUMB_REAL_MEMBERS(TreeNode, box, category, link, tag, parent)
+PLUMB_REAL_MEMBERS(TreePair, children)
 
 template <class Real>
 int DynamicTree<Real>::height() const {
@@ -121,34 +119,28 @@ bool DynamicTree<Real>::valid() const {
 
 template <class Real>
 void DynamicTree<Real>::save(std::vector<std::byte>& out) const {
-  ByteWriter writer(out);
-  writer.value(std::int32_t{size_});
-  writer.value(enlargements_);
-  writer.value(marks_);
-  writer.value(usual_);
-  writer.values(pairs_);
-  writer.values(slots_);
-  writer.values(free_pairs_);
-  writer.values(free_proxies_);
+  Encoder encoder(out);
+  encoder.put(std::int32_t{size_});
+  encoder.put(enlargements_), encoder.put(marks_), encoder.put(usual_);
+  encoder.put(pairs_), encoder.put(slots_), encoder.put(free_pairs_), encoder.put(free_proxies_);
 }
 
 template <class Real>
 void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
-  ByteReader reader(in);
+  Decoder decoder(in, "snapshot");
   DynamicTree copy;
-  copy.size_ = reader.value<std::int32_t>("tree of boxes");
-  copy.enlargements_ = reader.value<std::int64_t>("tree of boxes");
-  copy.marks_ = reader.value<std::int64_t>("tree of boxes");
-  copy.usual_ = reader.value<double>("tree of boxes");
-  reader.values(copy.pairs_, "nodes of a tree of boxes");
-  reader.values(copy.slots_, "leaves of a tree of boxes");
-  reader.values(copy.free_pairs_, "free nodes of a tree of boxes");
-  reader.values(copy.free_proxies_, "free leaves of a tree of boxes");
+  constexpr char kTree[] = "tree of boxes";
+  copy.size_ = decoder.get<std::int32_t>(kTree);
+  decoder.get(copy.enlargements_, kTree), decoder.get(copy.marks_, kTree), decoder.get(copy.usual_, kTree);
+  decoder.get(copy.pairs_, "nodes of a tree of boxes");
+  decoder.get(copy.slots_, "leaves of a tree of boxes");
+  decoder.get(copy.free_pairs_, "free nodes of a tree of boxes");
+  decoder.get(copy.free_proxies_, "free leaves of a tree of boxes");
   for (const int slot : copy.slots_) {
     const bool known = slot >= 0 && slot >> 1 < static_cast<int>(copy.pairs_.size());
     copy.boxes_.push_back(known ? copy.node(slot).box : Aabb<Real>{});
   }
-  ByteReader::require(copy.valid(), "tree of boxes", "is damaged");
+  decoder.require(copy.valid(), kTree, "is damaged");
   // Copies, so that this tree keeps its capacity and later steps allocate nothing.
   size_ = copy.size_;
   enlargements_ = copy.enlargements_;
@@ -159,7 +151,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   boxes_.assign(copy.boxes_.begin(), copy.boxes_.end());
   free_pairs_.assign(copy.free_pairs_.begin(), copy.free_pairs_.end());
   free_proxies_.assign(copy.free_proxies_.begin(), copy.free_proxies_.end());
-  in = reader.rest();
+  in = decoder.rest();
 }
 
 template int DynamicTree<float>::height() const;

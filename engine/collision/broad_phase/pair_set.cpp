@@ -4,8 +4,6 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/scene/bytes.h"
-
 namespace plumb {
 
 bool PairSet::insert(int a, int b) {
@@ -50,41 +48,6 @@ void PairSet::resize(std::size_t capacity) {
   const std::vector<Key> old = std::exchange(keys_, std::vector<Key>(capacity, kEmpty));
   for (const Key each : old)
     if (each != kEmpty) keys_[find(each)] = each;
-}
-
-void PairSet::save(std::vector<std::byte>& out) const {
-  ByteWriter writer(out);
-  writer.value(static_cast<std::int32_t>(size_));
-  writer.values(keys_);
-}
-
-bool PairSet::sound(const std::vector<Key>& keys, int size) {
-  if (keys.empty()) return size == 0;
-  if (!std::has_single_bit(keys.size()) || keys.size() < kSmallest) return false;
-  const auto filled = std::count_if(keys.begin(), keys.end(), [](Key each) { return each != kEmpty; });
-  if (filled != size || 2 * static_cast<std::size_t>(filled) > keys.size()) return false;
-  const std::size_t mask = keys.size() - 1;
-  // Every key must be in the slot at which a probe for it ends: no gap and no second copy before it.
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (keys[i] == kEmpty) continue;
-    const Key low = keys[i] & 0xffffffff, high = (keys[i] >> 32) - 1;
-    if (keys[i] >> 32 == 0 || high > 0x7fffffff || low > high) return false;
-    std::size_t slot = hash(keys[i]) & mask;
-    while (keys[slot] != keys[i] && keys[slot] != kEmpty) slot = (slot + 1) & mask;
-    if (slot != i) return false;
-  }
-  return true;
-}
-
-void PairSet::restore(std::span<const std::byte>& in) {
-  ByteReader reader(in);
-  const int size = reader.value<std::int32_t>("size of a pair set");
-  std::vector<Key> keys;
-  reader.values(keys, "pair set");
-  ByteReader::require(sound(keys, size), "pair set", "is damaged");
-  keys_ = std::move(keys);
-  size_ = size;
-  in = reader.rest();
 }
 
 double PairSet::mean_probes() const {

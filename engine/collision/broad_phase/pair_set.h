@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "engine/core/hash.h"
@@ -32,12 +31,8 @@ class PairSet {
   /// Reserves capacity for `pairs` pairs, so that inserting them allocates nothing.
   void reserve(int pairs);
 
-  /// Appends the complete state.
-  void save(std::vector<std::byte>& out) const;
-  /// Restores the state from the front of `in`. Throws Error (Value) and leaves the set as it was when the
-  /// bytes are damaged.
-  void restore(std::span<const std::byte>& in);
-
+  /// Returns the number of slots, of which at most half are used.
+  int capacity() const { return static_cast<int>(keys_.size()); }
   /// Returns the mean number of slots probed to find a pair that is in the set.
   double mean_probes() const;
 
@@ -65,7 +60,6 @@ class PairSet {
   }
 
   void resize(std::size_t capacity);
-  static bool sound(const std::vector<Key>& keys, int size);
 
   std::vector<Key> keys_;  // size is a power of two, or 0
   int size_ = 0;

@@ -13,8 +13,8 @@
 
 namespace plumb {
 
-class ByteReader;
-class ByteWriter;
+class Decoder;
+class Encoder;
 
 /// Data of the step for the joints.
 template <class Real>
@@ -213,8 +213,8 @@ class JointSet {
   static int colours();
 
   /// Saves all state that a step depends on: a restored set continues with the same bits.
-  void save(ByteWriter& out) const;
-  void restore(ByteReader& in);
+  void save(Encoder& out) const;
+  void restore(Decoder& in);
 
  private:
   struct Parts;

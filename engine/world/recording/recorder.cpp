@@ -6,7 +6,7 @@
 #include "engine/world/recording/definition_members.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/snapshot/body_hash.h"
-#include "engine/world/snapshot/encoding.h"
+#include "engine/encoding/encoding.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/validate.h"
 

@@ -4,7 +4,7 @@
 #include "engine/scene/error.h"
 #include "engine/world/checksum.h"
 #include "engine/world/recording/recorded_calls.h"
-#include "engine/world/snapshot/encoding.h"
+#include "engine/encoding/encoding.h"
 
 namespace plumb {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/world/recording/recorded_calls.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/snapshot/body_hash.h"
-#include "engine/world/snapshot/encoding.h"
+#include "engine/encoding/encoding.h"
 
 namespace plumb {
 namespace {

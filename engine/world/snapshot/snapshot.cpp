@@ -3,9 +3,8 @@
 #include <bit>
 #include <string>
 
-#include "engine/scene/bytes.h"
+#include "engine/encoding/encoding.h"
 #include "engine/world/checksum.h"
-#include "engine/world/snapshot/encoding.h"
 #include "engine/world/snapshot/world_members.h"
 #include "engine/world/snapshot_check.h"
 #include "engine/world/state/lock.h"
@@ -14,7 +13,7 @@ namespace plumb {
 namespace {
 
 // Version of the format. Increase it if the meaning of bytes changes while their sizes stay the same.
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 // "plumbsav" in little-endian order.
 constexpr std::uint64_t kMagic = 0x766173626D756C70u;
@@ -80,8 +79,7 @@ class Save {
   }
   template <class Real>
   void operator()(const JointSet<Real>& joints) {
-    ByteWriter writer(out_.bytes());
-    joints.save(writer);
+    joints.save(out_);
   }
   // The pairs follow from the contacts.
   void operator()(const PairSet&) {}
@@ -120,9 +118,7 @@ class Restore {
   }
   template <class Real>
   void operator()(JointSet<Real>& joints) {
-    ByteReader reader(in_.rest());
-    joints.restore(reader);
-    in_.rest() = reader.rest();
+    joints.restore(in_);
   }
   void operator()(PairSet&) {}
 
@@ -156,7 +152,7 @@ template <class Real>
 void share_corners(WorldData<Real>& w) {
   w.shapes.for_each([&](int shape, const ShapeRecord<Real>&) {
     const ShapeForm<Real>& form = w.forms[shape];
-    ByteReader::require(w.corners.count_use(form.corner, form.stored()), "corners", "are stored twice");
+    require(w.corners.count_use(form.corner, form.stored()), kSubject, "corners", "are stored twice");
   });
 }
 
@@ -192,8 +188,8 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
   std::apply([&](auto&... each) { (read(each), ...); }, state_of(fresh));
   read.finish();
   check_state(fresh);
-  ByteReader::require(fresh.graph.find_bodies([&](int body) { return fresh.is_dynamic(body); }), "contacts",
-                      "of one colour share a body");
+  require(fresh.graph.find_bodies([&](int body) { return fresh.is_dynamic(body); }), kSubject, "contacts",
+          "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
   // Reserve the free lists now: destroying objects later must not allocate.

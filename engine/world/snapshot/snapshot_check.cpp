@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/bytes.h"
+#include "engine/encoding/encoding.h"
 #include "engine/world/snapshot/world_members.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/quarantine.h"
@@ -81,7 +81,7 @@ class Check {
 
  private:
   static void require(bool holds, const char* field, const char* problem) {
-    ByteReader::require(holds, field, problem);
+    plumb::require(holds, "snapshot", field, problem);
   }
 
   void numbers() const {

@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "engine/world/snapshot/members.h"
+#include "engine/encoding/members.h"
 #include "engine/world/world_data.h"
 
 /// Member lists of a world's data types.

@@ -20,7 +20,7 @@
 #include "engine/world/recording/recording_file.h"
 #include "engine/world/replay.h"
 #include "engine/world/snapshot.h"
-#include "engine/world/snapshot/encoding.h"
+#include "engine/encoding/encoding.h"
 #include "tests/fuzz/support/patches.h"
 #include "tests/fuzz/support/require.h"
 #include "tests/fuzz/support/world_parts.h"

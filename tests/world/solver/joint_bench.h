@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/math/trigonometry.h"
-#include "engine/scene/bytes.h"
+#include "engine/encoding/encoding.h"
 #include "engine/world/joint_solver/joint_set.h"
 
 namespace plumb {
@@ -101,7 +101,7 @@ struct JointBench {
 template <class Real>
 std::vector<std::byte> bytes_of(const JointSet<Real>& joints) {
   std::vector<std::byte> bytes;
-  ByteWriter out(bytes);
+  Encoder out(bytes);
   joints.save(out);
   return bytes;
 }

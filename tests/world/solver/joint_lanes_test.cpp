@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "engine/scene/bytes.h"
 #include "tests/world/solver/joint_bench.h"
 #include "tests/world/vector_widths.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/bytes.h"
+#include "engine/encoding/encoding.h"
 #include "engine/scene/error.h"
 #include "tests/world/solver/allocations.h"
 #include "tests/world/solver/joint_bench.h"
@@ -278,7 +278,7 @@ void expect_same_continuation() {
   const auto bytes = bytes_of(bench.joints);
   JointBench<Real> copy = bench;
   copy.joints = JointSet<Real>();
-  ByteReader in(bytes);
+  Decoder in(bytes, "snapshot");
   copy.joints.restore(in);
   EXPECT_TRUE(in.rest().empty());
   EXPECT_EQ(bytes_of(copy.joints), bytes);
@@ -307,7 +307,7 @@ TEST(JointState, BytesThatAreNoSetAreRefused) {
   JointBench<float> bench = net<float>(5);
   const auto bytes = bytes_of(bench.joints);
   for (std::size_t size = 0; size < bytes.size(); size += 97) {
-    ByteReader in(std::span<const std::byte>(bytes).first(size));
+    Decoder in(std::span<const std::byte>(bytes).first(size), "snapshot");
     EXPECT_THROW(bench.joints.restore(in), Error) << size;
   }
   EXPECT_EQ(bytes_of(bench.joints), bytes);
@@ -324,7 +324,7 @@ TEST(JointState, ColoursThatAreNotTheJointsAreRefused) {
   ASSERT_LT(at, 500u);
   auto changed = bytes;
   std::memcpy(&changed[at], unsound.data(), sizeof unsound);
-  ByteReader as_saved(bytes), as_changed(changed);
+  Decoder as_saved(bytes, "snapshot"), as_changed(changed, "snapshot");
   EXPECT_NO_THROW(bench.joints.restore(as_saved));
   EXPECT_THROW(bench.joints.restore(as_changed), Error);
   EXPECT_EQ(bytes_of(bench.joints), bytes);

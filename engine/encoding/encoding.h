@@ -8,13 +8,19 @@
 #include <variant>
 #include <vector>
 
+#include "engine/encoding/members.h"
 #include "engine/scene/error.h"
-#include "engine/world/snapshot/members.h"
 
 /// Serialises values as bytes, member by member: no padding, no pointers, little-endian. So equal values are
 /// equal bytes on every platform. Lists and texts begin with their length (64 bits), options with a bool,
 /// variants with their index (8 bits).
 namespace plumb {
+
+/// Throws Error (Value) unless bytes hold what the code that reads them relies on. `problem` completes the
+/// sentence that begins with `field`, a part of `subject`.
+inline void require(bool holds, const char* subject, const char* field, const char* problem) {
+  if (!holds) throw Error(Error::Kind::Value, subject, field, "", problem);
+}
 
 template <class T>
 struct ListTraits : std::false_type {};
@@ -34,6 +40,12 @@ template <class T>
 struct VariantTraits : std::false_type {};
 template <class... Each>
 struct VariantTraits<std::variant<Each...>> : std::true_type {};
+
+/// True for types of which each byte belongs to the value, and any byte is valid: lists of them are copied
+/// whole.
+template <class T>
+inline constexpr bool kWritesItself = std::is_same_v<T, std::byte> ||
+                                      (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
 
 /// Appends values to a buffer.
 class Encoder {
@@ -80,7 +92,10 @@ class Encoder {
   void list(const List& all) {
     using T = std::remove_cv_t<typename List::value_type>;
     put(static_cast<std::uint64_t>(all.size()));
-    if constexpr (Packed<T>) {
+    if constexpr (kWritesItself<T>) {
+      const std::size_t size = all.size() * sizeof(T);
+      if (std::byte* to = grow(size); size > 0) std::memcpy(to, all.data(), size);
+    } else if constexpr (Packed<T>) {
       std::byte* to = grow(all.size() * packed_size<T>());
       for (const T& each : all) pack(to, each);
     } else {
@@ -136,7 +151,7 @@ class Decoder {
   std::span<const std::byte>& rest() { return in_; }
 
   void require(bool holds, const char* field, const char* problem) const {
-    if (!holds) throw Error(Error::Kind::Value, subject_, field, "", problem);
+    plumb::require(holds, subject_, field, problem);
   }
 
  private:
@@ -149,9 +164,13 @@ class Decoder {
       require(count <= in_.size() / packed_size<T>(), field, "is cut off");
       const std::byte* from = take(static_cast<std::size_t>(count) * packed_size<T>(), field);
       all.resize(static_cast<std::size_t>(count));
-      bool sound = true;
-      for (T& each : all) unpack(from, each, sound);
-      require(sound, field, "holds what no snapshot or recording holds");
+      if constexpr (kWritesItself<T>) {
+        if (count > 0) std::memcpy(all.data(), from, all.size() * sizeof(T));
+      } else {
+        bool sound = true;
+        for (T& each : all) unpack(from, each, sound);
+        require(sound, field, "holds what no snapshot or recording holds");
+      }
     } else {
       // Each element has at least one byte.
       require(count <= in_.size(), field, "is cut off");

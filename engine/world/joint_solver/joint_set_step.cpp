@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include "engine/world/joint_solver/joint_parts.h"
+#include "engine/world/joint_solver/joint_set.h"
+#include "engine/world/joint_solver/joint_share.h"
+
+namespace plumb {
+namespace {
+
+/// Evaluates a joint that is alone. Not inlined, because it has many callers.
+template <class Joint, class Real>
+[[gnu::noinline]] void evaluate(Joint& joint, const SolverBodies<Real>& bodies,
+                                const JointVelocities<Real>& v, const JointStep<Real>& step, JointTime time) {
+  joint.evaluate(motion_of(bodies, joint.a, joint.b), v, step, time);
+}
+
+/// Joints to solve one after the other: from `first` on, or those that `places` refers to.
+template <class Joint>
+struct JointRange {
+  Joint* first = nullptr;
+  Joint* const* places = nullptr;
+  int count = 0;
+
+  Joint& operator[](int i) const { return places != nullptr ? *places[i] : first[i]; }
+};
+
+/// Solves joints that are alone.
+template <class Joint, class Real>
+[[gnu::noinline]] void sweep_range(JointSweep pass, JointRange<Joint> joints, const SolverBodies<Real>& of,
+                                   const JointStep<Real>& settings) {
+  const SolverBodies<Real> bodies = of;  // copies, which no other pointer reaches
+  const JointStep<Real> step = settings;
+  const auto for_each = [&](const auto& run) __attribute__((always_inline)) {
+    for (int i = 0; i < joints.count; ++i) {
+      Joint& joint = joints[i];
+      if constexpr (Joint::kPlainHinge)
+        if (joint.held) continue;
+      // Ratchets note the teeth that they pass.
+      if (joint.with_island && (pass != JointSweep::Relax || !(step.looks || Joint::kRatchet))) continue;
+      JointVelocities<Real> v = velocities_of(bodies, joint);
+      run(joint, v);
+      v.store(bodies.motion[joint.a], bodies.motion[joint.b]);
+    }
+  };
+  using Velocities = JointVelocities<Real>;
+  switch (pass) {
+    case JointSweep::WarmStart:
+      return for_each([](const Joint& joint, Velocities& v)
+                          __attribute__((always_inline)) { joint.warm_start(v); });
+    case JointSweep::Solve:
+      return for_each([&](Joint & joint, Velocities & v)
+                          __attribute__((always_inline)) { joint.solve(v, step); });
+    case JointSweep::Relax:
+      return for_each([&](Joint & joint, Velocities & v) __attribute__((always_inline)) {
+        if (joint.with_island) return evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
+        if constexpr (Joint::kPlainHinge) return joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
+        evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
+        joint.solve_coordinates(v, step, kRelax, joint.share);
+      });
+  }
+}
+
+/// Solves all active joints in the order of solving, colour by colour.
+template <class Parts, class Real>
+void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& bodies,
+           const JointStep<Real>& step) {
+  for (const JointRun& run : parts.runs) {
+    parts.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      if constexpr (kSideBySide<One>) {
+        if (run.sorted) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(parts.lanes);
+          const auto visit = [&](JointCounts first, JointCounts last) {
+            // Single joints come first. Otherwise blocks of the next colour, which load a body's velocity as
+            // one value, would stall on a velocity that was just stored in parts.
+            if (first.alone < last.alone)
+              sweep_range<One>(pass, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
+                               bodies, step);
+            if (first.blocks < last.blocks) blocks.sweep(pass, first.blocks, last.blocks, bodies, step);
+          };
+          return crew != nullptr && crew->shares() ? share_blocks(run, crew, visit)
+                                                   : visit(run.first, run.last);
+        }
+      }
+      auto& list = lists[run.colour];
+      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+        sweep_range<One>(pass, {list.data() + first, nullptr, last - first}, bodies, step);
+      });
+    });
+  }
+}
+
+/// Begins a joint's step.
+template <class Parts, class Joint, class Real>
+void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  using Definition = typename Joint::Definition;
+  if (Joint::kHasRules && joint.known_h != step.h)
+    joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
+  joint.share = 1;
+  joint.alone = std::max(p.taken[joint.a].count, p.taken[joint.b].count) < 2;
+  joint.begin_step(bodies, step);
+}
+
+/// Returns the under-relaxation factor of a joint that was evaluated.
+template <class Parts, class Joint, class Real>
+Real share_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodies) {
+  const int count_a = p.taken[joint.a].count, count_b = p.taken[joint.b].count;
+  if (std::max(count_a, count_b) < kManyJoints) return 1;
+  return joint_share(joint.load(velocities_of(bodies, joint)), count_a, count_b);
+}
+
+/// Evaluates a joint whose step has begun.
+template <class Parts, class Joint, class Real>
+void evaluate_first(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies,
+                    const JointStep<Real>& step) {
+  if constexpr (Joint::kPlainHinge)
+    if (joint.held) return;
+  const JointVelocities<Real> v = velocities_of(bodies, joint);
+  evaluate(joint, bodies, v, step, JointTime::StepStarts);
+  joint.share = share_of(p, joint, bodies);
+  if (joint.share < 1) evaluate(joint, bodies, v, step, JointTime::StepStarts);
+}
+
+}  // namespace
+
+template <class Real>
+void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  Parts& p = *parts_;
+  for (JointRun& run : p.runs) run.sorted = false;
+  p.for_each_active([&](auto& joint) {
+    joint.with_island = false;
+    begin_step(p, joint, bodies, step);
+    evaluate_first(p, joint, bodies, step);
+  });
+}
+
+template <class Real>
+void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                             const std::vector<char>& apart, Crew* crew) {
+  Parts& p = *parts_;
+  std::apply([](auto&... blocks) { (blocks.begin(vector_width()), ...); }, p.lanes);
+  for (JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      auto& list = lists[run.colour];
+      run.sorted = kSideBySide<One> && run.colour != kOverflowColour;
+      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+        for (int i = first; i < last; ++i) {
+          list[i].with_island = !apart.empty() && apart[list[i].joint] != 0;
+          begin_step(p, list[i], bodies, step);
+          if (!run.sorted) evaluate_first(p, list[i], bodies, step);
+        }
+      });
+      if constexpr (kSideBySide<One>) {
+        if (!run.sorted) return;
+        JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+        run.first = blocks.counts();
+        blocks.sort(list, bodies.motion, apart);
+        run.last = blocks.counts();
+      }
+    });
+  }
+  const auto evaluate = [&]<class Joint>(JointBlocks<Joint>& blocks) {
+    const auto share = [&](const Joint& joint) { return share_of(p, joint, bodies); };
+    const JointCounts counts = blocks.counts();
+    if (counts.blocks + counts.alone == 0) return;
+    share_range(counts.blocks, kBlocksOfTask, crew,
+                [&](int first, int last) { blocks.prepare(first, last, bodies, step, share); });
+    share_range(counts.alone, kJointsOfTask, crew, [&](int first, int last) {
+      for (int i = first; i < last; ++i) evaluate_first(p, blocks.alone(i), bodies, step);
+    });
+  };
+  std::apply([&](auto&... blocks) { (evaluate(blocks), ...); }, p.lanes);
+}
+
+template <class Real>
+void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  parts_->for_each_active([&](auto& joint) {
+    plumb::evaluate(joint, bodies, velocities_of(bodies, joint), step, JointTime::Between);
+  });
+}
+
+template <class Real>
+void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
+  Parts& p = *parts_;
+  const auto finish = [&](auto& blocks) {
+    if (blocks.counts().blocks == 0) return;
+    share_range(blocks.counts().blocks, kBlocksOfTask, crew,
+                [&](int first, int last) { blocks.finish(first, last, bodies); });
+  };
+  std::apply([&](auto&... blocks) { (finish(blocks), ...); }, p.lanes);
+  // Does the same for joints not in blocks: gaps were closed since they were evaluated.
+  for (const JointRun& run : p.runs) {
+    p.with(run.form, [&](auto& lists) {
+      using One = typename std::decay_t<decltype(lists[0])>::value_type;
+      if constexpr (One::kAngle != AngleUse::None) {
+        if constexpr (kSideBySide<One>) {
+          JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
+          if (run.sorted)
+            for (int i = run.first.alone; i < run.last.alone; ++i) blocks.alone(i).end_step(bodies);
+          if (run.sorted) return;
+        }
+        for (One& joint : lists[run.colour]) joint.end_step(bodies);
+      }
+    });
+  }
+}
+
+template <class Real>
+void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
+  sweep(*parts_, JointSweep::WarmStart, crew, bodies, step);
+}
+
+template <class Real>
+void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
+  sweep(*parts_, JointSweep::Solve, crew, bodies, step);
+}
+
+template <class Real>
+void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
+  sweep(*parts_, JointSweep::Relax, crew, bodies, step);
+}
+
+#define PLUMB_FOR(R)                                                                                        \
+  template void JointSet<R>::prepare(const SolverBodies<R>&, const JointStep<R>&);                          \
+  template void JointSet<R>::prepare(const SolverBodies<R>&, const JointStep<R>&, const std::vector<char>&, \
+                                     Crew*);                                                                \
+  template void JointSet<R>::evaluate(const SolverBodies<R>&, const JointStep<R>&);                         \
+  template void JointSet<R>::finish(const SolverBodies<R>&, Crew*);                                         \
+  template void JointSet<R>::warm_start(const SolverBodies<R>&, const JointStep<R>&, Crew*);                \
+  template void JointSet<R>::solve(const SolverBodies<R>&, const JointStep<R>&, Crew*);                     \
+  template void JointSet<R>::relax(const SolverBodies<R>&, const JointStep<R>&, Crew*);
+PLUMB_FOR(float)
+PLUMB_FOR(double)
+#undef PLUMB_FOR
+
+}  // namespace plumb

@@ -1,0 +1,243 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
+#include "engine/world/state/contacts.h"
+#include "engine/world/state/seams.h"
+#include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/lasting_contact.h"
+#include "engine/world/step/recycled_manifold.h"
+#include "engine/world/step/separating_face.h"
+#include "engine/world/step/speculative_contact.h"
+
+// Updates one contact: reads the world, and changes nothing but the contact and the lists of its block. So
+// blocks of contacts may be updated at the same time.
+namespace plumb {
+
+/// Changes of a contact found by an update, as flags.
+enum : std::uint8_t {
+  kTouchChange = 1,  ///< the contact begins or ends touching
+  kLost = 2,         ///< its fat AABBs have separated
+  kEnded = 4,        ///< the contact has no points any more
+  kBounces = 8,      ///< see begin_contact_step
+  kRenewed = 16,     ///< its points were recomputed: impulses are not settled yet
+  kAsked = 32,       ///< the user's hook decides about its new points
+  kLeft = 64,        ///< a shape has left its fat AABB
+  kStale = 128,      ///< its bodies have moved too far for its points
+};
+
+/// Returns true if the fat AABBs do not overlap. Tests the tight AABBs first: they lie within the fat ones,
+/// and are already loaded.
+template <class Real>
+bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
+  if (w.boxes[contact.shape_a].overlaps(w.boxes[contact.shape_b])) return false;
+  const auto stored = [&](int shape, int body) -> const Aabb<Real>& {
+    return w.tree_of(w.bodies[body].type).box(w.shapes[shape].proxy);
+  };
+  return !stored(contact.shape_a, contact.body_a).overlaps(stored(contact.shape_b, contact.body_b));
+}
+
+/// Updates the load estimate: most of the load, or all of it if the load pressed the shapes into each other.
+template <class Real>
+void update_load_estimate(ContactConstraint<Real>& c) {
+  constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
+  constexpr Real kRise = Real((1 - tuning::kExpectedShare) * tuning::kPushSpeed / tuning::kExpectedOverlap);
+  const Real rise = kRise / c.push_speed;
+  for (int i = 0; i < 2; ++i) {
+    const Real share = std::min(kShare + rise * std::max(-c.separation[i], Real(0)), Real(1));
+    c.load_estimate[i] += kRate * (share * c.normal_impulse[i] - c.load_estimate[i]);
+  }
+}
+
+/// Begins a step of a constraint. Returns true if it has restitution, or may be of two discs that approach
+/// fast.
+template <class Real>
+bool begin_contact_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+  update_load_estimate(c);
+  c.now[0] = c.separation[0], c.now[1] = c.separation[1];
+  if (c.watched == Watch::Off) return false;
+  c.peak_impulse[0] = c.peak_impulse[1] = c.step_impulse = 0;
+  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Real along = dot(c.normal, b.velocity - a.velocity);
+  for (int i = 0; i < c.count; ++i) {
+    c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
+  }
+  if (c.watched == Watch::Reports) return false;
+  // A single point with a fast approach may belong to two discs, whose normal will rotate.
+  const Real travel = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+  return c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel);
+}
+
+template <class Real>
+bool has_touched(const ContactConstraint<Real>& c) {
+  const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
+  // A contact that bounced off within a step has touched, too.
+  return c.separation[0] <= near_enough || (c.count == 2 && c.separation[1] <= near_enough) || has_pressed(c);
+}
+
+template <class Real>
+ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Real reach =
+      speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
+  if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return {};
+  return manifold_of(w, contact, reach);
+}
+
+/// Returns true if a contact without points is farther apart than its shapes may approach in the step: it
+/// then has no manifold and no predicted impact. Tests their AABBs, and the face that separated them before.
+/// This rejects most pairs in a crowd. The approach used here is an upper bound of those that the manifold
+/// and the prediction compute, rounding included.
+template <class Real>
+bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact, std::uint8_t face, Real dt) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Real form_a = w.forms[contact.shape_a].extent, form_b = w.forms[contact.shape_b].extent;
+  const Real turning = std::abs(a.angular_velocity) * std::max(form_a, w.extents[contact.body_a]) +
+                       std::abs(b.angular_velocity) * std::max(form_b, w.extents[contact.body_b]);
+  const Real smaller = std::min(form_a, form_b);
+  const Real rounding = 1 + 4 * std::numeric_limits<Real>::epsilon();
+  const Real closing = rounding * (dt * (size_of(b.velocity - a.velocity) + turning));
+  const Real reach = Real(tuning::kSpeculativeMargin) * smaller + closing;
+  if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return true;
+  // Shapes that approach faster are searched along their curved paths, for which a face at the start says
+  // little.
+  return face != kNoFace && closing <= Real(tuning::kSpeculativeMarginMost) * smaller &&
+         are_separated_by(w, contact, face, reach);
+}
+
+/// Returns true if the user's pre-solve hook is to be asked about a contact.
+template <class Real>
+bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
+  return contact.pre_solve && w.pre_solve;
+}
+
+/// Starts a contact that had no points and now has some, computed by `build`.
+template <class Real, class Build>
+void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, const Build& build) {
+  const ContactRecord& contact = w.contacts[id];
+  BegunContact<Real> begun{.pressing = pressing, .asked = is_asked(w, contact)};
+  ContactConstraint<Real>& c = begun.constraint;
+  build(c);
+  c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
+  mix_materials(w, contact, c);
+  if (!begun.asked) begun.bounces = begin_contact_step(w, c, dt);
+  w.scratch.begun_contacts.add(block, begun);
+}
+
+/// Does the same for a predicted impact; impacts in free flight are decided later.
+template <class Real>
+void begin_speculative_contact(WorldData<Real>& w, int block, int id, const SpeculativeContact<Real>& at,
+                               Real dt) {
+  const ContactRecord& contact = w.contacts[id];
+  ContactConstraint<Real> c;
+  prepare_meeting(w, contact, at, c, c.normal_impulse);
+  c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
+  mix_materials(w, contact, c);
+  if (meets_in_flight(w, contact, at, c, dt)) {
+    w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
+    return;
+  }
+  begin_near(w, block, id, dt, true, [&](ContactConstraint<Real>& begun) { begun = c; });
+}
+
+/// Prefetches contact records kRecords ahead and, once these are loaded, their bodies and shapes kShapes
+/// ahead: they are scattered in memory. `id_at(i)` is the i-th of `count` contacts. Always inlined, because
+/// GCC 12 drops calls of a function that only prefetches.
+template <class Real, class IdAt>
+[[gnu::always_inline]] inline void prefetch_contacts(const WorldData<Real>& w, int i, int count,
+                                                     const IdAt& id_at) {
+  constexpr int kRecords = 16, kShapes = 8;
+  if (i + kRecords < count) __builtin_prefetch(&w.contacts[id_at(i + kRecords)]);
+  if (i + kShapes >= count) return;
+  const ContactRecord& contact = w.contacts[id_at(i + kShapes)];
+  for (const int body : {contact.body_a, contact.body_b})
+    __builtin_prefetch(&w.bodies[body]), __builtin_prefetch(&w.motion[body]);
+  for (const int shape : {contact.shape_a, contact.shape_b})
+    __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
+}
+
+/// Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight
+/// if it gets none.
+template <class Real>
+int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
+  const ContactRecord& contact = w.contacts[id];
+  const int parted = contact.touching ? kTouchChange : 0;
+  if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) return kLost;
+  std::uint8_t& face = w.scratch.separating_faces[id];
+  if (is_out_of_reach(w, contact, face, dt)) return parted;
+  const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
+  if (manifold.separating != kNoFace) face = manifold.separating;
+  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
+  if (at.outlook == Outlook::Meets) {
+    begin_speculative_contact(w, block, id, at, dt);
+    return 0;
+  }
+  if (const SpeculativeContact<Real> arriving = arriving_contact(w, contact, manifold, dt);
+      arriving.manifold.count > 0) {
+    begin_near(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+      prepare_speculative_contact(w, contact, arriving, c, c.normal_impulse);
+    });
+    return 0;
+  }
+  if (manifold.count == 0 || at.outlook == Outlook::Misses) return parted;
+  begin_near(w, block, id, dt, false,
+             [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
+  return 0;
+}
+
+/// Rebuilds a manifold; returns false if it has no points. Impact searches of other contacts still read the
+/// old impulses, so the new ones wait in `c.now` until all contacts were updated.
+template <class Real>
+bool rebuild_manifold(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt, Real h,
+                      ContactConstraint<Real>& c) {
+  if (renew_lasting(w, contact, dt, c)) return true;
+  const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
+  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
+  if (at.outlook == Outlook::Meets) {
+    prepare_meeting(w, contact, at, c, c.now);
+    ContactConstraint<Real> settled = c;
+    settled.normal_impulse[0] = c.now[0], settled.normal_impulse[1] = c.now[1];
+    if (meets_in_flight(w, contact, at, settled, dt)) {
+      w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = settled, .in_graph = true});
+    } else {
+      w.scratch.found_presses.add(block, {c.body_a, c.body_b});
+    }
+  } else {
+    prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c, c.now);
+  }
+  // The prediction ignores the load that a contact carries: keep a contact that holds a body.
+  const bool holds = c.now[0] > 0 || c.now[1] > 0;
+  return c.count > 0 && (holds || at.outlook != Outlook::Misses);
+}
+
+/// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they
+/// have moved too far for that, and kLeft if its shapes may have separated.
+template <class Real>
+int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) note_loaded(w, c);
+  // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
+  const int touch = has_touched(c) != c.touching ? kTouchChange : 0;
+  const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeft : 0;
+  if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) return touch | left | kStale;
+  return touch | left | (begin_contact_step(w, c, dt) ? kBounces : 0);
+}
+
+/// Ends a contact with points whose shapes have separated, or rebuilds its manifold. `change` is the result
+/// of `recycle_contact`; adds further flags to it.
+template <class Real>
+int rebuild_contact(WorldData<Real>& w, int block, ContactConstraint<Real>& c, int change, Real dt, Real h) {
+  const ContactRecord& contact = w.contacts[c.contact];
+  if ((change & kLeft) != 0 && fat_aabbs_apart(w, contact)) return (change & kTouchChange) | kLost;
+  const int known = change & ~(kLeft | kStale);
+  if ((change & kStale) == 0) return known;
+  const bool has_points = rebuild_manifold(w, block, contact, dt, h, c);
+  return known | kRenewed | (!has_points ? kEnded : is_asked(w, contact) ? kAsked : 0);
+}
+
+}  // namespace plumb
