@@ -17,7 +17,8 @@
 #include "engine/world/step/speculative_contact.h"
 
 // Updates one contact: reads the world, and changes nothing but the contact and the lists of its block. So
-// blocks of contacts may be updated at the same time.
+// blocks of contacts may be updated at the same time. Each is called from one or two places, and inlined
+// there.
 namespace plumb {
 
 /// Changes of a contact found by an update, as flags.
@@ -35,7 +36,7 @@ enum : std::uint8_t {
 /// Returns true if the fat AABBs do not overlap. Tests the tight AABBs first: they lie within the fat ones,
 /// and are already loaded.
 template <class Real>
-bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
+[[gnu::always_inline]] inline bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
   if (w.boxes[contact.shape_a].overlaps(w.boxes[contact.shape_b])) return false;
   const auto stored = [&](int shape, int body) -> const Aabb<Real>& {
     return w.tree_of(w.bodies[body].type).box(w.shapes[shape].proxy);
@@ -45,7 +46,7 @@ bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
 
 /// Updates the load estimate: most of the load, or all of it if the load pressed the shapes into each other.
 template <class Real>
-void update_load_estimate(ContactConstraint<Real>& c) {
+[[gnu::always_inline]] inline void update_load_estimate(ContactConstraint<Real>& c) {
   constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
   constexpr Real kRise = Real((1 - tuning::kExpectedShare) * tuning::kPushSpeed / tuning::kExpectedOverlap);
   const Real rise = kRise / c.push_speed;
@@ -95,7 +96,8 @@ ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord
 /// This rejects most pairs in a crowd. The approach used here is an upper bound of those that the manifold
 /// and the prediction compute, rounding included.
 template <class Real>
-bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact, std::uint8_t face, Real dt) {
+[[gnu::always_inline]] inline bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact,
+                                                   std::uint8_t face, Real dt) {
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real form_a = w.forms[contact.shape_a].extent, form_b = w.forms[contact.shape_b].extent;
   const Real turning = std::abs(a.angular_velocity) * std::max(form_a, w.extents[contact.body_a]) +
@@ -132,8 +134,8 @@ void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, c
 
 /// Does the same for a predicted impact; impacts in free flight are decided later.
 template <class Real>
-void begin_speculative_contact(WorldData<Real>& w, int block, int id, const SpeculativeContact<Real>& at,
-                               Real dt) {
+[[gnu::always_inline]] inline void begin_speculative_contact(WorldData<Real>& w, int block, int id,
+                                                             const SpeculativeContact<Real>& at, Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
   prepare_meeting(w, contact, at, c, c.normal_impulse);
@@ -165,7 +167,7 @@ template <class Real, class IdAt>
 /// Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight
 /// if it gets none.
 template <class Real>
-int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
+[[gnu::always_inline]] inline int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[id];
   const int parted = contact.touching ? kTouchChange : 0;
   if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) return kLost;
@@ -194,8 +196,9 @@ int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
 /// Rebuilds a manifold; returns false if it has no points. Impact searches of other contacts still read the
 /// old impulses, so the new ones wait in `c.now` until all contacts were updated.
 template <class Real>
-bool rebuild_manifold(WorldData<Real>& w, int block, const ContactRecord& contact, Real dt, Real h,
-                      ContactConstraint<Real>& c) {
+[[gnu::always_inline]] inline bool rebuild_manifold(WorldData<Real>& w, int block,
+                                                    const ContactRecord& contact, Real dt, Real h,
+                                                    ContactConstraint<Real>& c) {
   if (renew_lasting(w, contact, dt, c)) return true;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
@@ -219,7 +222,7 @@ bool rebuild_manifold(WorldData<Real>& w, int block, const ContactRecord& contac
 /// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they
 /// have moved too far for that, and kLeft if its shapes may have separated.
 template <class Real>
-int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
+[[gnu::always_inline]] inline int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) note_loaded(w, c);
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = has_touched(c) != c.touching ? kTouchChange : 0;
@@ -231,7 +234,8 @@ int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
 /// Ends a contact with points whose shapes have separated, or rebuilds its manifold. `change` is the result
 /// of `recycle_contact`; adds further flags to it.
 template <class Real>
-int rebuild_contact(WorldData<Real>& w, int block, ContactConstraint<Real>& c, int change, Real dt, Real h) {
+[[gnu::always_inline]] inline int rebuild_contact(WorldData<Real>& w, int block, ContactConstraint<Real>& c,
+                                                  int change, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[c.contact];
   if ((change & kLeft) != 0 && fat_aabbs_apart(w, contact)) return (change & kTouchChange) | kLost;
   const int known = change & ~(kLeft | kStale);
