@@ -2,24 +2,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <type_traits>
 #include <vector>
 
-#include "engine/scene/error.h"
+#include "engine/encoding/encoding.h"
 
 namespace plumb {
 
-/// Writes values as bytes, one after another, in the machine's byte order.
+/// Writes the state of a run, one value after another.
 class SnapshotWriter {
  public:
   template <class T>
   void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const std::size_t end = bytes_.size();
-    bytes_.resize(end + sizeof(T));
-    std::memcpy(bytes_.data() + end, &value, sizeof(T));
+    Encoder(bytes_).put(value);
   }
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
@@ -27,36 +22,31 @@ class SnapshotWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads them back. Throws `Error` (Value) if the bytes end too soon.
+/// Reads it back. Throws `Error` (Value) if the bytes end too soon, or hold what no run has.
 class SnapshotReader {
  public:
-  explicit SnapshotReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit SnapshotReader(std::span<const std::byte> bytes) : in_(bytes, "snapshot") {}
 
   template <class T>
   T get() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (bytes_.size() < sizeof(T)) throw Error(Error::Kind::Value, "snapshot", "", "", "it is cut short");
-    T value;
-    std::memcpy(static_cast<void*>(&value), bytes_.data(), sizeof(T));
-    bytes_ = bytes_.subspan(sizeof(T));
-    return value;
+    return in_.get<T>("state");
   }
 
   /// Reads the number of elements that follow, of at least `size` bytes each.
   std::size_t count(std::size_t size) {
     const auto number = get<std::uint64_t>();
-    if (number > bytes_.size() / size) throw Error(Error::Kind::Value, "snapshot", "", "", "it is cut short");
+    in_.require(number <= rest().size() / size, "state", "is cut off");
     return static_cast<std::size_t>(number);
   }
 
-  void expect(bool fits) const {
-    if (!fits)
-      throw Error(Error::Kind::Value, "snapshot", "", "", "it is of another scene or other settings");
-  }
-  void expect_end() const { expect(bytes_.empty()); }
+  /// Returns what has not been read.
+  std::span<const std::byte> rest() { return in_.rest(); }
+
+  void expect(bool fits) const { in_.require(fits, "state", "is of another scene or other settings"); }
+  void expect_end() { expect(rest().empty()); }
 
  private:
-  std::span<const std::byte> bytes_;
+  Decoder in_;
 };
 
 }  // namespace plumb

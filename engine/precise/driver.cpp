@@ -6,6 +6,7 @@
 
 #include "engine/core/text.h"
 #include "engine/precise/dynamics/clock.h"
+#include "engine/precise/events/state_members.h"
 #include "engine/scene/error.h"
 
 // All of the driver but its step: reading and writing, snapshots, errors, costs.

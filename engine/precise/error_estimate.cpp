@@ -63,10 +63,7 @@ std::vector<std::byte> ErrorEstimatingDriver::save() const {
   const std::vector<std::byte> main = main_->save(), companion = companion_->save();
   SnapshotWriter out;
   for (const double largest : {error_.position, error_.angle, error_.velocity}) out.put(largest);
-  out.put(static_cast<std::uint64_t>(main.size()));
-  for (const std::vector<std::byte>* part : {&main, &companion}) {
-    for (const std::byte byte : *part) out.put(byte);
-  }
+  out.put(main), out.put(companion);
   return out.bytes();
 }
 
@@ -84,10 +81,10 @@ void ErrorEstimatingDriver::restore_parts(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   ErrorEstimate error{.known = true};
   for (double* largest : {&error.position, &error.angle, &error.velocity}) *largest = in.get<double>();
-  const std::size_t size = in.count(1);
-  const std::span<const std::byte> rest = snapshot.subspan(3 * sizeof(double) + sizeof(std::uint64_t));
-  main_->restore(rest.first(size));
-  companion_->restore(rest.subspan(size));
+  const auto main = in.get<std::vector<std::byte>>(), companion = in.get<std::vector<std::byte>>();
+  in.expect_end();
+  main_->restore(main);
+  companion_->restore(companion);
   error_ = error;
 }
 

@@ -36,13 +36,15 @@ void require_number(const std::string& subject, const char* field, double value)
 
 /// The header of every snapshot.
 struct SnapshotHeader {
-  char magic[8] = {'p', 'l', 'u', 'm', 'b', 's', '0', '1'};
+  char magic[8] = {'p', 'l', 'u', 'm', 'b', 's', '0', '2'};
   std::uint64_t identity = 0;
   std::uint64_t size = 0;      // bytes that follow
   std::uint64_t checksum = 0;  // of those bytes
 };
 
 }  // namespace
+
+PLUMB_MEMBERS(SnapshotHeader, magic, identity, size, checksum)
 
 Simulation::Simulation(OwnedPointer<Driver> driver, std::size_t body_count, std::uint64_t identity)
     : driver_(std::move(driver)), body_count_(body_count), identity_(identity) {}
@@ -116,16 +118,16 @@ std::vector<std::byte> Simulation::save() const {
   header.identity = identity_;
   header.size = payload.size();
   header.checksum = sum_of_bytes(payload);
-  std::vector<std::byte> bytes(sizeof header + payload.size());
-  std::memcpy(bytes.data(), &header, sizeof header);
-  std::copy(payload.begin(), payload.end(), bytes.begin() + sizeof header);
+  std::vector<std::byte> bytes;
+  Encoder(bytes).put(header);
+  bytes.insert(bytes.end(), payload.begin(), payload.end());
   return bytes;
 }
 
 void Simulation::restore(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   const auto header = in.get<SnapshotHeader>();
-  const std::span<const std::byte> payload = snapshot.subspan(sizeof(SnapshotHeader));
+  const std::span<const std::byte> payload = in.rest();
   const auto refuse = [](const char* problem) {
     throw Error(Error::Kind::Value, "snapshot", "", "", problem);
   };

@@ -202,7 +202,7 @@ template <class Real>
 void WorldDriver<Real>::restore(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   const auto steps = in.get<std::int64_t>();
-  plumb::restore(world_, snapshot.subspan(sizeof steps));
+  plumb::restore(world_, in.rest());
   steps_ = steps;
   violation_.reset();
   if (monitor_) monitor_->reset();

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/precise/events/contacts.h"
+#include "engine/precise/events/state_members.h"
 
 // Saves and restores which contacts are held and how.
 namespace plumb::precise {
@@ -18,7 +19,7 @@ bool is_feature(const Feature& f, const FeatureShape& a, const FeatureShape& b) 
     case Feature::Kind::CornerOfA:
       return f.b < b.edges();
   }
-  return false;  // a number of no kind
+  return false;
 }
 
 }  // namespace
@@ -45,14 +46,11 @@ void Contacts::save(SnapshotWriter& out) const {
   out.put(std::int64_t{settled_});
   out.put(last_event_);
   out.put(events_at_once_);
-  out.put(events_);
+  for (const EventCount& each : events_) out.put(each);
   // The guard of a settled event is obsolete: it may refer to contacts that are no longer held.
   const bool open = !settled_;
   out.put(std::int64_t{open && record_.guard});
-  // Writes the members one by one, because padding bytes are undefined.
-  const Guard guard = open ? record_.guard.value_or(Guard{}) : Guard{};
-  out.put(guard.kind), out.put(guard.pair), out.put(guard.feature), out.put(guard.stop);
-  out.put(guard.patch), out.put(guard.watched), out.put(guard.point);
+  out.put(open ? record_.guard.value_or(Guard{}) : Guard{});
   out.put(std::int64_t{open && record_.met});
   out.put(open ? record_.met.value_or(OutlinePair{}) : OutlinePair{});
   stops_.save(out);
@@ -71,7 +69,7 @@ bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) 
     case Guard::Kind::Quantity:
       break;
     default:
-      return false;  // a number of no kind
+      return false;
   }
   if (guard.watched == static_cast<int>(Quantity::Stop)) return guard.stop < stops_.count();
   if (guard.patch >= patches.size() || guard.point < 0) return false;
@@ -94,10 +92,7 @@ bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) 
 
 void Contacts::restore_record(SnapshotReader& in, std::span<const ActiveContact> patches) {
   const bool has_guard = in.get<std::int64_t>() != 0;
-  Guard guard;
-  guard.kind = in.get<Guard::Kind>(), guard.pair = in.get<OutlinePair>(), guard.feature = in.get<Feature>();
-  guard.stop = in.get<std::uint64_t>(), guard.patch = in.get<std::uint64_t>();
-  guard.watched = in.get<int>(), guard.point = in.get<int>();
+  const auto guard = in.get<Guard>();
   const bool has_met = in.get<std::int64_t>() != 0;
   const auto met = in.get<OutlinePair>();
   const auto is_ours = [&](const OutlinePair& pair) {
@@ -143,7 +138,7 @@ void Contacts::restore(SnapshotReader& in) {
   settled_ = in.get<std::int64_t>() != 0;
   last_event_ = in.get<double>();
   events_at_once_ = in.get<int>();
-  events_ = in.get<std::array<EventCount, kContactEvents>>();
+  for (EventCount& each : events_) each = in.get<EventCount>();
   restore_record(in, patches);
   equations_.hold_contacts(std::move(patches));
   stops_.restore(in);

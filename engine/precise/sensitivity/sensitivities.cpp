@@ -7,6 +7,7 @@
 
 #include "engine/integrate/dop853.h"
 #include "engine/integrate/step_control.h"
+#include "engine/precise/events/state_members.h"
 
 namespace plumb::precise {
 namespace {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "engine/encoding/members.h"
+#include "engine/precise/dynamics/flight.h"
+#include "engine/precise/event_search/conservative_advancement.h"
+#include "engine/precise/events/contacts.h"
+
+/// Member lists of the structs in snapshots of a precise run.
+namespace plumb {
+
+template <>
+inline constexpr int kEnumerators<precise::Feature::Kind> = 3;
+template <>
+inline constexpr int kEnumerators<precise::Contacts::Guard::Kind> = 4;
+
+PLUMB_MEMBERS(BodyState, position, angle, velocity, angular_velocity)
+PLUMB_MEMBERS(EventCount, count, last)
+PLUMB_MEMBERS(precise::Motion, state, acceleration, angular_acceleration)
+PLUMB_MEMBERS(precise::Flight::Arc, start, motion)
+PLUMB_MEMBERS(precise::OutlinePair, a, b)
+PLUMB_MEMBERS(precise::Feature, kind, a, b)
+PLUMB_MEMBERS(precise::Contacts::Guard, kind, pair, feature, stop, patch, watched, point)
+
+}  // namespace plumb
