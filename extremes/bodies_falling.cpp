@@ -31,7 +31,7 @@ const Register r{{.name = "bodies_falling",
                   .axis = "bodies",
                   .values = {100, 1e3, 1e4, 1e5, 1e6},
                   .usual = 100,
-                  .rule = "off by at most 5 % of their fall",
+                  .rule = "position error at most 5 % of the height of the fall",
                   .patience = 3,
                   .build = build}};
 

@@ -24,7 +24,7 @@ Rule count_is_off() {
     double before = kSpeed, last = 0;
     int turns = 0, steps = 0;
   };
-  Rule rule{.measure = "bounces are off by a share", .bound = 0.05};
+  Rule rule{.measure = "relative error of the number of bounces", .bound = 0.05};
   rule.figure = [count = Count()](double time, std::span<const BodyState> states) mutable {
     const double now = states[0].velocity.x;
     if (time - count.last < 1.5 * kDt) {
@@ -40,7 +40,7 @@ Rule count_is_off() {
 }
 
 Rule outside() {
-  Rule rule{.measure = "way beyond the wall's front", .unit = "m", .bound = 0.05, .beyond = Verdict::Tunnels};
+  Rule rule{.measure = "penetration of the wall", .unit = "m", .bound = 0.05, .beyond = Verdict::Tunnels};
   rule.figure = [](double, std::span<const BodyState> states) {
     return std::max(0.0, std::abs(states[0].position.x) - 0.5);
   };
@@ -72,12 +72,12 @@ Trial build(double bounces) {
 
 const Register r{
     {.name = "bounces",
-     .title = "a ball flies to and fro between two walls with restitution 1, 10.3 steps a way",
+     .title = "a ball flies back and forth between two walls with restitution 1, 10.3 steps per crossing",
      .axis = "bounces",
      .values = {100, 1e3, 1e4, 1e5, 1e6},
      .usual = 100,
-     .rule = "energy within 5 % after all of them, bounces within 5 % in the first and last 1000 steps, "
-             "5 cm into a wall at most",
+     .rule = "energy within 5 % at the end, number of bounces within 5 % in the first and last 1000 steps, "
+             "penetration of the walls at most 5 cm",
      .patience = 3,
      .build = build}};
 

@@ -37,11 +37,11 @@ Trial build(double links) {
 
 const Register r{
     {.name = "chain_falling",
-     .title = "a chain of rods of 1 m, held at one end, is released from level, for 1 s",
+     .title = "a chain of rods of 1 m, fixed at one end, is released from the horizontal, for 1 s",
      .axis = "links",
      .values = {1, 3, 10, 30, 100, 300, 1000},
-     .rule = "the joints' gaps together at most 1 % of the chain, energy off by at most 5 % of what it "
-             "could turn over",
+     .rule = "sum of the joint gaps at most 1 % of the chain's length, energy error at most 5 % of the "
+             "potential energy that the chain can release",
      .build = build}};
 
 }  // namespace

@@ -29,8 +29,8 @@ const Register r{
      .unit = "s",
      .values = {1e-6, 1e-5, 1e-4, 1e-3, 1.0 / 60, 0.05, 0.2, 1},
      .usual = 1.0 / 60,
-     .rule = "the hinge open by at most 1 % of the rod, energy off by at most 5 % of what it turns over, "
-             "at least half of its way made",
+     .rule = "joint gap at most 1 % of the rod's length, energy error at most 5 % of the energy of the "
+             "swing, at least half of the path covered",
      .build = build}};
 
 }  // namespace

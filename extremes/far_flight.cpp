@@ -26,7 +26,7 @@ const Register r{{.name = "far_flight",
                   .unit = "m",
                   .values = {0, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9},
                   .usual = 0,
-                  .rule = "off by at most 5 % of what it falls, 0.25 m",
+                  .rule = "position error at most 0.25 m, 5 % of the height of the fall",
                   .build = build}};
 
 }  // namespace

@@ -13,8 +13,8 @@ const Register r{
      .unit = "m",
      .values = {0, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9},
      .usual = 0,
-     .rule = "the hinge open by at most 1 % of the rod, energy off by at most 5 % of what it turns over, "
-             "its place by 10 % of the rod",
+     .rule = "joint gap at most 1 % of the rod's length, energy error at most 5 % of the energy of the "
+             "swing, position error at most 10 % of the rod's length",
      .build = build}};
 
 }  // namespace

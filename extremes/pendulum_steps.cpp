@@ -25,7 +25,7 @@ const Register r{
      .axis = "steps",
      .values = {1e3, 1e4, 1e5, 1e6, 1e7},
      .usual = 1e3,
-     .rule = "energy off by at most 1 % of what it turns over, the hinge open by at most 1 % of the rod",
+     .rule = "energy error at most 1 % of the energy of the swing, joint gap at most 1 % of the rod's length",
      .patience = 3,
      .build = build}};
 

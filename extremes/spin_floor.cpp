@@ -25,11 +25,11 @@ Trial build(double rate) {
 }
 
 const Register r{{.name = "spin_floor",
-                  .title = "a disc of 1 m spins on a floor without friction for 1 s",
+                  .title = "a disc of 1 m spins on a frictionless floor for 1 s",
                   .axis = "rate",
                   .unit = "rad/s",
                   .values = {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
-                  .rule = "it keeps its rate within 0.1 % and its place within 1 cm",
+                  .rule = "angular velocity constant within 0.1 %, displacement at most 1 cm",
                   .build = build}};
 
 }  // namespace

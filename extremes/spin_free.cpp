@@ -20,7 +20,7 @@ const Register r{{.name = "spin_free",
                   .axis = "rate",
                   .unit = "rad/s",
                   .values = {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
-                  .rule = "it keeps its rate within 0.1 % and its place within 1 cm",
+                  .rule = "angular velocity constant within 0.1 %, displacement at most 1 cm",
                   .build = build}};
 
 }  // namespace

@@ -30,7 +30,7 @@ const Register r{{.name = "spring_force",
                   .axis = "frequency times dt",
                   .values = {0.01, 0.1, 0.5, 1, 2, 5, 10, 100, 1e3, 1e4},
                   .usual = 0.1,
-                  .rule = "energy off by at most 5 %",
+                  .rule = "energy error at most 5 %",
                   .build = build}};
 
 }  // namespace

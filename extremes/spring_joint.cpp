@@ -32,11 +32,11 @@ Trial build(double turn) {
 
 const Register r{
     {.name = "spring_joint",
-     .title = "a load hangs on a spring joint of critical damping, let go at the spring's own length",
+     .title = "a load hangs on a spring joint of critical damping, released at the spring's rest length",
      .axis = "frequency times dt",
      .values = {0.05, 0.1, 0.5, 1, 2, 5, 10, 100, 1e3, 1e4},
      .usual = 0.1,
-     .rule = "once it has settled (20 of its times 1/w) it hangs within 1 cm of where it should",
+     .rule = "position error at most 1 cm after 20 time constants 1/w",
      .build = build}};
 
 }  // namespace

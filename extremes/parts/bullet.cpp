@@ -26,7 +26,7 @@ BodyState exact_state(const Bullet& bullet, double speed, double side, double ti
 }
 
 Rule speed_before(double speed, std::size_t body, double side) {
-  Rule rule{.measure = "speed before the hit is off by a share",
+  Rule rule{.measure = "relative error of the velocity before the impact",
             .bound = 0.01,
             .beyond = Verdict::Freezes,
             .explodes = 10};
@@ -38,7 +38,7 @@ Rule speed_before(double speed, std::size_t body, double side) {
 }
 
 Rule speed_after(double speed, std::size_t body, double side) {
-  Rule rule{.measure = "velocity after the hit is off by a share",
+  Rule rule{.measure = "relative error of the velocity after the impact",
             .bound = 0.05,
             .beyond = Verdict::Freezes,
             .explodes = 10};
@@ -51,8 +51,11 @@ Rule speed_after(double speed, std::size_t body, double side) {
 
 // `beyond` returns the distance by which a body is beyond the obstacle, m.
 Rule nothing_beyond(std::function<double(std::span<const BodyState>)> beyond) {
-  Rule rule{
-      .measure = "way beyond what stops it", .unit = "m", .bound = 0, .beyond = Verdict::Tunnels, .sane = 0};
+  Rule rule{.measure = "distance past the obstacle",
+            .unit = "m",
+            .bound = 0,
+            .beyond = Verdict::Tunnels,
+            .sane = 0};
   rule.figure = [beyond = std::move(beyond)](double, std::span<const BodyState> states) {
     return std::max(0.0, beyond(states));
   };

@@ -96,7 +96,7 @@ std::string advice(const std::vector<std::vector<const FamilyRow*>>& families) {
     }
     if (farthest == nullptr) continue;
     if (names.empty())
-      names = fmt::format("none; {} survives {} of {}", who(farthest->engine, farthest->setting),
+      names = fmt::format("none; the best is {} with {} of {}", who(farthest->engine, farthest->setting),
                           farthest->survived(), farthest->outcomes.size());
     const FamilyRow& any = *rows.front();
     out += fmt::format("| {} | {} {} to {} | {} |\n", cell(any.title), cell(any.axis),
@@ -118,7 +118,7 @@ std::string family_line(const FamilyRow& row) {
   const std::string below = first == 0 ? "" : end_of(row, first - 1);
   std::string beyond = last == row.values.size() ? "" : end_of(row, last);
   if (row.survived() > last - first)
-    beyond += fmt::format("; {} more survive elsewhere", row.survived() - (last - first));
+    beyond += fmt::format("; {} more values survive elsewhere", row.survived() - (last - first));
   const std::string range = whole(row) ? "all"
                                        : fmt::format("{} to {}", number(row.values[first], ""),
                                                      number(row.values[last - 1], row.unit));
@@ -138,7 +138,7 @@ std::string family_table(const std::vector<const FamilyRow*>& rows) {
       skipped += fmt::format("{}`{}`", skipped.empty() ? "" : ", ", row->engine);
     }
   }
-  return skipped.empty() ? out : out + fmt::format("\nNot for {}.\n", skipped);
+  return skipped.empty() ? out : out + fmt::format("\nNot supported by {}.\n", skipped);
 }
 
 std::string found_cell(const Finding& finding) {

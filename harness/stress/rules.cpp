@@ -56,7 +56,7 @@ class RuleJudge final : public Judge {
     const Rule& rule = rules_[worst];
     Finding out{rank(worst).first, rule.measure, worst_[worst], rule.unit, rule.bound, ""};
     if (out.verdict != Verdict::Ok)
-      out.reason = fmt::format("{} is {}{}, at most {}{} is right", rule.measure, harness::figure(out.figure),
+      out.reason = fmt::format("{} is {}{}, limit {}{}", rule.measure, harness::figure(out.figure),
                                rule.unit.empty() ? "" : " " + rule.unit, harness::figure(rule.bound),
                                rule.unit.empty() ? "" : " " + rule.unit);
     return out;
@@ -89,7 +89,7 @@ Rule deepest_overlap(const Scene& scene, double bound) {
 }
 
 Rule farthest_from_start(const Scene& scene, double bound, double explodes) {
-  Rule rule{.measure = "distance from its place", .unit = "m", .bound = bound, .explodes = explodes};
+  Rule rule{.measure = "displacement from the start", .unit = "m", .bound = bound, .explodes = explodes};
   rule.figure = [start = start_of(scene)](double, std::span<const BodyState> states) {
     double out = 0;
     for (std::size_t i = 0; i < states.size(); ++i)
@@ -100,7 +100,7 @@ Rule farthest_from_start(const Scene& scene, double bound, double explodes) {
 }
 
 Rule sum_of_gaps(const Scene& scene, double bound, double explodes) {
-  Rule rule{.measure = "sum of the joints' gaps",
+  Rule rule{.measure = "sum of the joint gaps",
             .unit = "m",
             .bound = bound,
             .beyond = Verdict::Stretches,
@@ -114,7 +114,7 @@ Rule sum_of_gaps(const Scene& scene, double bound, double explodes) {
 }
 
 Rule energy_gained(const Scene& scene, double scale, double bound) {
-  Rule rule{.measure = "energy gained, of what moves", .bound = bound, .explodes = 10};
+  Rule rule{.measure = "relative energy gain", .bound = bound, .explodes = 10};
   rule.figure = [&scene, scale, start = start_energy(scene)](double, std::span<const BodyState> states) {
     return (of(mechanics(scene, states)) - start) / scale;
   };
@@ -122,7 +122,7 @@ Rule energy_gained(const Scene& scene, double scale, double bound) {
 }
 
 Rule energy_lost(const Scene& scene, double scale, double bound) {
-  Rule rule{.measure = "energy lost, of what moves", .bound = bound, .beyond = Verdict::Freezes};
+  Rule rule{.measure = "relative energy loss", .bound = bound, .beyond = Verdict::Freezes};
   rule.figure = [&scene, scale, start = start_energy(scene)](double, std::span<const BodyState> states) {
     return (start - of(mechanics(scene, states))) / scale;
   };
@@ -130,7 +130,7 @@ Rule energy_lost(const Scene& scene, double scale, double bound) {
 }
 
 Rule off_the_path(const Scene& scene, const Motion& exact, double bound, double explodes) {
-  Rule rule{.measure = "distance from the exact place", .unit = "m", .bound = bound, .explodes = explodes};
+  Rule rule{.measure = "position error", .unit = "m", .bound = bound, .explodes = explodes};
   rule.figure = [exact, right = start_of(scene)](double time, std::span<const BodyState> states) mutable {
     exact(time, right);
     double out = 0;
@@ -150,7 +150,7 @@ Rule way_not_made(const Scene& scene, const Motion& exact, double least) {
   Way way{start_of(scene), {}, {}};
   way.last_right = way.last = way.right.front().position;
   Rule rule{
-      .measure = "share of its way that is not made", .bound = 0.5, .beyond = Verdict::Freezes, .sane = 0.5};
+      .measure = "fraction of the path not covered", .bound = 0.5, .beyond = Verdict::Freezes, .sane = 0.5};
   rule.figure = [exact, least, way](double time, std::span<const BodyState> states) mutable {
     exact(time, way.right);
     way.made += norm(states.front().position - way.last);
@@ -163,7 +163,7 @@ Rule way_not_made(const Scene& scene, const Motion& exact, double least) {
 }
 
 Rule turns_otherwise(std::size_t body, double rate, double bound) {
-  Rule rule{.measure = "rate of turning is off by a share",
+  Rule rule{.measure = "relative error of the angular velocity",
             .bound = bound,
             .beyond = Verdict::Freezes,
             .explodes = 10};

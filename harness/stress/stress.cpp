@@ -83,10 +83,10 @@ class Record {
   void require_same(const Json& then, const Json& now) const {
     for (const auto& [name, value] : now.items()) {
       if (name == "date" || then.value(name, Json()) == value) continue;
-      throw Error(
-          Error::Kind::Value, fmt::format("file '{}'", journal_.path()), name,
-          then.value(name, Json()).dump(),
-          fmt::format("is of another run: it is {} now; name another folder with --out", value.dump()));
+      throw Error(Error::Kind::Value, fmt::format("file '{}'", journal_.path()), name,
+                  then.value(name, Json()).dump(),
+                  fmt::format("belongs to another run: it is now {}; choose another folder with --out",
+                              value.dump()));
     }
   }
 

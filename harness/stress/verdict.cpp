@@ -15,18 +15,18 @@ struct Words {
 
 constexpr std::array<Words, kVerdicts> kWords{{
     {"ok", "ok", "within its bounds"},
-    {"inaccurate", "inacc", "sane, off by up to ten times its bound"},
-    {"drifts", "drifts", "leaves its place or energy"},
-    {"sinks", "sinks", "shapes lie in each other"},
-    {"stretches", "longer", "stretches: joints are open"},
-    {"freezes", "frozen", "freezes: what should move does not"},
-    {"tunnels", "tunnel", "went through a wall"},
+    {"inaccurate", "inacc", "error up to ten times the bound"},
+    {"drifts", "drifts", "error of position or energy above ten times the bound"},
+    {"sinks", "sinks", "shapes overlap"},
+    {"stretches", "longer", "stretches: joints come apart"},
+    {"freezes", "frozen", "freezes: a body does not move as it should"},
+    {"tunnels", "tunnel", "passed through a wall"},
     {"explodes", "explod", "flies off"},
-    {"NaN", "NaN", "a state that is not finite"},
+    {"NaN", "NaN", "a state is not finite"},
     {"crashed", "crash", "its process died"},
     {"timeout", "time", "took too long"},
-    {"refused", "refuse", "said that it cannot"},
-    {"skipped", "-", "has no such feature; not counted"},
+    {"refused", "refuse", "the engine rejected the scene"},
+    {"skipped", "-", "the engine lacks a feature; not counted"},
 }};
 
 const Words& words_of(Verdict verdict) { return kWords[static_cast<std::size_t>(verdict)]; }
@@ -40,7 +40,7 @@ std::string_view meaning_of(Verdict verdict) { return words_of(verdict).meaning;
 Verdict verdict_of(std::string_view name) {
   for (std::size_t i = 0; i < kWords.size(); ++i)
     if (kWords[i].name == name) return static_cast<Verdict>(i);
-  throw Error(Error::Kind::Name, "a cell", "outcome", quoted(name), "is none of the outcomes");
+  throw Error(Error::Kind::Name, "a cell", "outcome", quoted(name), "is not an outcome");
 }
 
 }  // namespace plumb::harness::stress

@@ -38,7 +38,7 @@ Trial arch(double share, double resolution) {
   trial.broke = [bodies = trial.scene.bodies](double time, std::span<const BodyState> states) {
     for (std::size_t i = 1; i < states.size(); ++i)
       if (length_squared(states[i].position - bodies[i].position) > kDrop * kDrop)
-        return fmt::format("{} has moved by {:.2g} m after {:.2g} s", bodies[i].name, kDrop, time);
+        return fmt::format("{} moved by {:.2g} m in {:.2g} s", bodies[i].name, kDrop, time);
     return std::string();
   };
   return trial;
@@ -60,13 +60,13 @@ std::array<Vec2d, 4> voussoir(int index, double thickness) {
 
 Threshold arch_thickness() {
   return {.name = "arch_thickness",
-          .title = "the thinnest semicircular arch that stands",
-          .quantity = fmt::format("thickness over radius of the thinnest semicircular arch of {} voussoirs",
-                                  kVoussoirs),
+          .title = "the thinnest stable semicircular arch",
+          .quantity = fmt::format(
+              "thickness / radius of the thinnest stable semicircular arch of {} voussoirs", kVoussoirs),
           .source = "limit analysis of these voussoirs; 0.1075 for infinitely many (Milankovitch, Heyman)",
           .judged =
-              "a voussoir moves by more than 2 % of the radius, in twice as long as a rigid arch takes "
-              "that is half a unit of the last digit too thin",
+              "a voussoir moves by more than 2 % of the radius, within twice the time that a rigid arch "
+              "needs if it is too thin by half a unit of the last digit",
           .range = {.low = 0.05, .high = 0.25, .holds_below = false},
           .exact = exactly(kThinnestArch),
           .build = arch};

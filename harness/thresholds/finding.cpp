@@ -18,7 +18,7 @@ constexpr std::string_view kOutcomes[] = {"found", "always", "never", "refused",
 Finding::Outcome outcome_from(const std::string& name) {
   for (std::size_t i = 0; i < std::size(kOutcomes); ++i)
     if (kOutcomes[i] == name) return static_cast<Finding::Outcome>(i);
-  throw Error(Error::Kind::Syntax, "a threshold", "outcome", name, "is not one that thresholds have");
+  throw Error(Error::Kind::Syntax, "a threshold", "outcome", name, "is not an outcome of a threshold");
 }
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }

@@ -48,7 +48,7 @@ std::string head(const Finding& finding, const Style& style) {
          "\n";
   out += "  " + style.paint(wrap(fmt::format("broken: {}.", finding.judged), style.width - 2, 2), Ink::Dim) +
          "\n";
-  return out + style.paint(fmt::format("  {}{}{}{}what breaks beyond\n", pad_right("engine", kEngineWidth),
+  return out + style.paint(fmt::format("  {}{}{}{}failure beyond\n", pad_right("engine", kEngineWidth),
                                        pad_right("found", kFoundWidth), pad_right("exact", kExactWidth),
                                        pad_right("off by", kDifferenceWidth)),
                            Ink::Dim);

@@ -31,7 +31,7 @@ Trial stack(double ratio, double) {
     if (std::abs(sunk) > kMoved)
       return fmt::format("{} by {:.2g} m in {:.2g} s", sunk > 0 ? "sinks" : "rises", std::abs(sunk), time);
     if (aside > kMoved || std::abs(states[2].angle) > kMoved)
-      return fmt::format("has left its place by {:.2g} m or turned after {:.2g} s", aside, time);
+      return fmt::format("moved by {:.2g} m or rotated within {:.2g} s", aside, time);
     return std::string();
   };
   return trial;
@@ -73,25 +73,26 @@ Trial chain(double ratio, double) {
 
 Threshold heavy_on_light() {
   return {.name = "heavy_on_light",
-          .title = "the heaviest box that a light one carries",
-          .quantity = "largest ratio of masses, a box on a box of the same size",
-          .source = "none: rigid boxes carry any mass",
-          .judged = "the upper box of 1 m moves by more than 5 cm, or turns by 0.05 rad, in 10 s",
+          .title = "the heaviest box on a light one",
+          .quantity = "largest mass ratio of a box on a box of the same size",
+          .source = "no limit: rigid boxes carry any mass",
+          .judged = "the upper box of 1 m moves by more than 5 cm or rotates by 0.05 rad in 10 s",
           .range = {.low = 1, .high = 1e9, .logarithmic = true},
           .exact = no_exact_value,
           .build = stack};
 }
 
 Threshold heavy_tip() {
-  return {
-      .name = "heavy_tip",
-      .title = "the heaviest tip on a chain",
-      .quantity = "largest ratio of masses, the tip of a chain of ten links to a link",
-      .source = "none: rigid links carry any mass",
-      .judged = "swinging from 30 degrees for 10 s, the chain's gaps add up to more than 1 % of its length",
-      .range = {.low = 1, .high = 1e9, .logarithmic = true},
-      .exact = no_exact_value,
-      .build = chain};
+  return {.name = "heavy_tip",
+          .title = "the heaviest tip on a chain",
+          .quantity = "largest mass ratio of the tip of a chain of ten links to a link",
+          .source = "no limit: rigid links carry any mass",
+          .judged =
+              "the sum of the joint gaps exceeds 1 % of the chain's length while it swings from 30 degrees "
+              "for 10 s",
+          .range = {.low = 1, .high = 1e9, .logarithmic = true},
+          .exact = no_exact_value,
+          .build = chain};
 }
 
 }  // namespace plumb::harness::thresholds

@@ -33,24 +33,23 @@ Trial over_the_edge(std::span<const double> shares, double overhang, double exac
       time_to_tilt(resolution / 2 * exact / count, arm, count * count * kGyrationSquared, kToppled);
   trial.broke = [](double time, std::span<const BodyState> states) {
     for (const BodyState& state : states)
-      if (std::abs(state.angle) > kToppled) return fmt::format("has tipped over after {:.2g} s", time);
+      if (std::abs(state.angle) > kToppled) return fmt::format("tipped over within {:.2g} s", time);
     return std::string();
   };
   return trial;
 }
 
 constexpr const char* kJudged =
-    "a block tilts by more than 0.05 rad, in one and a half times as long as a rigid one takes that is half "
-    "a "
-    "unit of the last digit beyond";
+    "a block tilts by more than 0.05 rad, within 1.5 times the time that a rigid block needs if it is beyond "
+    "the limit by half a unit of the last digit";
 
 }  // namespace
 
 Threshold overhang() {
   constexpr double kExact = 0.5;
   return {.name = "overhang",
-          .title = "how far a block may stick out over an edge",
-          .quantity = "largest overhang of a block, in its lengths",
+          .title = "largest overhang of a block over an edge",
+          .quantity = "largest overhang of a block / its length",
           .source = "1/2: the centre of mass above the edge",
           .judged = kJudged,
           .range = {.low = 0.3, .high = 0.7},
@@ -64,8 +63,8 @@ Threshold overhang() {
 Threshold overhang_of_two() {
   constexpr double kExact = 0.75;
   return {.name = "overhang_of_two",
-          .title = "how far two blocks may stick out over an edge",
-          .quantity = "largest overhang of two blocks, in their length: a third below, two thirds above",
+          .title = "largest overhang of two blocks over an edge",
+          .quantity = "largest overhang of two blocks / their length: a third below, two thirds above",
           .source = "3/4 = (1 + 1/2) / 2, the harmonic stack",
           .judged = kJudged,
           .range = {.low = 0.45, .high = 1.05},

@@ -36,12 +36,13 @@ Threshold on_slope(std::string name, int degrees) {
   const double angle = degrees * std::numbers::pi / 180, exact = std::tan(angle);
   return {
       .name = std::move(name),
-      .title = fmt::format("the friction that holds a box on a slope of {} degrees", degrees),
-      .quantity = fmt::format("friction coefficient at which a box stays on a slope of {} degrees", degrees),
+      .title = fmt::format("least friction that holds a box on a slope of {} degrees", degrees),
+      .quantity =
+          fmt::format("least friction coefficient that holds a box on a slope of {} degrees", degrees),
       .source = "tan(theta), Coulomb",
       .judged =
-          "slides by more than 10 cm after the first second, in twice the time that a rigid box with "
-          "half a unit of the last digit too little friction takes for it",
+          "the box slides by more than 10 cm after the first second, within twice the time that a rigid box "
+          "needs if its friction is too small by half a unit of the last digit",
       .range = {.low = 0.5 * exact, .high = 1.5 * exact, .holds_below = false},
       .exact = exactly(exact),
       .build = [angle](double value, double resolution) { return box_on_slope(angle, value, resolution); }};

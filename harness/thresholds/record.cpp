@@ -27,7 +27,7 @@ void require_same(const std::string& path, const Json& then) {
   for (const char* name : {"plumb_version", "commit", "compiler", "flags", "cpu"}) {
     if (then.value(name, Json()) == now.at(name)) continue;
     throw Error(Error::Kind::Value, fmt::format("file '{}'", path), name, then.value(name, Json()).dump(),
-                fmt::format("was measured elsewhere: it is {} now; name another folder with --out",
+                fmt::format("was measured elsewhere: it is now {}; choose another folder with --out",
                             now.at(name).dump()));
   }
 }

@@ -30,7 +30,7 @@ Trial bullets(double speed, double) {
   trial.duration = (0.2 + spread) / speed + 20 * kStep;
   trial.broke = [](double time, std::span<const BodyState> states) {
     for (std::size_t i = 1; i < states.size(); ++i)
-      if (states[i].position.x > kWall) return fmt::format("goes through the wall within {:.2g} s", time);
+      if (states[i].position.x > kWall) return fmt::format("passes through the wall within {:.2g} s", time);
     return std::string();
   };
   return trial;
@@ -42,7 +42,7 @@ Trial flight(double speed, double) {
   trial.broke = [speed](double time, std::span<const BodyState> states) {
     const double way = states[0].position.x / (speed * time), share = states[0].velocity.x / speed;
     if (std::abs(share - 1) > kSlowed) return fmt::format("is slowed to {:.3g} m/s", share * speed);
-    if (std::abs(way - 1) > kSlowed) return fmt::format("goes {:.3g} of its way", way);
+    if (std::abs(way - 1) > kSlowed) return fmt::format("covers {:.3g} of its path", way);
     return std::string();
   };
   return trial;
@@ -54,7 +54,7 @@ Trial turning(double spin, double) {
   trial.broke = [spin](double time, std::span<const BodyState> states) {
     const double way = states[0].angle / (spin * time), share = states[0].angular_velocity / spin;
     if (std::abs(share - 1) > kSlowed) return fmt::format("is slowed to {:.3g} rad/s", share * spin);
-    if (std::abs(way - 1) > kSlowed) return fmt::format("turns by {:.3g} of what it should", way);
+    if (std::abs(way - 1) > kSlowed) return fmt::format("rotates by {:.3g} of the expected angle", way);
     return std::string();
   };
   return trial;
@@ -64,12 +64,13 @@ Trial turning(double spin, double) {
 
 Threshold stopped_bullet() {
   return {.name = "stopped_bullet",
-          .title = "the fastest bullet that a thin wall stops",
+          .title = "fastest bullet that a thin wall stops",
           .quantity = "largest speed at which discs of 10 cm are stopped by a wall of 1 cm",
           .unit = "m/s",
-          .source = "none: a rigid wall stops any",
+          .source = "no limit: a rigid wall stops any bullet",
           .judged =
-              "one of eight discs, which start at even parts of a step's way, has its centre beyond the wall",
+              "the centre of one of eight discs passes the wall; their starts divide the displacement of a "
+              "step evenly",
           .range = {.low = 1, .high = 1e8, .logarithmic = true},
           .exact = no_exact_value,
           .build = bullets};
@@ -77,11 +78,11 @@ Threshold stopped_bullet() {
 
 Threshold free_speed() {
   return {.name = "free_speed",
-          .title = "the fastest that a body may fly",
+          .title = "largest speed of free flight",
           .quantity = "largest speed that a body keeps in free flight",
           .unit = "m/s",
-          .source = "none: nothing slows it",
-          .judged = "its speed or its way is off by more than 1e-3 within 60 steps",
+          .source = "no limit: free bodies keep their speed",
+          .judged = "relative error of the speed or the displacement above 1e-3 within 60 steps",
           .range = {.low = 1, .high = 1e8, .logarithmic = true},
           .exact = no_exact_value,
           .build = flight};
@@ -89,11 +90,11 @@ Threshold free_speed() {
 
 Threshold free_spin() {
   return {.name = "free_spin",
-          .title = "the fastest that a body may spin",
-          .quantity = "largest rate of rotation that a body keeps",
+          .title = "largest angular velocity of free rotation",
+          .quantity = "largest angular velocity that a body keeps",
           .unit = "rad/s",
-          .source = "none: nothing slows it",
-          .judged = "its rate or its angle is off by more than 1e-3 within 60 steps",
+          .source = "no limit: free bodies keep their speed",
+          .judged = "relative error of the angular velocity or the angle above 1e-3 within 60 steps",
           .range = {.low = 1, .high = 1e6, .logarithmic = true},
           .exact = no_exact_value,
           .build = turning};

@@ -37,7 +37,7 @@ Trial on_a_force(double frequency_times_step, double resolution) {
     const double swing = std::sqrt(length_squared(states[0].position)) / kStart;
     return swing < kBurst
                ? std::string()
-               : fmt::format("swings {:.2g} times as far as it should after {:.2g} s", swing, time);
+               : fmt::format("amplitude {:.2g} times the expected one after {:.2g} s", swing, time);
   };
   return trial;
 }
@@ -57,7 +57,7 @@ Trial on_a_joint(double frequency_times_step, double resolution) {
   trial.broke = [](double time, std::span<const BodyState> states) {
     const double swing = std::abs(std::sqrt(length_squared(states[0].position)) - kRestLength) / kPulled;
     return swing < 2 ? std::string()
-                     : fmt::format("swings {:.2g} times as far as it should after {:.2g} s", swing, time);
+                     : fmt::format("amplitude {:.2g} times the expected one after {:.2g} s", swing, time);
   };
   return trial;
 }
@@ -83,25 +83,25 @@ std::optional<double> limit_of(const reference::Method& method) {
 }  // namespace
 
 Threshold spring_force() {
-  return {.name = "spring_force",
-          .title = "the stiffest spring by a force law",
-          .quantity = "largest natural frequency, times the step of 1/60 s, of a mass on a spring",
-          .source =
-              "stability of the engine's method: omega h = 2 for symplectic Euler and Verlet, 2 sqrt(2) for "
-              "Runge-Kutta, none with step control or implicit springs",
-          .judged = "swings a thousand times as far as it should within 4000 steps (at three digits)",
-          .range = {.low = 0.1, .high = 50, .logarithmic = true},
-          .exact = limit_of,
-          .build = on_a_force};
+  return {
+      .name = "spring_force",
+      .title = "stiffest spring of a force law",
+      .quantity = "largest angular frequency times step (1/60 s) of a mass on a spring",
+      .source =
+          "stability of the engine's method: omega h = 2 for symplectic Euler and Verlet, 2 sqrt(2) for "
+          "Runge-Kutta, none with step control or implicit springs",
+      .judged = "the amplitude exceeds the expected one a thousandfold within 4000 steps (for three digits)",
+      .range = {.low = 0.1, .high = 50, .logarithmic = true},
+      .exact = limit_of,
+      .build = on_a_force};
 }
 
 Threshold spring_joint() {
   return {.name = "spring_joint",
-          .title = "the stiffest spring by a joint",
-          .quantity =
-              "largest natural frequency, times the step of 1/60 s, of a mass on an undamped spring joint",
-          .source = "none: an implicit spring is stable at any stiffness",
-          .judged = "swings twice as far as it should within 4000 steps (at three digits)",
+          .title = "stiffest spring of a joint",
+          .quantity = "largest angular frequency times step (1/60 s) of a mass on an undamped spring joint",
+          .source = "no limit: an implicit spring is stable at any stiffness",
+          .judged = "the amplitude exceeds twice the expected one within 4000 steps (for three digits)",
           .range = {.low = 0.1, .high = 50, .logarithmic = true},
           .exact = no_exact_value,
           .build = on_a_joint};

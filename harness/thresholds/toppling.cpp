@@ -17,15 +17,14 @@ constexpr double kGyrationSquared = (kWidth * kWidth + kHeight * kHeight) / 3;  
 constexpr double kPushedAt = 1.5;                                               // m above the ground
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kJudged =
-    "tilts by more than 0.05 rad, in one and a half times as long as a rigid box takes that is half a unit "
-    "of "
-    "the last digit beyond";
+    "the box tilts by more than 0.05 rad, within 1.5 times the time that a rigid box needs if it is beyond "
+    "the limit by half a unit of the last digit";
 
 // Fails once the last body, the box, has tilted.
 auto tilted_from(double angle) {
   return [angle](double time, std::span<const BodyState> states) {
     const double tilt = std::abs(states.back().angle - angle);
-    return tilt > kToppled ? fmt::format("has tipped over after {:.2g} s", time) : std::string();
+    return tilt > kToppled ? fmt::format("tipped over within {:.2g} s", time) : std::string();
   };
 }
 
@@ -59,7 +58,7 @@ Trial pushed(double push, double resolution) {
 
 Threshold toppling_angle() {
   return {.name = "toppling_angle",
-          .title = "the slope on which a box twice as high as wide tips over",
+          .title = "steepest slope for a box twice as high as wide",
           .quantity = "steepest slope on which a box twice as high as wide stands, friction 1",
           .unit = "degrees",
           .source = "tan(theta) = width / height",
@@ -70,14 +69,16 @@ Threshold toppling_angle() {
 }
 
 Threshold toppling_push() {
-  return {.name = "toppling_push",
-          .title = "the push that tips a box over",
-          .quantity = "largest horizontal push, in weights, at 1.5 m under which a box of 1 m by 2 m stands",
-          .source = "(width / 2) / height of the push",
-          .judged = kJudged,
-          .range = {.low = 0.15, .high = 0.6},
-          .exact = exactly(kWidth / 2 / kPushedAt),
-          .build = pushed};
+  return {
+      .name = "toppling_push",
+      .title = "least push that tips a box over",
+      .quantity =
+          "largest horizontal push / weight, at a height of 1.5 m, under which a box of 1 m by 2 m stands",
+      .source = "(width / 2) / height of the push",
+      .judged = kJudged,
+      .range = {.low = 0.15, .high = 0.6},
+      .exact = exactly(kWidth / 2 / kPushedAt),
+      .build = pushed};
 }
 
 }  // namespace plumb::harness::thresholds

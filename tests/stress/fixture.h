@@ -52,7 +52,7 @@ inline Trial mixed(double) {
       .name = "hinge", .body_a = "world", .body_b = "rod", .anchor_a = {3, 5}, .anchor_b = {0, 0.5}}};
   trial.judge = [](const Scene& scene) {
     Rule wall{
-        .measure = "way beyond the wall", .unit = "m", .bound = 0, .beyond = Verdict::Tunnels, .sane = 0};
+        .measure = "distance past the wall", .unit = "m", .bound = 0, .beyond = Verdict::Tunnels, .sane = 0};
     wall.figure = [](double, std::span<const BodyState> states) {
       return std::max(0.0, states[0].position.x - 2);
     };

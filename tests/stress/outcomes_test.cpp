@@ -62,11 +62,11 @@ TEST(Outcomes, BySamplesOfTheRun) {
 TEST(Outcomes, WhatIsWorstIsSaidWithItsFigure) {
   const Finding finding = finding_of([](long, double, States s) { s[0].position = {2.5, 0.2}; });
   EXPECT_EQ(finding.verdict, Verdict::Tunnels);
-  EXPECT_EQ(finding.measure, "way beyond the wall");
+  EXPECT_EQ(finding.measure, "distance past the wall");
   EXPECT_DOUBLE_EQ(finding.figure, 0.5);
   EXPECT_EQ(finding.bound, 0);
   EXPECT_EQ(finding.unit, "m");
-  EXPECT_EQ(finding.reason, "way beyond the wall is 0.5 m, at most 0 m is right");
+  EXPECT_EQ(finding.reason, "distance past the wall is 0.5 m, limit 0 m");
 }
 
 TEST(Outcomes, NotANumber) {

@@ -153,7 +153,7 @@ TEST(MapText, HasARowAnEngineAndAWordAnOutcome) {
   const std::string counts = survival_text(cells, {});
   EXPECT_NE(counts.find("12 of   12  100.0 %"), std::string::npos) << counts;
   EXPECT_NE(counts.find("0 of   12    0.0 %"), std::string::npos) << counts;
-  EXPECT_NE(legend({}).find("sinks: shapes lie in each other"), std::string::npos);
+  EXPECT_NE(legend({}).find("sinks: shapes overlap"), std::string::npos);
 }
 
 TEST(MapText, ValuesAreShort) {

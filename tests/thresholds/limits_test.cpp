@@ -60,7 +60,7 @@ TEST(Limits, TellWhereWhatSurvivesEnds) {
   for (const char* part :
        {"commit abc, on a CPU", "| `plumb-float` | 2 | 4 | 50.0 % | 1 explodes, 1 sinks |",
         "| `plumb-float` | 1 to 10 |  | sinks at 1000: by 3 mm |", "| `plumb-precise` | all |",
-        "| `box2d` | nowhere | NaN at 1: at 2 s |", "Not for `mujoco`.",
+        "| `box2d` | nowhere | NaN at 1: at 2 s |", "Not supported by `mujoco`.",
         "| a heavy box on a light one | mass ratio 1 to 1e+06 | `plumb-precise` |",
         "| overhang | 0.5000 | 0.450 (-10 %) |"})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;

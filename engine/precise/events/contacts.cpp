@@ -127,7 +127,7 @@ void Contacts::refuse_overlaps(double share) {
   if (subject.empty()) return;
   throw Error(
       Error::Kind::Run, subject, "overlap", shortest(deepest) + " m",
-      "their shapes lie in each other by more than " + shortest(allowed) +
+      "their shapes overlap by more than " + shortest(allowed) +
           " m, and no law says how they part: place them apart, or filter the pair out; Realtime parts them");
 }
 
