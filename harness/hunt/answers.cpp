@@ -87,7 +87,7 @@ class Questions {
       if (const Known* met = find(hit->shape)) {
         const double apart = std::abs(separation(point_at(hit->point), met->outline));
         if (apart > tolerance(*met, far))
-          return fmt::format("a ray meets '{}' {:.3g} m off its surface", met->body, apart);
+          return fmt::format("a ray hits '{}' {:.3g} m off its surface", met->body, apart);
       }
     for (const Known& each : known_) {
       const double slack = tolerance(each, far),
@@ -125,7 +125,7 @@ class Questions {
       if (const Known* met = find(hit->shape)) {
         const double apart = separation(at(hit->fraction), met->outline);
         if (apart > tolerance(*met, others) || (!hit->overlapped && apart < -tolerance(*met, others)))
-          return fmt::format("a cast arrives at '{}' {:.3g} m {}", met->body, std::abs(apart),
+          return fmt::format("a shape cast stops at '{}' {:.3g} m {}", met->body, std::abs(apart),
                              apart > 0 ? "early" : "late");
       }
     for (const Known& each : known_) {
@@ -133,7 +133,7 @@ class Questions {
       for (int k = 1; k <= kPlaces; ++k) {
         const double apart = separation(at((hit ? hit->fraction : 1) * k / kPlaces), each.outline);
         if (apart < -tolerance(each, others))
-          return fmt::format("a cast passes through '{}', {:.3g} m inside", each.body, -apart);
+          return fmt::format("a shape cast passes through '{}', {:.3g} m inside", each.body, -apart);
       }
     }
     return {};
@@ -178,9 +178,9 @@ class Questions {
       const bool inside =
           each.outline.low.x > target.middle.x - reach.x && each.outline.high.x < target.middle.x + reach.x &&
           each.outline.low.y > target.middle.y - reach.y && each.outline.high.y < target.middle.y + reach.y;
-      if (is_found && !seen) return fmt::format("a query finds '{}', which its filter leaves out", each.body);
+      if (is_found && !seen) return fmt::format("a query finds '{}', which its filter excludes", each.body);
       if (inside && seen && !is_found)
-        return fmt::format("a query misses '{}', which its filter lets through", each.body);
+        return fmt::format("a query misses '{}', which its filter accepts", each.body);
     }
     return {};
   }
@@ -192,9 +192,9 @@ class Questions {
     for (const Known& each : known_) {
       const double apart = separation(point_at(at), each.outline), slack = tolerance(each, 4 * target.size);
       if (apart < 4 * target.size - slack && (!found || found->distance > apart + slack))
-        return fmt::format("'{}' is {:.3g} m away, and not the nearest", each.body, apart);
+        return fmt::format("'{}' is {:.3g} m away, but is not reported as the nearest", each.body, apart);
       if (found && found->shape == each.id && std::abs(found->distance - apart) > slack)
-        return fmt::format("the nearest, '{}', is {:.3g} m away, not {:.3g}", each.body, apart,
+        return fmt::format("the nearest shape, '{}', is {:.3g} m away, not {:.3g}", each.body, apart,
                            found->distance);
     }
     return {};

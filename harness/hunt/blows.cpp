@@ -181,9 +181,8 @@ std::string blown(Random& random, const Accuracy& accuracy) {
   const double share = realtime == nullptr ? 4e-3 : realtime->precision == Precision::Double ? 1e-9 : 2e-4;
   if (off > share * (length(box.velocity) + s * std::abs(box.angular_velocity)))
     return fmt::format(
-        "a box that strikes a floor leaves it at {:.5g}, {:.5g} m/s and {:.5g} rad/s, not at {:.5g}, {:.5g} "
-        "and {:.5g} "
-        "(law {}, e {:.3g}, mu {:.3g})",
+        "a box that strikes a floor rebounds with {:.5g}, {:.5g} m/s and {:.5g} rad/s, not {:.5g}, {:.5g} "
+        "and {:.5g} (law {}, e {:.3g}, mu {:.3g})",
         found.velocity.x, found.velocity.y, found.angular_velocity, right.velocity.x, right.velocity.y,
         right.spin, static_cast<int>(rules.impact), restitution, mu);
   return {};
@@ -223,8 +222,8 @@ std::string slid(Random& random) {
   const double found = run.state(1).velocity.x;
   if (std::abs(found - right) > 1e-6 * (v + g * t))
     return fmt::format(
-        "a block that slides has {:.7g} m/s after {} s, not {:.7g} (mu {:.3g}, {:.3g} of it while it "
-        "slides, slope {:.3g} rad)",
+        "a sliding block has {:.7g} m/s after {} s, not {:.7g} (mu {:.3g}, kinetic friction {:.3g} of it, "
+        "slope {:.3g} rad)",
         found, t, right, mu, share, slope);
   return {};
 }
@@ -247,8 +246,8 @@ std::string driven_hinge(Random& random) {
   const double found = run.state(0).angular_velocity;
   if (std::abs(found - right) > 1e-6 * (std::abs(right) + 1))
     return fmt::format(
-        "a motor of {:.4g} rad/s and {:.4g} N m under {:.4g} N m turns at {:.7g} rad/s, not {:.7g}", w, most,
-        load, found, right);
+        "a motor of {:.4g} rad/s and {:.4g} N m under a load of {:.4g} N m turns at {:.7g} rad/s, not {:.7g}",
+        w, most, load, found, right);
   // A bar whose weight holds it at a limit, and a ball that falls on its end.
   const double e = random.within(0, 1), speed = random.within(1, 5), radius = 0.1 * s;
   Scene stop{.name = "stop"};
@@ -272,7 +271,7 @@ std::string driven_hinge(Random& random) {
   const double up = falls.state(1).velocity.y, turns = falls.state(0).angular_velocity;
   if (std::abs(up - e * speed) > 0.01 * speed || std::abs(turns) * s > 0.01 * speed)
     return fmt::format(
-        "a ball that falls at {:.4g} m/s on a bar that a limit holds leaves it at {:.5g} m/s, not {:.5g}",
+        "a ball that hits a bar at its joint limit with {:.4g} m/s rebounds with {:.5g} m/s, not {:.5g}",
         speed, up, e * speed);
   return {};
 }
@@ -294,7 +293,7 @@ Verdict blows(const Case& one, const Engine&, const Motion&) {
   return Objection{.law = "blows",
                    .judge = "blows",
                    .what = what,
-                   .right = "impacts, friction, motors and limits follow the laws of their scene"};
+                   .right = "impacts, friction, motors and limits obey the laws of the scene"};
 }
 
 Verdict strikes(const Case& one, const Engine& engine, const Motion&) {

@@ -46,13 +46,13 @@ std::string Caller<Real, Target>::make() {
 template <class Real, class Target>
 std::string Caller<Real, Target>::not_woken(const char* call) const {
   if (simulated() && !world_.awake(body_))
-    return fmt::format("{} leaves '{}' asleep", call, world_.name(body_));
+    return fmt::format("{} does not wake '{}'", call, world_.name(body_));
   return {};
 }
 
 template <class Real, class Target>
 std::string Caller<Real, Target>::answers(const char* call, bool right) const {
-  return right ? std::string() : fmt::format("{} is not what is then answered", call);
+  return right ? std::string() : fmt::format("{} is not returned by its getter", call);
 }
 
 template <class Real, class Target>
@@ -131,13 +131,13 @@ std::string Caller<Real, Target>::mass_by_shapes() {
   // Outlines are polygons of 360 corners.
   const auto off = [](double a, double b) { return std::abs(a - b) > 2e-3 * std::abs(b); };
   if (off(world_.mass(body_), mass))
-    return fmt::format("'{}' has {:.6g} kg, not the {:.6g} of its shapes", world_.name(body_),
+    return fmt::format("'{}' has a mass of {:.6g} kg, not the {:.6g} kg of its shapes", world_.name(body_),
                        world_.mass(body_), mass);
   if (length(world_.centre(body_) - world_.world_point(body_, centre)) > 2e-3 * size())
-    return fmt::format("the centre of '{}' is not that of its shapes", world_.name(body_));
+    return fmt::format("the centre of mass of '{}' is not that of its shapes", world_.name(body_));
   if (!world_.locks(body_).rotation && off(world_.inertia(body_), inertia) && inertia > 1e-6 * about_origin)
-    return fmt::format("'{}' has {:.6g} kg m^2, not the {:.6g} of its shapes", world_.name(body_),
-                       world_.inertia(body_), inertia);
+    return fmt::format("'{}' has an inertia of {:.6g} kg m^2, not the {:.6g} of its shapes",
+                       world_.name(body_), world_.inertia(body_), inertia);
   return {};
 }
 
@@ -181,7 +181,8 @@ std::string Caller<Real, Target>::sleepers_inside() const {
         const Outline sleeper = outline_in_world(world_, shape);
         const double least = std::min(width_of(outline), width_of(sleeper));
         if (separation(outline, sleeper) < -kOverlap * least)
-          return fmt::format("'{}' sleeps on with '{}' put into it", world_.name(other), world_.name(body_));
+          return fmt::format("'{}' stays asleep although '{}' was placed into it", world_.name(other),
+                             world_.name(body_));
       }
     }
   }
@@ -304,7 +305,8 @@ std::string Caller<Real, Target>::add_joint() {
   if ((std::holds_alternative<RevoluteDefinition>(definition.kind) ||
        std::holds_alternative<WeldDefinition>(definition.kind)) &&
       std::abs(world_.read(made).angle) > 0.01)
-    return fmt::format("a joint that is made at its angle reads {:.4g} rad", world_.read(made).angle);
+    return fmt::format("a joint that was just created at its angle reads {:.4g} rad",
+                       world_.read(made).angle);
   return answers("create_joint", world_.bodies(made) == std::pair(a, b));
 }
 

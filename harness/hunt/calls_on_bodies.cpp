@@ -31,7 +31,7 @@ std::string Caller<Real, Target>::set_velocity() {
   const BodyLocks locks = world_.locks(body_);
   if (locks.x || locks.y || world_.type(body_) == BodyType::Static) return {};
   if (!near(world_.velocity(body_), wanted)) return answers("set_velocity", false);
-  if (!near(before, wanted) && world_.hash() == hash) return "hash is the same for other velocities";
+  if (!near(before, wanted) && world_.hash() == hash) return "the hash does not change with the velocity";
   if (!near(before, wanted))
     if (std::string wrong = hash_is_wrong("set_velocity", single); !wrong.empty()) return wrong;
   return near(before, wanted) ? std::string() : not_woken("set_velocity");
@@ -45,7 +45,8 @@ std::string Caller<Real, Target>::set_spin() {
   target_.set_angular_velocity(body_, wanted);
   if (world_.locks(body_).rotation || world_.type(body_) == BodyType::Static) return {};
   if (!near(world_.angular_velocity(body_), wanted)) return answers("set_angular_velocity", false);
-  if (!near(before, wanted) && world_.hash() == hash) return "hash is the same for other angular velocities";
+  if (!near(before, wanted) && world_.hash() == hash)
+    return "the hash does not change with the angular velocity";
   if (!near(before, wanted))
     if (std::string wrong = hash_is_wrong("set_angular_velocity", single); !wrong.empty()) return wrong;
   return near(before, wanted) ? std::string() : not_woken("set_angular_velocity");
@@ -63,8 +64,8 @@ std::string Caller<Real, Target>::set_position() {
   if (!near(world_.position(body_), to, size()) || !near(world_.angle(body_), angle, 1))
     return answers("set_position", false);
   if (dynamic() && !near(world_.velocity(body_), velocity, size() * std::abs(world_.angular_velocity(body_))))
-    return fmt::format("set_position changes a velocity of {:.6g}, {:.6g} to {:.6g}, {:.6g} m/s", velocity.x,
-                       velocity.y, world_.velocity(body_).x, world_.velocity(body_).y);
+    return fmt::format("set_position changes the velocity from {:.6g}, {:.6g} to {:.6g}, {:.6g} m/s",
+                       velocity.x, velocity.y, world_.velocity(body_).x, world_.velocity(body_).y);
   if (std::string wrong = turned_by(angle - before, readings); !wrong.empty()) return wrong;
   if (std::string wrong = sleepers_inside(); !wrong.empty()) return wrong;
   return not_woken("set_position");
@@ -81,8 +82,8 @@ std::string Caller<Real, Target>::turned_by(double turn, const std::vector<doubl
     // not been stepped since it was created.
     const bool either = std::abs(turn) > 3 || (std::abs(before[i]) < 3.15 && std::abs(right) > 3.1);
     if (!either && std::abs(now - right) > 1e-3 * (1 + 1e-3 * std::abs(right)))
-      return fmt::format("a hinge of '{}' reads {:.6g} rad after a turn that should leave {:.6g}",
-                         world_.name(body_), now, right);
+      return fmt::format("a hinge of '{}' reads {:.6g} rad after a rotation, not {:.6g}", world_.name(body_),
+                         now, right);
   }
   return {};
 }
@@ -102,7 +103,7 @@ std::string Caller<Real, Target>::impulse() {
       !near(world_.angular_velocity(body_), before.spin + turn,
             std::abs(turn) + std::abs(before.spin) +
                 mass / inertia * length(change) * (length(arm) + 1e-1 * kRounding * length(centre))))
-    return "an impulse changes a velocity by another than J/m, r x J/I";
+    return "an impulse does not change velocities by J/m and r x J/I";
   return change != Vec2d{} ? not_woken("apply_impulse") : std::string();
 }
 
@@ -112,7 +113,7 @@ std::string Caller<Real, Target>::turn() {
   target_.apply_angular_impulse(body_, inertia * by);
   if (!simulated() || world_.locks(body_).rotation || !(inertia > 0)) return {};
   if (!near(world_.angular_velocity(body_), before + by, std::abs(before) + std::abs(by)))
-    return "an angular impulse changes a velocity by another than L/I";
+    return "an angular impulse does not change the angular velocity by L/I";
   return by != 0 ? not_woken("apply_angular_impulse") : std::string();
 }
 
@@ -235,7 +236,7 @@ std::string Caller<Real, Target>::towards() {
   const Vec2d arrives = world_.centre(body_) + dt * world_.velocity(body_), wanted = to + turn * local;
   if (length(arrives - wanted) > 10 * kRounding * (size() + length(local)) + kRounding * 0.01 * length(to) ||
       !near(world_.angle(body_) + dt * world_.angular_velocity(body_), angle, 1))
-    return "move_towards leads somewhere else";
+    return "move_towards does not reach its target";
   return {};
 }
 

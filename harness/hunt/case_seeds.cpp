@@ -164,13 +164,13 @@ Verdict case_file_verdict(const Case& one, const Engine& engine) {
   const std::size_t first = what.find('\n'), second = what.find('\n', first + 1);
   const std::string name = what.substr(0, first), value = what.substr(first + 1, second - first - 1),
                     bound = what.substr(second + 1);
-  return Objection{.law = "case_file",
-                   .judge = "case_file: " + name,
-                   .what = bound.empty()
-                               ? value
-                               : fmt::format("{} is missed by {}, where {} is allowed", name, value, bound),
-                   .right = fmt::format("{} expects it of the engine, and of shorter steps", one.case_file),
-                   .time = one.steps * one.dt};
+  return Objection{
+      .law = "case_file",
+      .judge = "case_file: " + name,
+      .what =
+          bound.empty() ? value : fmt::format("{} is missed by {}; the tolerance is {}", name, value, bound),
+      .right = fmt::format("{} expects it of this engine, also with shorter steps", one.case_file),
+      .time = one.steps * one.dt};
 }
 
 }  // namespace plumb::harness::hunt

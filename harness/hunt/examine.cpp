@@ -58,7 +58,7 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
   if (law == "case_file") return out;
   const Motion motion = run(engine, one);
   if (motion.samples.empty() && motion.failure.empty()) {
-    out.skipped = motion.stopped.empty() ? "it takes too long" : motion.stopped;
+    out.skipped = motion.stopped.empty() ? "it exceeded the time limit" : motion.stopped;
     return out;
   }
   for (const Law& each : laws()) {

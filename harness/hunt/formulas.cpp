@@ -268,13 +268,13 @@ Verdict formulas(const Case& one, const Engine&, const Motion&) {
     try {
       what = wrong_formula(expression, x, y);
     } catch (const std::invalid_argument& error) {
-      what = fmt::format("{} is refused: {}", expression.text(), error.what());
+      what = fmt::format("{} is rejected: {}", expression.text(), error.what());
     }
     if (!what.empty())
       return Objection{.law = "formulas",
                        .judge = "formulas",
                        .what = what,
-                       .right = "a formula's value is that of its text, and its slope that of its values"};
+                       .right = "a formula has the value of its expression and the derivative of that value"};
   }
   return {};
 }
@@ -317,8 +317,9 @@ Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion
     if (k >= calm.size() || calm[k] > (precise ? 0.03 * largest_size(one.scene) : 0.02 * bound)) return {};
     return Objection{.law = "as_formulas",
                      .judge = "as_formulas",
-                     .what = fmt::format("is {:.3g} m off the motion by the same laws as formulas", off[k]),
-                     .right = "a force that is written as a formula is the same force",
+                     .what = fmt::format(
+                         "differs by {:.3g} m from the motion with the same force laws as formulas", off[k]),
+                     .right = "a force law and its formula give the same force",
                      .figure = off[k],
                      .bound = bound,
                      .unit = "m",

@@ -158,7 +158,7 @@ std::string beyond(const BasicWorld<Real>& world) {
     for (const double value : {s.velocity.x, s.velocity.y, s.angular_velocity, 0 * s.position.x,
                                0 * s.position.y, 0 * s.angle})  // not a number unless finite
       if (!(std::abs(value) <= kLargest) && !world.quarantined(body))
-        return fmt::format("body '{}' goes on with {:.6g}", world.name(body), value);
+        return fmt::format("body '{}' continues with {:.6g}", world.name(body), value);
   }
   return {};
 }
@@ -167,9 +167,10 @@ std::string beyond(const BasicWorld<Real>& world) {
 template <class Real>
 std::string release_all(BasicWorld<Real>& world) {
   for (const QuarantineEvent& event : world.events().quarantined)
-    if (!world.quarantined(event.body)) return "a body is reported as quarantined, and is not";
+    if (!world.quarantined(event.body)) return "a body is reported as quarantined but is not";
   for (const QuarantineEvent& event : world.quarantined()) {
-    if (event.name != world.name(event.body)) return "a quarantined body is reported by another name";
+    if (event.name != world.name(event.body))
+      return "a quarantined body is reported under the name of another";
     world.set_position(event.body, {0, 0}, 0);
     world.set_velocity(event.body, {0, 0}), world.set_angular_velocity(event.body, 0);
     world.release(event.body);
@@ -273,8 +274,8 @@ std::string not_refused(BasicWorld<Real>& world) {
     } catch (const Error& error) {
       refused = error.kind() == call.kind;
     }
-    if (!refused) return fmt::format("{} is not refused", call.name);
-    if (full_hash(world) != before) return fmt::format("{} is refused, and changes the world", call.name);
+    if (!refused) return fmt::format("{} is not rejected", call.name);
+    if (full_hash(world) != before) return fmt::format("{} is rejected but changes the world", call.name);
   }
   return {};
 }
@@ -296,7 +297,7 @@ std::string overrun(BasicWorld<Real>& world, double dt, int substeps) {
       {.position = {0.9999 * kLargest, 0}, .velocity = {0.1 * kLargest, 0}}, {.geometry = Circle{1}});
   for (int i = 0; i < 3; ++i) world.step(dt, substeps);
   const double place = world.position(runaway).x;
-  if (!(std::abs(place) <= kLargest)) return fmt::format("a body goes on at {:.6g} m", place);
+  if (!(std::abs(place) <= kLargest)) return fmt::format("a body continues at {:.6g} m", place);
   return {};
 }
 

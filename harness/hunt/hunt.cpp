@@ -165,8 +165,9 @@ class Hunt {
       return;
     }
     if (journal_.lines().front() != header)
-      throw Error(Error::Kind::Io, fmt::format("file '{}'", journal_.path()), "", "",
-                  "holds a hunt of another seed, engines or families; name another folder with --out");
+      throw Error(
+          Error::Kind::Io, fmt::format("file '{}'", journal_.path()), "", "",
+          "belongs to a hunt with another seed, engines or families; choose another folder with --out");
     for (std::size_t i = 1; i < journal_.lines().size(); ++i) {
       const Json line = Json::parse(journal_.lines()[i], nullptr, false);
       if (line.is_discarded()) continue;

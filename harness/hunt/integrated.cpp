@@ -288,8 +288,8 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     if (k >= calm.size() || calm[k] > most) return {};
     return Objection{.law = "integrated",
                      .judge = "integrated",
-                     .what = fmt::format("is {:.3g} m off the motion by Newton's second law", off),
-                     .right = "free bodies move as their forces say, integrated to far more digits",
+                     .what = fmt::format("differs by {:.3g} m from the motion by Newton's second law", off),
+                     .right = "free bodies move as an integration of their forces to far more digits says",
                      .figure = off,
                      .bound = bound,
                      .unit = "m",

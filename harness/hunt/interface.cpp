@@ -85,10 +85,10 @@ std::string damaged_world(const Case& one, std::string& flags) {
     BasicWorld<Real> other;
     try {
       restore(other, std::span(bytes).first(cut ? at : bytes.size()));
-      if (cut) return "a snapshot that ends early is restored";
-      if (save(other) != bytes) return "a damaged snapshot is restored as another";
+      if (cut) return "a truncated snapshot is accepted";
+      if (save(other) != bytes) return "a damaged snapshot is accepted, and differs when it is saved again";
       if (std::string wrong = shared_colours(other); !wrong.empty()) {
-        flags = "a damaged snapshot is restored: " + wrong;
+        flags = "a damaged snapshot is accepted: " + wrong;
         bytes = sound;
         continue;
       }
@@ -98,7 +98,7 @@ std::string damaged_world(const Case& one, std::string& flags) {
       for (std::size_t k = 0; k + 1 < bodies.size() && k < 6; ++k) {
         other.create_joint(bodies[k], bodies[k + 1], {});
         if (std::string wrong = shared_colours(other); !wrong.empty())
-          return "a damaged snapshot is restored: " + wrong;
+          return "a damaged snapshot is accepted: " + wrong;
       }
       other.step(one.dt, one.substeps);
     } catch (const Error&) {
@@ -134,13 +134,13 @@ std::string shared_loops(Random& random) {
     caught = block;
   }
   std::fesetround(usual);
-  if (rounds_otherwise) return "a block of a shared loop rounds otherwise than its caller";
+  if (rounds_otherwise) return "a block of a parallel loop has another rounding mode than its caller";
   if (caught != bad)
-    return bad < 0 ? "a shared loop throws what no block threw"
-                   : fmt::format("block {} of a shared loop threw, and {} came back", bad,
+    return bad < 0 ? "a parallel loop throws an exception that no block threw"
+                   : fmt::format("block {} of a parallel loop threw, and {} was passed on", bad,
                                  caught < 0 ? "nothing" : fmt::format("that of {}", caught));
   for (const auto& count : runs)
-    if (count != 1) return fmt::format("a block of a shared loop runs {} times", count.load());
+    if (count != 1) return fmt::format("a block of a parallel loop runs {} times", count.load());
   return {};
 }
 
@@ -175,8 +175,7 @@ std::string watched(Random& random) {
       world.create_body({.type = BodyType::Static, .position = {side * (s - jam / 2), 0}},
                         {.geometry = Box{s, 4 * s}});
     world.create_body({.mass = mass}, {.geometry = Box{s, s}});
-    if (std::string wrong = expect(violation_of(world, 90), "overlap", "a box that is jammed");
-        !wrong.empty())
+    if (std::string wrong = expect(violation_of(world, 90), "overlap", "a jammed box"); !wrong.empty())
       return wrong;
   }
   {
@@ -188,7 +187,7 @@ std::string watched(Random& random) {
     for (const double side : {-0.5 * s, 0.5 * s})
       world.create_joint(frame, bar,
                          {.kind = RevoluteDefinition{.anchor_a = {wide * side, 0}, .anchor_b = {side, 0}}});
-    if (std::string wrong = expect(violation_of(world, 90), "gap", "a bar on hinges too far apart");
+    if (std::string wrong = expect(violation_of(world, 90), "gap", "a bar on hinges that are too far apart");
         !wrong.empty())
       return wrong;
   }
@@ -202,8 +201,9 @@ std::string watched(Random& random) {
     BasicWorld<Real> world(definition);
     const BodyId body = world.create_body({.position = {from, 0}, .mass = mass});
     const auto pull = [&] { world.apply_force(body, {-w * w * m * world.position(body).x, 0}); };
-    if (std::string wrong = expect(violation_of(world, 400, pull, 1), makes ? "energy" : "",
-                                   makes ? "an explicit method's spring" : "a spring whose force is applied");
+    if (std::string wrong =
+            expect(violation_of(world, 400, pull, 1), makes ? "energy" : "",
+                   makes ? "an explicit method's spring" : "a spring pulled by an applied force");
         !wrong.empty())
       return wrong;
   }
@@ -286,8 +286,8 @@ std::string integrated_by(Random& random, Precision precision) {
   coarse.step(steps), fine.step(steps * substeps);
   const double off = length(coarse.state(0).position - fine.state(0).position);
   if (off > 1e3 * rounding)
-    return fmt::format("{} steps of {} substeps end {:.3g} m off {} of one", steps, substeps, off,
-                       steps * substeps);
+    return fmt::format("{} steps of {} substeps end {:.3g} m away from {} steps of one substep", steps,
+                       substeps, off, steps * substeps);
   return {};
 }
 
@@ -302,8 +302,7 @@ std::string without_errors(const std::function<std::string()>& check) {
 }  // namespace
 
 Verdict damaged(const Case& one, const Engine& engine, const Motion&) {
-  constexpr const char* kRight =
-      "a snapshot that was tampered with is refused, or is a world whose data fit each other";
+  constexpr const char* kRight = "a tampered snapshot is rejected, or gives a consistent world";
   std::string flags;
   if (Verdict wrong = objection("damaged", without_errors([&] {
                                   return in_float(engine) ? damaged_world<float>(one, flags)
@@ -319,20 +318,20 @@ Verdict damaged(const Case& one, const Engine& engine, const Motion&) {
 Verdict loops(const Case& one, const Engine&, const Motion&) {
   Random random(one.seed, one.index + 37);
   return objection("loops", shared_loops(random),
-                   "threads share a loop as one would run it, and what a block throws comes back");
+                   "a parallel loop runs each block once, and passes on the first exception");
 }
 
 Verdict monitors(const Case& one, const Engine& engine, const Motion&) {
   Random random(one.seed, one.index + 41);
   return objection("monitors", in_float(engine) ? watched<float>(random) : watched<double>(random),
-                   "a monitor names what misses a bound, and nothing else");
+                   "a monitor reports violations, and nothing else");
 }
 
 Verdict integrators(const Case& one, const Engine& engine, const Motion&) {
   Random random(one.seed, one.index + 43);
   return objection("integrators",
                    integrated_by(random, in_float(engine) ? Precision::Float : Precision::Double),
-                   "each method falls as its definition says, and substeps are steps");
+                   "each method integrates a fall by its definition, and a step of n substeps is n steps");
 }
 
 }  // namespace plumb::harness::hunt

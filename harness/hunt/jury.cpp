@@ -122,7 +122,7 @@ Verdict precise_relation(const Case& one, const Engine& engine, const Motion& mo
   if (*k >= calm.size() || *k >= own.size() || std::max(calm[*k], own[*k]) > kCalm * kCalm * bound[*k])
     return {};
   return objection("precise", one, apart(one, motion, *precise)[*k], bound[*k], *k,
-                   "Precise, and a perturbation of it, go another way");
+                   "the motion of Precise differs by more than perturbations of it do");
 }
 
 Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motion) {
@@ -153,7 +153,7 @@ Verdict jury_relation(const Case& one, const Engine& engine, const Motion& motio
     for (std::size_t i = 0; i < jury.size(); ++i)
       if (!steady(one, names[i], jury[i], bound, k)) return {};
     return objection("jury", one, nearest, 2 * bound[k], k,
-                     "the other engines agree with each other, not with this one");
+                     "the other engines agree with each other, but not with this one");
   }
   return {};
 }

@@ -117,7 +117,7 @@ Verdict finite_law(const Case& one, const Engine&, const Motion& motion) {
   if (motion.failure.empty()) return {};
   return Objection{.judge = "finite",
                    .what = motion.failure,
-                   .right = "the run goes on to its end, and every number is finite",
+                   .right = "the run continues to its end with finite states",
                    .time = static_cast<double>(motion.samples.size()) * one.dt};
 }
 
@@ -137,7 +137,7 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
     if (least <= most) continue;
     return Objection{.judge = "cost",
                      .what = fmt::format("step {} takes {:.3g} s", k + 1, least),
-                     .right = "a step's work is bounded by how many bodies and joints there are",
+                     .right = "the cost of a step is bounded by the number of bodies and joints",
                      .figure = least,
                      .bound = most,
                      .unit = "s",
@@ -182,15 +182,14 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
     const double gain = now.kinetic + now.potential - budget.start - given;
     if (gain > bound) {
       if (engine.is_world() && is_of_the_step(one, engine, k, gain, budget.start + given)) return {};
-      return Objection{
-          .judge = "energy",
-          .what = fmt::format("energy has grown by {:.3g} J; {:.3g} J is all that it had to spend", gain,
-                              budget.kinetic + budget.fall + given),
-          .right = "energy never grows: nothing drives these bodies beyond what springs and motors hold",
-          .figure = gain,
-          .bound = bound,
-          .unit = "J",
-          .time = time};
+      return Objection{.judge = "energy",
+                       .what = fmt::format("energy has grown by {:.3g} J; {:.3g} J was available", gain,
+                                           budget.kinetic + budget.fall + given),
+                       .right = "energy never exceeds that at the start plus the work of springs and motors",
+                       .figure = gain,
+                       .bound = bound,
+                       .unit = "J",
+                       .time = time};
     }
     if (!one.scene.joints.empty() && budget.fastest_turn == 0)
       for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
@@ -235,7 +234,7 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     if (off > bound && off > 0) {
       return Objection{.judge = "momentum",
                        .what = fmt::format("the sum of momenta is off by {:.3g} kg m/s", off),
-                       .right = "momentum is kept to rounding: nothing from outside acts but gravity",
+                       .right = "momentum is conserved to rounding: gravity is the only external force",
                        .figure = off,
                        .bound = bound,
                        .unit = "kg m/s",
@@ -281,7 +280,7 @@ Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion
     if (off > bound && off > 0) {
       return Objection{.judge = "angular_momentum",
                        .what = fmt::format("the sum of angular momenta is off by {:.3g} kg m^2/s", off),
-                       .right = "angular momentum is kept: nothing from outside acts",
+                       .right = "angular momentum is conserved: there is no external force",
                        .figure = off,
                        .bound = bound,
                        .unit = "kg m^2/s",

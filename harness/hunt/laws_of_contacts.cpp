@@ -161,9 +161,9 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
         continue;
       }
       return Objection{.judge = "penetration",
-                       .what = fmt::format("{} lie in each other by {:.3g} m, for {:.2g} s",
-                                           pair_name(one, a, b), depth, in[n] * one.dt),
-                       .right = "shapes do not stay in each other: an overlap is pushed out",
+                       .what = fmt::format("{} overlap by {:.3g} m for {:.2g} s", pair_name(one, a, b), depth,
+                                           in[n] * one.dt),
+                       .right = "overlaps are pushed apart",
                        .figure = depth,
                        .bound = bound,
                        .unit = "m",
@@ -203,9 +203,9 @@ Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion) 
       return Objection{
           .judge = "sensors",
           .what = fmt::format("{} {} {}, {:.3g} m {}", one.scene.bodies[visit.sensor].name,
-                              open ? "still sees" : "does not see", one.scene.bodies[visit.visitor].name,
+                              open ? "still sees" : "misses", one.scene.bodies[visit.visitor].name,
                               std::abs(apart), open ? "away" : "inside"),
-          .right = "a sensor sees what overlaps it, and nothing else",
+          .right = "a sensor reports the shapes that overlap it, and no others",
           .figure = std::abs(apart),
           .bound = margin,
           .unit = "m",
@@ -218,12 +218,13 @@ Verdict sensor_law(const Case& one, const Engine& engine, const Motion& motion) 
 
 Verdict event_law(const Case&, const Engine&, const Motion& motion) {
   if (motion.event_faults.empty()) return {};
-  return Objection{.judge = "events",
-                   .what = motion.event_faults.front().what,
-                   .right = "what begins ends once, also when a body or shape is destroyed",
-                   .figure = static_cast<double>(motion.event_faults.size()),
-                   .unit = "events",
-                   .time = motion.event_faults.front().time};
+  return Objection{
+      .judge = "events",
+      .what = motion.event_faults.front().what,
+      .right = "each begin event is followed by one end event, also when a body or shape is destroyed",
+      .figure = static_cast<double>(motion.event_faults.size()),
+      .unit = "events",
+      .time = motion.event_faults.front().time};
 }
 
 Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
@@ -253,8 +254,9 @@ Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
       const double bound = 0.05 * reach[i];
       if (least <= bound) continue;
       return Objection{.judge = "sleep",
-                       .what = fmt::format("{} sleeps in the air, {:.3g} m from anything", body.name, least),
-                       .right = "what loses its support wakes and falls",
+                       .what = fmt::format("{} sleeps without support, {:.3g} m away from the nearest shape",
+                                           body.name, least),
+                       .right = "a body that loses its support wakes and falls",
                        .figure = least,
                        .bound = bound,
                        .unit = "m",
@@ -301,7 +303,7 @@ Verdict expectation_law(const Case& one, const Engine&, const Motion& motion) {
       }
       if (value >= expected.lower && value <= expected.upper) continue;
       return Objection{.judge = expected.name,
-                       .what = fmt::format("{} of {} is {:.6g}, which should lie in {:.6g} to {:.6g}",
+                       .what = fmt::format("{} of {} is {:.6g}; expected {:.6g} to {:.6g}",
                                            kQuantityNames[static_cast<std::size_t>(expected.quantity)],
                                            expected.body, value, expected.lower, expected.upper),
                        .right = expected.why,

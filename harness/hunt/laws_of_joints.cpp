@@ -130,9 +130,9 @@ Verdict joint_angle_law(const Case& one, const Engine&, const Motion& motion) {
       off[i] = beyond > kAngleBound ? off[i] + 1 : 0;
       if (off[i] < kLasting) continue;
       return Objection{.judge = "joint_angle",
-                       .what = fmt::format("joint '{}' is {:.3g} rad beyond what it holds",
+                       .what = fmt::format("joint '{}' violates its angle or limit by {:.3g} rad",
                                            name_of(one.scene.joints[i]), beyond),
-                       .right = "joints hold their angles and limits",
+                       .right = "joints keep their angles and limits",
                        .figure = beyond,
                        .bound = kAngleBound,
                        .unit = "rad",

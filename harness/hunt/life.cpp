@@ -104,7 +104,7 @@ std::string live_recorded(const Case& one, std::string& part) {
   Replay<Real> again(scratch.path(), [](const ContactReading&) { return true; });
   while (again.step())
     if (again.report().first_difference)
-      return fmt::format("its recording goes another way in step {}", *again.report().first_difference);
+      return fmt::format("its recording differs in step {}", *again.report().first_difference);
   if (again.world().step_count() != steps) return "its recording ends early: " + again.report().message;
   if (full_hash(again.world()) != last) return "its recording ends in another state";
   return {};
@@ -160,14 +160,14 @@ std::string hooked(const BasicWorld<Real>& world, const Case& one) {
   } catch (const Fault&) {
     thrown = true;
   }
-  if (changed) return "a hook may change the world";
-  if (asked && !thrown) return "what a hook throws is lost";
-  if (thrown && other.hash() != before) return "a step that a hook ends moves bodies";
+  if (changed) return "a hook was allowed to change the world";
+  if (asked && !thrown) return "an exception from a hook is lost";
+  if (thrown && other.hash() != before) return "a step that a hook aborted moves bodies";
   throws = false;
   try {
     other.step(one.dt, one.substeps);
   } catch (const Error& error) {
-    return fmt::format("a world is of no use after a hook has thrown: {}", error.what());
+    return fmt::format("a world cannot be used after a hook has thrown: {}", error.what());
   }
   return {};
 }
@@ -210,7 +210,7 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
       other.step(dt_of(one, step), one.substeps);
     }
     if (full_hash(plain) != full_hash(other))
-      return fmt::format("goes on with other bits in step {}", step + 1);
+      return fmt::format("continues with other bits in step {}", step + 1);
     if (otherwise.restores && step % kBetweenRestores == kBetweenRestores - 1) {
       BasicWorld<Real> restored(definition_of(one));
       restore(restored, save(other));
@@ -236,7 +236,7 @@ Verdict life(const Case& one, const Engine& engine, const Motion&) {
       .law = "life",
       .judge = "life_of_" + part,
       .what = what,
-      .right = "calls do what they say, what is read agrees, and a recording leads to the same state",
+      .right = "calls have their documented effect, getters agree, and the recording leads to the same state",
       .time = steps_of(one) * one.dt};
 }
 
@@ -265,7 +265,7 @@ Verdict twins(const Case& one, const Engine& engine, const Motion&) {
   return Objection{.law = "twins",
                    .judge = judge,
                    .what = what,
-                   .right = "threads, registers, restores and hooks change no bits among calls",
+                   .right = "threads, vector widths, restores and hooks change no bits",
                    .time = steps_of(one) * one.dt};
 }
 

@@ -67,7 +67,7 @@ std::string residual_of(std::size_t n, const std::vector<double>& matrix, const 
     Wide sum = -right[i];
     for (std::size_t j = 0; j < n; ++j) sum += static_cast<Wide>(matrix[i * n + j]) * x[j];
     if (std::fabs(sum) > 1e-11 * static_cast<double>(n) * largest * most + 1e-300)
-      return fmt::format("{} of {} unknowns leaves {:.3g} of an equation", what, n,
+      return fmt::format("{} of {} unknowns has a relative residual of {:.3g}", what, n,
                          static_cast<double>(std::fabs(sum)));
   }
   return {};
@@ -105,7 +105,7 @@ std::string dense(Random& random) {
       perhaps += pivot > (1 - kBeside) * kNothing * largest ? 1 : 0;
     }
     if (rank < surely || rank > perhaps)
-      return fmt::format("a dense system of rank {} counts {}", surely, rank);
+      return fmt::format("a dense system of rank {} is solved with rank {}", surely, rank);
   }
   std::vector<double> known(n), right(n, 0), x;
   for (double& each : known) each = some_number(random);
@@ -163,9 +163,9 @@ std::string envelope(Random& random) {
   const bool counted = x[static_cast<std::size_t>(near)] != 0;
   // The engine's own rounding of the sums is some 1e-15 of the diagonal.
   if (left > (1 + 3 * kBeside) * kNothing && !counted)
-    return fmt::format("an envelope leaves out a row that keeps {:.4g} of itself", left);
+    return fmt::format("an envelope system drops a row whose independent part is {:.4g}", left);
   if (left < (1 - 3 * kBeside) * kNothing && counted)
-    return fmt::format("an envelope counts a row that keeps {:.4g} of itself", left);
+    return fmt::format("an envelope system keeps a row whose independent part is {:.4g}", left);
   if (left < 1e-3) return {};
   std::vector<double> right(static_cast<std::size_t>(n));
   for (double& each : right) each = some_number(random);
@@ -201,9 +201,9 @@ std::string of_joints(Random& random) {
   const int dependent = system.factor(rows);
   const double slack = 0.02;
   if (kept > (1 + slack) * kThreshold && dependent != 0)
-    return fmt::format("a row of joints that keeps {:.4g} of itself is left out", kept);
+    return fmt::format("a joint system drops a row whose independent part is {:.4g}", kept);
   if (kept < (1 - slack) * kThreshold && dependent != 1)
-    return fmt::format("a row of joints that keeps {:.4g} of itself counts", kept);
+    return fmt::format("a joint system keeps a row whose independent part is {:.4g}", kept);
   return {};
 }
 
@@ -220,14 +220,14 @@ std::string complementary(Random& random) {
     }
   const ComplementaritySolution found = solve_complementarity(matrix, q);
   if (found.status != ComplementaritySolution::Status::Solved)
-    return "a complementarity problem has no answer";
+    return "a complementarity problem is not solved";
   double most = 1;
   for (const double z : found.z) most = std::max(most, std::abs(z));
   for (std::size_t i = 0; i < n; ++i) {
     double w = q[i];
     for (std::size_t j = 0; j < n; ++j) w += matrix[i * n + j] * found.z[j];
     if (w < -1e-10 * most || found.z[i] < -1e-10 * most || std::abs(w * found.z[i]) > 1e-9 * most * most)
-      return fmt::format("a complementarity problem is answered with w = {:.3g}, z = {:.3g}", w, found.z[i]);
+      return fmt::format("a complementarity problem is solved with w = {:.3g}, z = {:.3g}", w, found.z[i]);
   }
   return {};
 }
@@ -283,11 +283,11 @@ std::string bounded(Random& random) {
   const double after = energy();
   // The compliance by which redundant rows share their load is some 1e-9 of the rows' own.
   if (!(after <= before * (1 + 1e-9)))
-    return fmt::format("bounded rows that only hold raise the energy from {:.9g} to {:.9g} J", before, after);
+    return fmt::format("passive bounded rows raise the energy from {:.9g} to {:.9g} J", before, after);
   for (const BoundedRow& row : system.rows)
     if (row.impulse < row.lower - 1e-9 || row.impulse > row.upper + 1e-9)
-      return fmt::format("a bounded row has {:.6g} N s, of {:.6g} to {:.6g}", row.impulse, row.lower,
-                         row.upper);
+      return fmt::format("a bounded row has an impulse of {:.6g} N s; its bounds are {:.6g} and {:.6g}",
+                         row.impulse, row.lower, row.upper);
   return {};
 }
 
@@ -304,7 +304,7 @@ Verdict systems(const Case& one, const Engine&, const Motion&) {
       .law = "systems",
       .judge = "systems",
       .what = what,
-      .right = "linear systems are solved, with the rows that keep more of themselves than rounding"};
+      .right = "linear systems are solved, and rows are dropped only if they depend on others to rounding"};
 }
 
 }  // namespace plumb::harness::hunt

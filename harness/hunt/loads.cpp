@@ -111,10 +111,11 @@ std::string blown(const Body& body, Random& random) {
                rounding = std::is_same_v<Real, float> ? kRounding : 1e-12;
   const double bound = kShare * 2 * scale + rounding * mass / dt * fastest;
   if (length(gain - right.force) > bound)
-    return fmt::format("a wind pushes '{}' with {:.5g}, {:.5g} N, not {:.5g}, {:.5g}", body.name, gain.x,
-                       gain.y, right.force.x, right.force.y);
+    return fmt::format("wind exerts on '{}' a force of {:.5g}, {:.5g} N, not {:.5g}, {:.5g}", body.name,
+                       gain.x, gain.y, right.force.x, right.force.y);
   if (std::abs(turn - right.torque) > bound * reach)
-    return fmt::format("a wind turns '{}' with {:.5g} N m, not {:.5g}", body.name, turn, right.torque);
+    return fmt::format("wind exerts on '{}' a torque of {:.5g} N m, not {:.5g}", body.name, turn,
+                       right.torque);
   return {};
 }
 
@@ -132,11 +133,12 @@ Verdict wind(const Case& one, const Engine& engine, const Motion&) {
       continue;  // a shape that no world accepts
     }
     if (!what.empty())
-      return Objection{.law = "wind",
-                       .judge = "wind",
-                       .what = what,
-                       .right = "wind presses on a surface by rho/2 u^2, u its speed against it there",
-                       .subject = body.name};
+      return Objection{
+          .law = "wind",
+          .judge = "wind",
+          .what = what,
+          .right = "the pressure of wind on a surface is rho/2 u^2, with u the relative normal speed",
+          .subject = body.name};
   }
   return {};
 }

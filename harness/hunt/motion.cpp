@@ -104,7 +104,7 @@ double Engine::epsilon() const { return kind == Kind::DoubleWorld || kind == Kin
 
 std::string unsupported(const Engine& engine, const Case& one) {
   if (engine.is_world()) return engine.backend->unsupported(one.scene, settings_of(one, engine));
-  if (one.world_only()) return "things are done to its bodies while it runs";
+  if (one.world_only()) return "the case has actions while it runs";
   return engine.backend->unsupported(one.scene, settings_of(one, engine));
 }
 

@@ -128,11 +128,13 @@ std::string balanced(const Case& one) {
       const double bound = 1e-4 * (loads[i].size + length(own)) + slack + rounding,
                    bound_turn = 1e-4 * loads[i].turning + slack_turn + rounding;
       if (length(missing) > bound)
-        return fmt::format("'{}' accelerates by {:.5g} N more than its forces, of {:.5g} N in all", body.name,
-                           length(missing), loads[i].size + length(own));
+        return fmt::format("'{}': mass times acceleration exceeds the forces by {:.5g} N, of {:.5g} N in all",
+                           body.name, length(missing), loads[i].size + length(own));
       if (std::abs(turning) > bound_turn)
-        return fmt::format("'{}' is turned by {:.5g} N m more than its torques, of {:.5g} N m in all",
-                           body.name, std::abs(turning), loads[i].turning);
+        return fmt::format(
+            "'{}': inertia times angular acceleration exceeds the torques by {:.5g} N m, of {:.5g} N m in "
+            "all",
+            body.name, std::abs(turning), loads[i].turning);
     }
   }
   return {};
@@ -209,8 +211,8 @@ std::string derived(const Case& one) {
       if (settled > 0.02 * scale_of) continue;
       const double found = of(answer[i]);
       if (std::abs(found - to_right) > 0.02 * scale_of || std::abs(found - to_left) > 0.02 * scale_of)
-        return fmt::format("d {} of '{}' / d {} is {:.6g} and {:.6g} to either side, not {:.6g}", what,
-                           scene.bodies[i].name, name, to_left, to_right, found);
+        return fmt::format("d {} of '{}' / d {} is {:.6g} and {:.6g} by one-sided differences, not {:.6g}",
+                           what, scene.bodies[i].name, name, to_left, to_right, found);
     }
     return {};
   };
@@ -238,10 +240,10 @@ std::string estimated(const Case& one) {
         off = std::max(off, length(a[i].position - b[i].position));
   }
   const ErrorEstimate error = run.statistics().error;
-  if (!error.known) return "does not know the error that it was asked to estimate";
+  if (!error.known) return "does not estimate the error although it was requested";
   // The documentation promises a factor of ten for some named motions; a thousand is allowed for any motion.
   if (off > 1e-10 * largest_size(one.scene) && error.position < 1e-3 * off)
-    return fmt::format("is off by {:.3g} m, and estimates {:.3g}", off, error.position);
+    return fmt::format("has an error of {:.3g} m, and estimates {:.3g} m", off, error.position);
   return {};
 }
 
@@ -268,7 +270,7 @@ std::string refuses_start(const Case& one) {
     bool meets = false;
     for (const Shape& shape : body.shapes) meets = meets || may_touch(shape.filter, Filter{});
     scene.bodies.push_back(other);
-    if (meets && goes_on(scene)) return "goes on with shapes that start in each other";
+    if (meets && goes_on(scene)) return "continues with shapes that overlap at the start";
     break;
   }
   for (std::size_t i = 0; i < one.scene.joints.size(); ++i) {
@@ -276,7 +278,7 @@ std::string refuses_start(const Case& one) {
     auto* hinge = std::get_if<RevoluteJoint>(&scene.joints[i]);
     if (hinge == nullptr) continue;
     hinge->anchor_a += 0.02 * size * Vec2d{random.pick({-1.0, 1.0}), random.pick({-1.0, 1.0})};
-    if (goes_on(scene)) return "goes on with a hinge that starts open";
+    if (goes_on(scene)) return "continues with a hinge that is open at the start";
     break;
   }
   return {};
@@ -301,8 +303,9 @@ std::string alike_by_methods(const Case& one, const Motion& motion, const Engine
     const auto at = static_cast<std::size_t>(k) + 1;
     // Perturbations of 3e-5 grow to `calm`, so an error of the tolerance 1e-10 grows to 3e-6 of that.
     if (at >= calm.size() || off <= 1e-7 * size + 1e-3 * calm[at] || calm[at] > 0.03 * size) return {};
-    return fmt::format("is {:.3g} m off by another method at {:.3g} s, where a perturbation is {:.2g} m", off,
-                       first.time(), calm[at]);
+    return fmt::format(
+        "differs by {:.3g} m with another method at {:.3g} s; a perturbation has grown to {:.2g} m", off,
+        first.time(), calm[at]);
   }
   return {};
 }
@@ -314,18 +317,19 @@ bool is_precise(const Engine& engine) { return engine.kind == Engine::Kind::Prec
 bool on_precise(const Case& one, const Engine& engine) { return is_precise(engine) && !one.world_only(); }
 
 Verdict forces(const Case& one, const Engine&, const Motion&) {
-  return judged("forces", "a body accelerates by the forces of its joints and contacts, and its own",
+  return judged("forces",
+                "mass times acceleration is the sum of the forces of joints, contacts and force laws",
                 [&] { return balanced(one); });
 }
 Verdict derivatives(const Case& one, const Engine&, const Motion&) {
-  return judged("derivatives", "derivatives are those of runs that differ a little, or are refused",
+  return judged("derivatives", "sensitivities agree with finite differences, or are rejected",
                 [&] { return derived(one); });
 }
 Verdict estimates(const Case& one, const Engine&, const Motion&) {
-  return judged("estimates", "an estimate of the error is of its size", [&] { return estimated(one); });
+  return judged("estimates", "an error estimate has the size of the error", [&] { return estimated(one); });
 }
 Verdict starts(const Case& one, const Engine&, const Motion&) {
-  return judged("starts", "what starts in something else, or with a joint open, is refused",
+  return judged("starts", "overlaps and open joints at the start are rejected",
                 [&] { return refuses_start(one); });
 }
 Verdict methods(const Case& one, const Engine& engine, const Motion& motion) {

@@ -39,38 +39,38 @@ Verdict compare(const Case& one, const Engine& engine, const char* name, const c
       const bool same =
           whole ? plain.digests[k] == other.digests[k] : plain.digests[k].visible == other.digests[k].visible;
       if (same) continue;
-      return objection(k + 1, off[k + 1],
-                       fmt::format("goes on with other bits: {:.3g} m off after step {}", off[k + 1], k + 1));
+      return objection(
+          k + 1, off[k + 1],
+          fmt::format("continues with other bits: {:.3g} m off after step {}", off[k + 1], k + 1));
     }
   }
   return {};
 }
 
 Verdict restored(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "restore", "a world that is saved and restored goes on with the same bits",
+  return compare(one, engine, "restore", "a world that is saved and restored continues with the same bits",
                  {Guise::Restored});
 }
 Verdict rolled_back(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "rollback", "a world that is rolled back goes on with the same bits",
+  return compare(one, engine, "rollback", "a world that is rolled back continues with the same bits",
                  {Guise::RolledBack});
 }
 Verdict threaded(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "threads", "each number of threads gives the same bits", {Guise::Threaded});
 }
 Verdict widths(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "widths", "each width of vector registers gives the same bits",
+  return compare(one, engine, "widths", "each vector width gives the same bits",
                  {Guise::Scalar, Guise::Narrow});
 }
 Verdict observed(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "observed", "a world that is looked at goes on with the same bits",
-                 {Guise::Observed});
+  return compare(one, engine, "observed", "observing a world changes no bits", {Guise::Observed});
 }
 Verdict asked(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "queries",
-                 "rays, casts, overlaps and distances are those of the shapes' outlines", {Guise::Asked});
+                 "rays, casts, overlaps and distances agree with the shapes' outlines", {Guise::Asked});
 }
 Verdict refused(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "refused", "calls with numbers out of range are refused and change nothing",
+  return compare(one, engine, "refused", "calls with numbers out of range are rejected and change nothing",
                  {Guise::Refused});
 }
 Verdict labelled(const Case& one, const Engine& engine, const Motion&) {
@@ -79,7 +79,7 @@ Verdict labelled(const Case& one, const Engine& engine, const Motion&) {
 }
 Verdict overrun(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "overrun",
-                 "a body beyond the world's numbers is quarantined and reported, and the others go on",
+                 "a body beyond the world's limits is quarantined and reported, and the others continue",
                  {Guise::Overrun});
 }
 

@@ -53,7 +53,7 @@ std::optional<std::size_t> some_dynamic(const Scene& scene) {
 
 Verdict simulation_restored(const Case& one, const Engine& engine, const Motion&) {
   return judged(one, engine, "simulation_restore",
-                "a simulation that is saved and restored goes on with the same bits", [&]() -> std::string {
+                "a simulation that is saved and restored continues with the same bits", [&]() -> std::string {
                   const Accuracy accuracy = accuracy_of(one, engine);
                   Simulation first = compile(one.scene, accuracy), other = compile(one.scene, accuracy);
                   other.step(std::min(3, steps_of(one)));
@@ -62,7 +62,7 @@ Verdict simulation_restored(const Case& one, const Engine& engine, const Motion&
                     first.step();
                     if (k >= 10) other.step();
                     if (k >= 10 && (first.hash() != other.hash() || first.time() != other.time()))
-                      return fmt::format("goes on with other bits after step {}", k + 1);
+                      return fmt::format("continues with other bits after step {}", k + 1);
                   }
                   return {};
                 });
@@ -70,8 +70,7 @@ Verdict simulation_restored(const Case& one, const Engine& engine, const Motion&
 
 Verdict simulation_stages(const Case& one, const Engine& engine, const Motion&) {
   return judged(one, engine, "simulation_stages",
-                "stages that a scene does not need, profiles, threads and what is read change no bits",
-                [&]() -> std::string {
+                "unneeded stages, profiles, threads and getters change no bits", [&]() -> std::string {
                   Accuracy accuracy = accuracy_of(one, engine);
                   Simulation plain = compile(one.scene, accuracy);
                   if (auto* realtime = std::get_if<Realtime>(&accuracy))
@@ -84,7 +83,7 @@ Verdict simulation_stages(const Case& one, const Engine& engine, const Motion&) 
                     full.read(states), full.save(), full.statistics();
                     if (engine.kind == Engine::Kind::Precise) full.forces();
                     if (plain.hash() != full.hash())
-                      return fmt::format("goes on with other bits after step {}", k + 1);
+                      return fmt::format("continues with other bits after step {}", k + 1);
                   }
                   return {};
                 });
@@ -93,7 +92,7 @@ Verdict simulation_stages(const Case& one, const Engine& engine, const Motion&) 
 Verdict simulation_stops(const Case& one, const Engine& engine, const Motion&) {
   return judged(
       one, engine, "simulation_stop",
-      "a simulation that stops takes back the step that missed a bound, and one that reports names the same",
+      "`OnViolation::Stop` undoes the step with the violation, and `Report` reports the same violation",
       [&]() -> std::string {
         Realtime accuracy = realtime_of(one, engine);
         accuracy.on_violation = OnViolation::Report;
@@ -112,7 +111,7 @@ Verdict simulation_stops(const Case& one, const Engine& engine, const Motion&) {
           }
           if (stopped != (reports.violation() != nullptr))
             return fmt::format("{} in step {}", stopped ? "stops alone" : "reports alone", k + 1);
-          if (stopped) return stops.hash() == before ? "" : "stops, and does not take the step back";
+          if (stopped) return stops.hash() == before ? "" : "stops without undoing the step";
           if (stops.hash() != reports.hash()) return fmt::format("other bits after step {}", k + 1);
         }
         return {};
@@ -123,7 +122,7 @@ Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion&)
   const auto body = some_dynamic(one.scene);
   if (!body) return {};
   return judged(one, engine, "simulation_overrun",
-                "a step after which a number is beyond 1e12 is refused with the body's name and taken back",
+                "a step to a number beyond 1e12 is rejected with the body's name and undone",
                 [&]() -> std::string {
                   Scene scene = one.scene;
                   const std::string name = scene.bodies[*body].name;
@@ -148,22 +147,22 @@ Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion&)
                     } catch (const Error& error) {
                       refused = true;
                       if (error.kind() != Error::Kind::Run && error.kind() != Error::Kind::Value)
-                        return fmt::format("is refused with an error of another kind: {}", error.what());
+                        return fmt::format("is rejected with an error of another kind: {}", error.what());
                       simulation.read(after);
                       for (std::size_t k = 0; k < states.size(); ++k)
-                        if (!is_about(states[k], after[k])) return "is refused, and not taken back";
+                        if (!is_about(states[k], after[k])) return "is rejected, but not undone";
                     }
                   }
                   const Body& of = scene.bodies[*body];
                   const bool free = one.scene.joints.empty() && !of.lock_x && of.shapes.empty() &&
                                     of.linear_damping == 0 && force * dt / mass > 2e7;
-                  if (!refused && free) return "goes on with a speed beyond 1e12 m/s";
+                  if (!refused && free) return "continues with a speed beyond 1e12 m/s";
                   simulation.set_state(*body, sound);
                   std::vector<BodyState> states(scene.bodies.size());
                   simulation.read(states);
                   for (const BodyState& state : states)
                     if (!(std::abs(state.position.x) <= 1e13) || !(std::abs(state.velocity.x) <= 1e13))
-                      return "leaves numbers that are not finite";
+                      return "leaves a state that is not finite";
                   return {};
                 });
 }

@@ -47,27 +47,27 @@ Verdict compare(const Case& one, const Engine& engine, const Motion& motion, con
   if (k == off.size()) return {};
   const std::vector<double> calm = growth(one, engine, motion);
   if (k >= calm.size() || calm[k] > kCalm * bound) return {};
-  return Objection{
-      .law = name,
-      .judge = name,
-      .what = fmt::format("is {:.3g} m off the other run, where a perturbation of 1e-6 is {:.2g} m", off[k],
-                          calm[k]),
-      .right = right,
-      .figure = off[k],
-      .bound = bound,
-      .unit = "m",
-      .time = static_cast<double>(k) * one.dt};
+  return Objection{.law = name,
+                   .judge = name,
+                   .what = fmt::format(
+                       "differs by {:.3g} m from the other run; a perturbation of 1e-6 has grown to {:.2g} m",
+                       off[k], calm[k]),
+                   .right = right,
+                   .figure = off[k],
+                   .bound = bound,
+                   .unit = "m",
+                   .time = static_cast<double>(k) * one.dt};
 }
 
 Verdict mirror(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = mapped(run(engine, mirrored(one)), [](const BodyState& s) { return mirrored(s); });
-  return compare(one, engine, motion, other, "mirror", "a mirrored scene moves as the mirror shows");
+  return compare(one, engine, motion, other, "mirror", "a mirrored scene has the mirrored motion");
 }
 
 Verdict turn(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = mapped(run(engine, turned(one)), [](const BodyState& s) { return turned(s); });
   return compare(one, engine, motion, other, "turn",
-                 "a scene that is turned with its gravity moves the same way");
+                 "a scene that is rotated together with gravity has the rotated motion");
 }
 
 Verdict shift(const Case& one, const Engine& engine, const Motion& motion) {
@@ -76,13 +76,14 @@ Verdict shift(const Case& one, const Engine& engine, const Motion& motion) {
     s.position -= by;
     return s;
   });
-  return compare(one, engine, motion, other, "shift", "it does not matter where a scene lies");
+  return compare(one, engine, motion, other, "shift",
+                 "the motion does not depend on the position of the scene");
 }
 
 Verdict relabel(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = reversed(run(engine, relabelled(one)));
   return compare(one, engine, motion, other, "relabel",
-                 "it does not matter in which order bodies and joints are added", 2 * kShare);
+                 "the motion does not depend on the order of bodies and joints", 2 * kShare);
 }
 
 // Scales masses by sixteen, lengths by two and times by two: speeds and forces change with them.
@@ -91,13 +92,13 @@ Verdict units(const Case& one, const Engine& engine, const Motion& motion) {
     s.position = 0.5 * s.position;
     return s;
   });
-  return compare(one, engine, motion, other, "units", "units of length, time and mass do not matter");
+  return compare(one, engine, motion, other, "units",
+                 "the motion does not depend on the units of length, time and mass");
 }
 
 Verdict sleep(const Case& one, const Engine& engine, const Motion& motion) {
   const Motion other = run(engine, one, {.flip_sleep = true});
-  return compare(one, engine, motion, other, "sleep_switch", "sleep changes nothing of the motion",
-                 5 * kShare);
+  return compare(one, engine, motion, other, "sleep_switch", "sleep does not change the motion", 5 * kShare);
 }
 
 /// Returns true if a perturbation of the velocities halfway, or after three quarters, grows more than
@@ -151,8 +152,8 @@ Verdict sampling(const Case& one, const Engine& engine, const Motion& motion) {
     return {};
   return Objection{.law = "sampling",
                    .judge = "sampling",
-                   .what = fmt::format("is {:.3g} m off where it is looked at only once, at the end", off),
-                   .right = "the motion does not depend on when it is looked at",
+                   .what = fmt::format("differs by {:.3g} m if it is sampled only once, at the end", off),
+                   .right = "the motion does not depend on when it is sampled",
                    .figure = off,
                    .bound = bound,
                    .unit = "m",
@@ -174,8 +175,8 @@ Verdict tolerance(const Case& one, const Engine& engine, const Motion& motion) {
     return {};
   return Objection{.law = "tolerance",
                    .judge = "tolerance",
-                   .what = fmt::format("is {:.3g} m off at a tolerance of {}", off[k], kTighter),
-                   .right = "the motion is that of a tighter tolerance",
+                   .what = fmt::format("differs by {:.3g} m at a tolerance of {}", off[k], kTighter),
+                   .right = "the motion agrees with that at a tighter tolerance",
                    .figure = off[k],
                    .bound = bound,
                    .unit = "m",

@@ -115,7 +115,7 @@ std::string StateWatch<Real>::counts() const {
     for (const JointId joint : world_.joints(body)) joints.insert(key_of(joint));
   }
   if (counts.bodies != bodies || counts.shapes != shapes || counts.joints != static_cast<int>(joints.size()))
-    return fmt::format("counts {} bodies, {} shapes, {} joints, and lists {}, {}, {}", counts.bodies,
+    return fmt::format("counts {} bodies, {} shapes, {} joints, but lists {}, {}, {}", counts.bodies,
                        counts.shapes, counts.joints, bodies, shapes, joints.size());
   return {};
 }
@@ -140,8 +140,7 @@ std::string StateWatch<Real>::touches() {
     --change[std::minmax(key_of(event.shape_a), key_of(event.shape_b))];
   for (const auto& [pair, by] : change) {
     const int open = (open_.contains(pair) ? 1 : 0) + by;
-    if (open < 0 || open > 1)
-      return open < 0 ? "a touch ends that had not begun" : "a touch begins that had begun";
+    if (open < 0 || open > 1) return open < 0 ? "a touch ends that never began" : "a touch begins twice";
     if (open == 1) open_.insert(pair);
     if (open == 0) open_.erase(pair);
   }
@@ -194,8 +193,8 @@ std::string StateWatch<Real>::distances(double dt) {
       const double apart = separation(a.outline, b.outline);
       if (open && apart > way && (world_.awake(a.body) || world_.awake(b.body))) {
         if (!lasts(pair)) continue;
-        return fmt::format("a touch of '{}' and '{}' does not end, {:.3g} m away", world_.name(a.body),
-                           world_.name(b.body), apart);
+        return fmt::format("the touch of '{}' and '{}' does not end at a distance of {:.3g} m",
+                           world_.name(a.body), world_.name(b.body), apart);
       }
       if (open || apart > -kDeep * std::min(width_of(a.outline), width_of(b.outline)) - a.way - b.way ||
           !may_touch(world_.filter(a.shape), world_.filter(b.shape)) || is_held(a.body, b.body) ||
@@ -211,8 +210,8 @@ std::string StateWatch<Real>::distances(double dt) {
         });
       };
       if (meets_others(a, b) || meets_others(b, a) || !lasts(pair)) continue;
-      return fmt::format("'{}' and '{}' lie in each other by {:.3g} m, and no touch has begun",
-                         world_.name(a.body), world_.name(b.body), -apart);
+      return fmt::format("'{}' and '{}' overlap by {:.3g} m, but no touch has begun", world_.name(a.body),
+                         world_.name(b.body), -apart);
     }
   wrong_ = std::move(wrong);
   return {};
@@ -239,7 +238,7 @@ std::string StateWatch<Real>::islands() const {
     for (const JointId joint : world_.joints(body)) {
       const auto [a, b] = world_.bodies(joint);
       if (differs(a, b))
-        return fmt::format("of '{}' and '{}', which a joint holds, one sleeps", world_.name(a),
+        return fmt::format("only one of '{}' and '{}' sleeps, although a joint connects them", world_.name(a),
                            world_.name(b));
     }
     for (const ContactReading& contact : world_.contacts(body)) {
@@ -249,7 +248,8 @@ std::string StateWatch<Real>::islands() const {
         continue;
       const BodyId a = world_.body(contact.shape_a), b = world_.body(contact.shape_b);
       if (differs(a, b))
-        return fmt::format("of '{}' and '{}', which touch, one sleeps", world_.name(a), world_.name(b));
+        return fmt::format("only one of '{}' and '{}' sleeps, although they touch", world_.name(a),
+                           world_.name(b));
     }
   }
   return {};
@@ -274,7 +274,7 @@ std::string StateWatch<Real>::sensors() const {
           const bool is_seen = std::find(seen.begin(), seen.end(), shape) != seen.end();
           if (std::abs(apart) <= slack || is_seen == (apart < 0)) continue;
           return fmt::format("a sensor of '{}' {} '{}', {:.3g} m {}", world_.name(body),
-                             is_seen ? "sees" : "does not see", world_.name(other), std::abs(apart),
+                             is_seen ? "sees" : "misses", world_.name(other), std::abs(apart),
                              apart > 0 ? "away" : "inside");
         }
       }
@@ -308,14 +308,16 @@ std::string StateWatch<Real>::joints() const {
                            beyond(reading.torque, definition.report_torque, -1e-5);
       const bool is_told = told.contains(key_of(joint));
       if (awake && (is_told ? !perhaps : surely))
-        return fmt::format("a joint of '{}' bears {:.6g} N and {:.6g} N m; of {:.6g} and {:.6g} it is {}",
-                           world_.name(b), reading.force, reading.torque, definition.report_force,
-                           definition.report_torque, is_told ? "told" : "not told");
+        return fmt::format(
+            "a joint of '{}' bears {:.6g} N and {:.6g} N m; its limits for reports are {:.6g} and {:.6g}; "
+            "its load is {}",
+            world_.name(b), reading.force, reading.torque, definition.report_force, definition.report_torque,
+            is_told ? "reported" : "not reported");
       if (beyond(reading.force, definition.break_force, 1e-3) && awake)
-        return fmt::format("a joint of '{}' bears {:.6g} N and holds, where {:.6g} break it", world_.name(b),
-                           reading.force, definition.break_force);
+        return fmt::format("a joint of '{}' bears {:.6g} N without breaking; its limit is {:.6g} N",
+                           world_.name(b), reading.force, definition.break_force);
       if (beyond(reading.torque, definition.break_torque, 1e-3) && awake)
-        return fmt::format("a joint of '{}' bears {:.6g} N m and holds, where {:.6g} break it",
+        return fmt::format("a joint of '{}' bears {:.6g} N m without breaking; its limit is {:.6g} N m",
                            world_.name(b), reading.torque, definition.break_torque);
       if (const auto* hinge = std::get_if<RevoluteDefinition>(&world_.kind(joint))) {
         const Vec2d on_a = world_.world_point(a, hinge->anchor_a),
@@ -325,15 +327,15 @@ std::string StateWatch<Real>::joints() const {
         const double size = length(hinge->anchor_a) + length(hinge->anchor_b) +
                             length(box_a.upper - box_a.lower) + length(box_b.upper - box_b.lower);
         if (std::abs(reading.linear_error - gap) > kRounding * (size + gap + 1e-3 * length(on_a)) + 1e-15)
-          return fmt::format("a hinge of '{}' is {:.4g} m open, and reads {:.4g}", world_.name(b), gap,
+          return fmt::format("a hinge of '{}' is open by {:.4g} m, but reads {:.4g} m", world_.name(b), gap,
                              reading.linear_error);
         if (whirled_.contains(key_of(a)) || whirled_.contains(key_of(b))) continue;
         const double turns = (reading.angle - (world_.angle(b) - world_.angle(a) - hinge->reference_angle)) /
                              6.283185307179586;
         if (std::abs(turns - std::round(turns)) >
             2e-3 * (1 + 1e-3 * std::abs(world_.angle(b)) + 1e-3 * std::abs(world_.angle(a))))
-          return fmt::format("a hinge of '{}' reads an angle that is {:.3g} turns off", world_.name(b),
-                             turns - std::round(turns));
+          return fmt::format("a hinge of '{}' reads an angle that is off by {:.3g} revolutions",
+                             world_.name(b), turns - std::round(turns));
       }
     }
   return {};
@@ -352,7 +354,7 @@ std::string StateWatch<Real>::boxes() const {
         if (outline.low.x < box.lower.x - slack || outline.low.y < box.lower.y - slack ||
             outline.high.x > box.upper.x + slack || outline.high.y > box.upper.y + slack)
           return fmt::format(
-              "a box of '{}' ends at {:.4g}, {:.4g} and {:.4g}, {:.4g}, its shape at {:.4g}, {:.4g} and "
+              "the AABB of '{}' is from {:.4g}, {:.4g} to {:.4g}, {:.4g}, its shape from {:.4g}, {:.4g} to "
               "{:.4g}, {:.4g}",
               world_.name(body), box.lower.x, box.lower.y, box.upper.x, box.upper.y, outline.low.x,
               outline.low.y, outline.high.x, outline.high.y);

@@ -80,15 +80,14 @@ std::string StateWatch<Real>::flights(double dt) const {
       stopped = is_stopped && meets_something(body, length(way));
       if (!stopped)
         return fmt::format(
-            "'{}' touches nothing and flies on at {:.6g}, {:.6g} m/s, not {:.6g}, {:.6g}, by {:.6g}, {:.6g} "
-            "m, not "
-            "{:.6g}, {:.6g}",
+            "'{}' touches nothing; its velocity is {:.6g}, {:.6g} m/s, not {:.6g}, {:.6g}, and its "
+            "displacement {:.6g}, {:.6g} m, not {:.6g}, {:.6g}",
             world_.name(body), world_.velocity(body).x, world_.velocity(body).y, before.velocity.x + gain.x,
             before.velocity.y + gain.y, gone.x, gone.y, way.x, way.y);
     }
     // A locked rotation ignores torques; a spin set by a call is checked below.
     if (!locks.rotation && !stopped && spun > rounding * (std::abs(before.spin) + std::abs(turn)) + 1e-30) {
-      return fmt::format("'{}' touches nothing, and its spin is {:.3g} rad/s off that of its flight",
+      return fmt::format("'{}' touches nothing, but its angular velocity is off by {:.3g} rad/s",
                          world_.name(body), spun);
     }
   }
@@ -127,7 +126,7 @@ std::string StateWatch<Real>::locks() const {
       return fmt::format("'{}' moves by {:.3g}, {:.3g} m along an axis that is locked", world_.name(body),
                          gone.x, gone.y);
     if (locks.rotation && world_.angle(body) != known->second.angle)
-      return fmt::format("'{}' turns by {:.3g} rad, and its rotation is locked", world_.name(body),
+      return fmt::format("'{}' rotates by {:.3g} rad, but its rotation is locked", world_.name(body),
                          world_.angle(body) - known->second.angle);
   }
   return {};
@@ -181,7 +180,7 @@ std::string StateWatch<Real>::wakings() const {
     }
   }
   if (woken.empty()) return {};
-  return fmt::format("'{}' wakes, and nothing that moved has reached it", world_.name(woken.begin()->second));
+  return fmt::format("'{}' wakes, but no moving body has reached it", world_.name(woken.begin()->second));
 }
 
 // Checks bodies with exactly one contact, with a non-dynamic body at rest, whose friction has no component
@@ -234,8 +233,8 @@ std::string StateWatch<Real>::impulses(double dt) const {
                          mass * (0.1 * length(gain) + 0.05 * dt * length(world_.gravity()) +
                                  0.02 * (length(world_.velocity(body)) + length(before->second.velocity)));
     if (contact.step_impulse > 0 && std::abs(off) > bound && std::abs(off) > 1e-6 * mass)
-      return fmt::format("'{}' is pushed by {:.4g} N s, and its contact says {:.4g}", world_.name(body),
-                         mass * dot(gain, n), contact.step_impulse);
+      return fmt::format("'{}' gets an impulse of {:.4g} N s, but its contact reports {:.4g} N s",
+                         world_.name(body), mass * dot(gain, n), contact.step_impulse);
   }
   return {};
 }
@@ -248,7 +247,7 @@ std::string StateWatch<Real>::limits() const {
     for (const double value :
          {s.position.x, s.position.y, s.angle, s.velocity.x, s.velocity.y, s.angular_velocity})
       if (!(std::abs(value) <= kLargest))
-        return fmt::format("'{}' goes on with {:.6g}", world_.name(body), value);
+        return fmt::format("'{}' continues with {:.6g}", world_.name(body), value);
   }
   return {};
 }
@@ -263,7 +262,7 @@ std::string StateWatch<Real>::moved() const {
     const auto before = before_.find(key_of(body));
     if (before == before_.end() || told.contains(key_of(body))) continue;
     if (world_.centre(body) != before->second.position || world_.angle(body) != before->second.angle)
-      return fmt::format("'{}' moved, and is not told to have", world_.name(body));
+      return fmt::format("'{}' moved, but there is no move event", world_.name(body));
   }
   return {};
 }
@@ -276,10 +275,10 @@ std::string StateWatch<Real>::sleep_events() const {
     const auto before = before_.find(key_of(body));
     if (before == before_.end() || world_.type(body) != BodyType::Dynamic || !world_.enabled(body)) continue;
     if (before->second.awake && !world_.awake(body) && !fell.contains(key_of(body)))
-      return fmt::format("'{}' fell asleep, and is not told to have", world_.name(body));
+      return fmt::format("'{}' fell asleep, but there is no event for it", world_.name(body));
     if (!world_.awake(body) && world_.velocity(body) != Vec2d{} &&
         length(world_.centre(body) - before->second.position) > 0 && !before->second.awake)
-      return fmt::format("'{}' moves asleep", world_.name(body));
+      return fmt::format("'{}' moves while asleep", world_.name(body));
   }
   return {};
 }

@@ -71,8 +71,7 @@ class EventBook {
           ++at;
           continue;
         }
-        faults.push_back(
-            {time, fmt::format("a {} that began does not end when a shape of it is destroyed", what)});
+        faults.push_back({time, fmt::format("a {} does not end when one of its shapes is destroyed", what)});
         at = pairs.erase(at);
       }
     };
@@ -100,8 +99,8 @@ class EventBook {
                     std::vector<Motion::EventFault>& faults) {
     for (const auto& [pair, change] : changes) {
       const int open = (pairs.contains(pair) ? 1 : 0) + change;
-      if (open > 1) faults.push_back({time, fmt::format("a {} begins that had begun and not ended", what)});
-      if (open < 0) faults.push_back({time, fmt::format("a {} ends that had not begun", what)});
+      if (open > 1) faults.push_back({time, fmt::format("a {} begins again before it ended", what)});
+      if (open < 0) faults.push_back({time, fmt::format("a {} ends that never began", what)});
       if (open > 0) {
         pairs.insert(pair);
       } else {
@@ -189,7 +188,8 @@ class Run {
           if (const auto error = monitor_->end_step();
               error && case_.actions.empty() && is_driven_by_joints(case_.scene) &&
               std::string(error->what()).find("energy") != std::string::npos)
-            out.broken_promise = fmt::format("a monitor takes a drive's work for a fault: {}", error->what());
+            out.broken_promise = fmt::format(
+                "a monitor reports the work of a motor or spring as a violation: {}", error->what());
         if (!world_.events().quarantined.empty()) {
           const QuarantineEvent& bad = world_.events().quarantined.front();
           out.failure = fmt::format("body '{}' was quarantined at step {}: {} is {}", bad.name, step + 1,
@@ -239,7 +239,7 @@ class Run {
       litter(other);
       restore(other, save(world_));
       if (digest_of(other).whole != digest_of(world_).whole)
-        out.broken_promise = "a world that was restored is another than the one that was saved";
+        out.broken_promise = "a restored world differs from the saved one";
       world_ = std::move(other);
     }
     if (options_.guise == Guise::RolledBack && step % kBetween == kBetween - 1) {
@@ -250,7 +250,7 @@ class Run {
       for (int i = 0; i < kAhead; ++i) world_.step(case_.dt, case_.substeps);
       states_->back_to(now);
       if (digest_of(world_).whole != before)
-        out.broken_promise = "a world that was rolled back is another than the one that was kept";
+        out.broken_promise = "a world that was rolled back differs from the saved one";
     }
     if (options_.guise == Guise::Observed && step % kBetweenLooks == 0) look_at(world_);
     if (options_.guise == Guise::Overrun && step == case_.steps / 2) {
@@ -415,7 +415,7 @@ Motion run_world(const Case& one, const RunOptions& options) {
   try {
     run.emplace(one, options);
   } catch (const Error& error) {
-    return {.dt = one.dt, .samples = {}, .failure = fmt::format("it was refused: {}", error.what())};
+    return {.dt = one.dt, .samples = {}, .failure = fmt::format("it was rejected: {}", error.what())};
   }
   try {
     return run->go();

@@ -122,7 +122,7 @@ void change(Draft& draft) {
 }
 
 const Register a{{.name = "intruder",
-                  .title = "a body appears in others that are at rest",
+                  .title = "a body is created inside others that are at rest",
                   .role = Idiom::Role::Disturbance,
                   .weight = 1,
                   .fits = on_floor,
@@ -141,13 +141,13 @@ const Register c{
      .fits = [](const Draft& draft) { return has_dynamic(draft) && !draft.out.scene.joints.empty(); },
      .build = release}};
 const Register d{{.name = "sensor",
-                  .title = "a sensor that is destroyed or moved",
+                  .title = "a sensor is destroyed or moved",
                   .role = Idiom::Role::Disturbance,
                   .weight = 1,
                   .fits = has_dynamic,
                   .build = sensor}};
 const Register e{{.name = "change",
-                  .title = "a body becomes static or meets nothing",
+                  .title = "a body becomes static or collides with nothing",
                   .role = Idiom::Role::Disturbance,
                   .weight = 0.7,
                   .fits = has_dynamic,

@@ -72,12 +72,14 @@ void build(Draft& draft) {
     const double slack = (0.005 + 0.05 * std::abs(rate) * dt) * (2 + std::abs(rate)) * s;
     moves.lower = right - slack, moves.upper = right + slack;
     moves.from = moves.to = steps * dt;
-    moves.why = "what is driven moves as told, and what is let go keeps the velocity of each of its points";
+    moves.why =
+        "a kinematic body follows its velocity; a body that is released keeps the velocity of each of its "
+        "points";
   }
 }
 
 const Register r{{.name = "bat",
-                  .title = "a driven body that turns about a point beside it, and is let go",
+                  .title = "a kinematic body rotates about a point beside it and is released",
                   .weight = 0.7,
                   .floor = false,
                   .build = build}};

@@ -22,7 +22,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "billiards",
-                  .title = "a triangle of balls that another breaks",
+                  .title = "a triangle of balls that another ball breaks",
                   .weight = 0.7,
                   .floor = false,
                   .enclosure = true,

@@ -20,7 +20,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "bouncer",
-                  .title = "bodies that come down turned and bounce",
+                  .title = "rotated bodies that fall and bounce",
                   .weight = 1.5,
                   .air = false,
                   .enclosure = true,

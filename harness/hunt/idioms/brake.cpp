@@ -34,7 +34,7 @@ void build(Draft& draft) {
   Expectation& brakes = draft.expect("brakes", made, Quantity::X);
   brakes.lower = right - slack, brakes.upper = right + slack;
   brakes.from = brakes.to = steps * dt;
-  brakes.why = "what slides on a level floor loses friction times gravity of its speed in a second";
+  brakes.why = "a body that slides on a level floor decelerates by friction times gravity";
   for (int i = 0; i < made; ++i) {
     const std::vector<Shape>& shapes = draft.body(i).shapes;
     const double reach = shapes.size() > 1 ? draft.site.width : reach_of(shapes.front().geometry);

@@ -17,7 +17,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "bullet",
-                  .title = "a small fast disc is shot at it",
+                  .title = "a small fast disc is shot at the structure",
                   .role = Idiom::Role::Disturbance,
                   .weight = 0.7,
                   .fits = [](const Draft& draft) { return draft.site.kind == Site::Kind::Floor; },

@@ -34,7 +34,7 @@ void build(Draft& draft) {
 }
 
 const Register r{
-    {.name = "cantilever", .title = "boards in a row that hold each other", .weight = 1.5, .build = build}};
+    {.name = "cantilever", .title = "boards in a row, joined to each other", .weight = 1.5, .build = build}};
 
 }  // namespace
 }  // namespace plumb::harness::hunt

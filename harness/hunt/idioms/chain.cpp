@@ -38,7 +38,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "chain",
-                  .title = "links in a row, hung or thrown",
+                  .title = "a chain of links, hanging or thrown",
                   .weight = 1.2,
                   .enclosure = true,
                   .build = build}};

@@ -36,13 +36,13 @@ void build(Draft& draft) {
   Expectation& leaves = draft.expect("is_handed_on", draft.count() - 1, Quantity::VelocityX);
   leaves.lower = 0.95 * now, leaves.upper = 1.02 * now;
   leaves.from = from;
-  leaves.why = "a row of balls hands a blow on, from one to the next";
+  leaves.why = "a row of balls passes an impact on from one to the next";
   for (int i = first; i < draft.count(); ++i) leaves.needs.push_back(draft.name(i));
   leaves.needs.emplace_back(kMasses);
 }
 
 const Register r{{.name = "cradle",
-                  .title = "a row of balls of which one is struck",
+                  .title = "a row of balls, one of which is struck",
                   .weight = 0.7,
                   .floor = false,
                   .build = build}};

@@ -65,7 +65,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "crowd",
-                  .title = "smooth discs that fly into each other",
+                  .title = "smooth discs that collide in flight",
                   .weight = 1.5,
                   .floor = false,
                   .build = build}};

@@ -27,7 +27,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "flight",
-                  .title = "bodies that fly and meet",
+                  .title = "bodies that collide in flight",
                   .weight = 1,
                   .floor = false,
                   .enclosure = true,

@@ -119,12 +119,12 @@ void build(Draft& draft) {
     moves.lower = each.right - each.slack, moves.upper = each.right + each.slack;
     moves.from = moves.to = t;
     moves.needs = {std::string(kMasses)};
-    moves.why = "a body moves as the force on it says: each of these motions has a closed form";
+    moves.why = "a body moves under the force on it; each of these motions has a closed form";
   }
 }
 
 const Register r{{.name = "forces",
-                  .title = "a body under a force whose motion is known",
+                  .title = "a body under a force whose motion has a closed form",
                   .weight = 1,
                   .air = true,
                   .floor = false,

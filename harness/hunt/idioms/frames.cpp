@@ -51,7 +51,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "frames",
-                  .title = "bodies whose frames are turned, by many turns too",
+                  .title = "bodies whose frames are rotated, also by many revolutions",
                   .role = Idiom::Role::Disturbance,
                   .weight = 1.5,
                   .fits = [](const Draft& draft) { return draft.out.scene.forces.empty(); },

@@ -37,11 +37,11 @@ void build(Draft& draft) {
   Expectation& owed = draft.expect(holds ? "holds" : "lets_go", made, Quantity::Y);
   if (holds) {
     owed.lower = y - 0.1 * length, owed.upper = y + 0.1 * length;
-    owed.why = "a joint bears what it is said to bear";
+    owed.why = "a joint bears loads below its limit";
   } else {
     owed.upper = y - 0.25 * g * time * time;  // half of the free fall, because breaking may take a while
     owed.from = owed.to = time;
-    owed.why = "a joint lets go of what is more than it is said to bear";
+    owed.why = "a joint breaks under a load above its limit";
   }
   owed.needs = {std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back()),
                 std::string(kMasses)};

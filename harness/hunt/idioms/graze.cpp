@@ -39,18 +39,18 @@ void build(Draft& draft) {
   const double end = steps * dt;
   Expectation& below = draft.expect("is_stopped_by_a_ceiling", made, Quantity::Y);
   below.upper = fall + 0.05 * radius + meets * dt;
-  below.why = "what is thrown against a ceiling does not go through it";
+  below.why = "a body that is thrown against a ceiling does not pass through it";
   below.needs = {draft.name(ceiling)};
   Expectation& falls = draft.expect("falls_from_a_ceiling", made, Quantity::VelocityY);
   const double right = -g * (end - until), slack = 0.1 * meets + 3 * g * dt;
   falls.lower = right - slack, falls.upper = right + slack;
   falls.from = falls.to = end;
-  falls.why = "a blow without restitution leaves no speed; then it falls";
+  falls.why = "after an impact without restitution a body has no normal speed; then it falls";
   falls.needs = {draft.name(ceiling), std::string(kMasses)};
 }
 
 const Register r{{.name = "graze",
-                  .title = "a disc that meets a ceiling near the top of its path",
+                  .title = "a disc that hits a ceiling near the top of its path",
                   .weight = 0.5,
                   .floor = false,
                   .build = build}};

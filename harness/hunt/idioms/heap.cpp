@@ -29,7 +29,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "heap",
-                  .title = "things that fall and come to rest",
+                  .title = "bodies that fall and come to rest",
                   .weight = 1.5,
                   .air = false,
                   .build = build}};

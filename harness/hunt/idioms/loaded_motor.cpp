@@ -44,14 +44,15 @@ void build(Draft& draft) {
   holds.lower = right - slack, holds.upper = right + slack;
   holds.from = holds.to = steps * draft.out.dt;
   holds.why =
-      "a motor keeps its speed against less than its strength, either way, and gives way by the excess";
+      "a motor keeps its speed under loads below its largest torque, in both directions; above it, the "
+      "excess accelerates the load";
   holds.needs = {draft.name(made),
                  std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back()),
                  std::string(kMasses)};
 }
 
 const Register r{{.name = "loaded_motor",
-                  .title = "a motor at its speed, and a load on it",
+                  .title = "a motor at its speed under a load",
                   .weight = 0.4,
                   .floor = false,
                   .build = build}};

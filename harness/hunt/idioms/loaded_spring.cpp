@@ -51,12 +51,12 @@ void build(Draft& draft) {
   const double slack = 0.02 * std::abs(angle) + 1e-3;
   rests.lower = angle - slack, rests.upper = angle + slack;
   rests.from = rests.to = steps * draft.out.dt;
-  rests.why = "a spring bends until its torque is that of the weights";
+  rests.why = "a spring deflects until its torque balances the weights";
   rests.needs = needs;
 }
 
 const Register r{{.name = "loaded_spring",
-                  .title = "an arm on a damped spring that a weight bends",
+                  .title = "an arm on a damped spring, deflected by a weight",
                   .weight = 0.4,
                   .floor = false,
                   .build = build}};

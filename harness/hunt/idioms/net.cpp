@@ -37,7 +37,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "net",
-                  .title = "discs in a grid that hold each other",
+                  .title = "discs in a grid, joined to each other",
                   .weight = 1,
                   .enclosure = true,
                   .build = build}};

@@ -45,16 +45,16 @@ void build(Draft& draft) {
                slack = 0.03 * rate * steps * draft.out.dt + rate * draft.out.dt;
   turns.lower = right - slack, turns.upper = right + slack;
   turns.from = turns.to = steps * draft.out.dt;
-  turns.why = "parallel cranks turn on through the positions in which they lie in one line";
+  turns.why = "parallel cranks rotate through the positions in which all links lie in one line";
   turns.needs = needs;
   Expectation& keeps = draft.expect("keeps_its_direction", bar, Quantity::Angle);
   keeps.lower = -0.05, keeps.upper = 0.05;
-  keeps.why = "the bar of a parallelogram stays parallel to its base";
+  keeps.why = "the coupler of a parallelogram stays parallel to its base";
   keeps.needs = needs;
 }
 
 const Register r{{.name = "parallelogram",
-                  .title = "parallel cranks with a bar between them",
+                  .title = "parallel cranks joined by a coupler",
                   .weight = 0.3,
                   .floor = false,
                   .build = build}};

@@ -23,7 +23,7 @@ void build(Draft& draft) {
   draft.out.steps = std::max(5, static_cast<int>(6 * s / speed / draft.out.dt));
   Expectation& passes = draft.expect("passes_by", made, Quantity::VelocityY);
   passes.lower = -0.001 * speed, passes.upper = 0.001 * speed;
-  passes.why = "what flies past without touching anything keeps its velocity";
+  passes.why = "a body that touches nothing keeps its velocity";
 }
 
 const Register r{{.name = "passer",

@@ -42,7 +42,7 @@ void build(Draft& draft) {
   // An error of 1 % can be seen. Joints begin without impulses, so a chain may bounce at the start.
   stays.lower = -depth * 1.01 - g * out.dt * out.dt, stays.upper = -depth * 0.99;
   stays.from = 0.5;
-  stays.why = "a chain that hangs keeps its length under its load";
+  stays.why = "a hanging chain keeps its length under its load";
   stays.needs.emplace_back(kMasses);
   for (const Joint& joint : out.scene.joints)
     std::visit([&](const auto& j) { stays.needs.push_back(j.name); }, joint);
@@ -50,7 +50,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "plumb_line",
-                  .title = "a chain that hangs straight with a load at its end",
+                  .title = "a chain that hangs straight, with a load at its end",
                   .weight = 0.5,
                   .floor = false,
                   .build = build}};

@@ -18,7 +18,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "pushed",
-                  .title = "one body is pushed and spun",
+                  .title = "one body gets a velocity and an angular velocity",
                   .role = Idiom::Role::Disturbance,
                   .weight = 0.7,
                   .build = build}};

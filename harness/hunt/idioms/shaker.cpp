@@ -37,7 +37,7 @@ void build(Draft& draft) {
   const double from = up ? height / 2 : 0;
   moves.lower = from + right - slack, moves.upper = from + right + slack;
   moves.from = moves.to = t;
-  moves.why = "what is pushed harder than it is held moves by the difference";
+  moves.why = "a body that is pushed harder than friction holds it accelerates by the difference";
   // The expectation requires the parts of the floor along the path.
   for (int i = 0; i < made; ++i) {
     const std::vector<Shape>& shapes = draft.body(i).shapes;
@@ -49,7 +49,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "shaker",
-                  .title = "a box on the floor under a force that swings",
+                  .title = "a box on the floor under an oscillating force",
                   .weight = 0.5,
                   .air = false,
                   .level = true,

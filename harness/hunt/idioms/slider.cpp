@@ -34,7 +34,7 @@ void build(Draft& draft) {
   draft.out.steps = std::min(draft.out.steps, std::max(5, static_cast<int>(way / speed / draft.out.dt)));
   Expectation& keeps = draft.expect("keeps_speed", made, Quantity::VelocityX);
   keeps.lower = 0.98 * speed, keeps.upper = 1.02 * speed;
-  keeps.why = "what slides on a level floor without friction keeps its speed";
+  keeps.why = "a body that slides on a level, frictionless floor keeps its speed";
   // The expectation requires the parts of the floor along the path.
   for (int i = 0; i < made; ++i) {
     const double reach =
@@ -47,7 +47,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "slider",
-                  .title = "something that slides without friction",
+                  .title = "a body that slides without friction",
                   .weight = 1.5,
                   .air = false,
                   .level = true,

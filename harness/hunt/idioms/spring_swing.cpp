@@ -35,8 +35,7 @@ void build(Draft& draft) {
   const double damped = std::min(0.8, 3.15 * 3.15 * hertz * draft.out.dt / draft.out.substeps);
   swings.lower = target - (0.1 + damped) * scale, swings.upper = target + 0.1 * scale;
   swings.from = half - 0.51 * draft.out.dt, swings.to = half + 0.51 * draft.out.dt;
-  swings.why =
-      "a spring of f Hz without damping takes the body to twice its target after half a period, 1/(2 f)";
+  swings.why = "an undamped spring of f Hz takes the body to twice its target after half a period, 1/(2 f)";
   swings.needs = {draft.name(made),
                   std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back())};
 }

@@ -39,7 +39,7 @@ void build(Draft& draft) {
 }
 
 const Register r{{.name = "thrown",
-                  .title = "sticks and others that fly about",
+                  .title = "sticks and other bodies thrown in a closed box",
                   .weight = 1.5,
                   .air = false,
                   .floor = false,

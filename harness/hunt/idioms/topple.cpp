@@ -53,13 +53,13 @@ void build(Draft& draft) {
   Expectation& falls = draft.expect("falls_over_its_edge", made, Quantity::Angle);
   falls.lower = -(upright + phi) - slack, falls.upper = -(upright + phi) + slack;
   falls.from = falls.to = steps * draft.out.dt;
-  falls.why = "what topples turns about its edge as a pendulum upside down";
+  falls.why = "a toppling body rotates about its edge like an inverted pendulum";
   falls.needs = needs;
   Expectation& stays = draft.expect("keeps_its_edge", made, Quantity::X);
   const double right = diagonal * sine(phi);
   stays.lower = right - slack * diagonal, stays.upper = right + slack * diagonal;
   stays.from = stays.to = steps * draft.out.dt;
-  stays.why = "the edge that it turns about does not slip, with more friction than it needs";
+  stays.why = "the edge does not slip if friction is sufficient";
   stays.needs = needs;
 }
 

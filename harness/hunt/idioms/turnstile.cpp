@@ -32,13 +32,13 @@ void build(Draft& draft) {
   draft.out.steps = std::max(5, static_cast<int>(1.5 / rate / draft.out.dt));
   Expectation& blocked = draft.expect("is_stopped", bar, Quantity::Angle);
   blocked.upper = 0.3;
-  blocked.why = "a bar does not turn through a post";
+  blocked.why = "a bar does not rotate through a post";
   blocked.needs = {draft.name(bar), draft.name(stop),
                    std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back())};
 }
 
 const Register r{{.name = "turnstile",
-                  .title = "a bar that turns until a post stops it",
+                  .title = "a bar that rotates until a post stops it",
                   .weight = 1.2,
                   .floor = false,
                   .build = build}};

@@ -32,12 +32,12 @@ void build(Draft& draft) {
   for (int i = first; i < draft.count(); ++i) {
     Expectation& stands = draft.expect("stands", i, Quantity::Drift);
     stands.upper = 0.1 * height;
-    stands.why = "bricks that lie flat on each other stand";
+    stands.why = "bricks stacked flat on each other stay in place";
     for (int k = 0; k < i; ++k) stands.needs.push_back(draft.name(k));
     Expectation& creeps = draft.expect("does_not_creep", i, Quantity::Drift);
     creeps.from = 3;
     creeps.upper = 5e-4 * s;
-    creeps.why = "what has come to rest below its friction limit does not move";
+    creeps.why = "a body at rest below its friction limit does not creep";
     // The expectation requires the bricks below, without which it falls.
     for (int k = 0; k < i; ++k) creeps.needs.push_back(draft.name(k));
   }
