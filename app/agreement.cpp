@@ -40,20 +40,22 @@ int start_agreement(const AgreementOptions& options) {
 }  // namespace
 
 void add_agreement(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "agreement",
-      "case by case: the engines that agree with the truth, with each other, and what misses by\n"
-      "how much and why, from results");
+  CLI::App* command =
+      app.add_subcommand("agreement",
+                         "from results, for each case: the engines that agree with the truth and with each "
+                         "other,\nand what the others miss, by how much and why");
   auto options = std::make_shared<AgreementOptions>();
   command
       ->add_option("results", options->folder,
                    "a folder that `plumb compare` wrote, or a results.jsonl (default results)")
       ->type_name("DIR");
-  command->add_option("--format", options->format, "console, json (a case a line) or csv (a miss a line)")
+  command
+      ->add_option("--format", options->format,
+                   "console, json (one case per line) or csv (one miss per line)")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command
       ->add_option("--without", options->without,
-                   "leave these engines out: '*' stands for anything, '|' separates alternatives")
+                   "leave these engines out; '*' matches anything, '|' separates alternatives")
       ->type_name("NAME");
   command->footer(
       "Examples:\n  plumb agreement\n  plumb agreement results --without '*-default' --format json\n"

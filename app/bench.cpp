@@ -12,12 +12,12 @@
 namespace plumb::app {
 
 void add_bench(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("bench", "the cost of a step of every scenario x engine x size (Google Benchmark)");
+  CLI::App* command = app.add_subcommand(
+      "bench", "measure the cost of a step for every scenario, engine and size (Google Benchmark)");
   command->prefix_command();
   command->footer(
-      "All options go to the benchmarks: `plumb bench --help` lists them.\n"
-      "Examples:\n  plumb bench\n  plumb bench --benchmark_filter=pendulum_chain --benchmark_format=json");
+      "All options are passed to the benchmarks; `plumb bench --help` lists them.\nExamples:\n  plumb "
+      "bench\n  plumb bench --benchmark_filter=pendulum_chain --benchmark_format=json");
 }
 
 int run_bench(int argc, char** argv) {

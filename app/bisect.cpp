@@ -43,7 +43,7 @@ class Runs {
     if (!options.timeout.empty()) seconds_ = parse_positive("--timeout", options.timeout);
     const std::vector<std::string> files = case_files(options.name);
     if (files.size() > 1)
-      throw UsageError(fmt::format("'{}' is {} cases: bisect takes one", options.name, files.size()));
+      throw UsageError(fmt::format("'{}' has {} cases; bisect takes one", options.name, files.size()));
     case_ = std::make_unique<harness::Case>(files.empty()
                                                 ? one_instance(options.name, options.size)
                                                 : chosen_instances({files.front()}, options.size).front(),
@@ -148,8 +148,8 @@ int start_bisect(const BisectOptions& options) {
   if (harness::interrupted()) return kInterrupted;
   for (const std::size_t i : {low, high})
     print(fmt::format("{:<12} {}\n", versions[i], figures(runs.of(versions[i]), check)));
-  print(fmt::format("{}: {} {} is the first that misses {}\n", runs.label(), options.engine, versions[high],
-                    check));
+  print(fmt::format("{}: {} {} is the first version that misses {}\n", runs.label(), options.engine,
+                    versions[high], check));
   return kOk;
 }
 
@@ -157,7 +157,8 @@ int start_bisect(const BisectOptions& options) {
 
 void add_bisect(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "bisect", "find the version of an engine from npm that brought a miss, by installing and running");
+      "bisect",
+      "find the first version of an engine from npm that misses a bound, by installing and running versions");
   auto options = std::make_shared<BisectOptions>();
   command->add_option("case", options->name, "a scenario or a case file")->required()->type_name("NAME|FILE");
   command->add_option("engine", options->engine, "an engine from npm, see `plumb engines`")
@@ -165,7 +166,7 @@ void add_bisect(CLI::App& app, Action& chosen) {
       ->type_name("E");
   command
       ->add_option("--check", options->check,
-                   "which miss (default: the first that the oldest version has not)")
+                   "which check (default: the first that the oldest version does not miss)")
       ->type_name("CHECK");
   command->add_option("--from", options->from, "the oldest version to try")->type_name("V");
   command->add_option("--to", options->to, "the newest version to try")->type_name("V");
@@ -175,8 +176,7 @@ void add_bisect(CLI::App& app, Action& chosen) {
   add_size(*command, options->size);
   command->footer(
       "Examples:\n  plumb bisect cradle_energy rapier\n  plumb bisect my_case.json rapier --from 0.17.3 --to "
-      "0.21.0\n"
-      "Exit codes: 0 found, 1 no version brought a miss, 2 usage, 130 interrupted.");
+      "0.21.0\nExit codes: 0 found, 1 no version introduced a miss, 2 usage, 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_bisect(*options); }; });
 }
 

@@ -43,7 +43,7 @@ std::vector<course::Chapter> chosen_chapters(std::optional<int> number) {
   if (!number) return all;
   for (course::Chapter& chapter : all)
     if (chapter.number == *number) return {std::move(chapter)};
-  throw UsageError(fmt::format("--chapter is {}: there are chapters 1 to {}", *number, all.size()));
+  throw UsageError(fmt::format("--chapter is {}; the chapters are 1 to {}", *number, all.size()));
 }
 
 // Opens the window with the first check that failed, in place of this program.
@@ -74,8 +74,7 @@ int examine(const CheckOptions& options, const reference::Backend& engine) {
   reference::StepSettings settings;
   if (!options.dt.empty()) settings.dt = parse_positive("--dt", options.dt);
   if (settings.dt > kLargestStep)
-    throw UsageError(
-        fmt::format("--dt is '{}': the checks are made for steps of 1/30 s at most", options.dt));
+    throw UsageError(fmt::format("--dt is '{}'; the checks require steps of 1/30 s or less", options.dt));
   engine.method(settings);  // throws for settings that the engine rejects
 
   const std::vector<course::Chapter> chapters = chosen_chapters(options.chapter);
@@ -106,8 +105,9 @@ int examine_cases(const CheckOptions& options, const reference::Backend& engine)
   harness::CompareOptions what{.instances = {}, .engines = {&engine}};
   for (const std::string& name : options.cases)
     if (case_files(name).empty())
-      throw UsageError(
-          fmt::format("--case is '{}': that is no case file and no folder of them, see docs/cases.md", name));
+      throw UsageError(fmt::format(
+          "--case is '{}', which is neither a case file nor a folder of case files; see docs/cases.md",
+          name));
   what.instances = chosen_instances(options.cases, 0);
   if (!options.dt.empty()) what.settings.dt = parse_positive("--dt", options.dt);
   what.measure_cost = false;
@@ -135,11 +135,11 @@ int examine_engine(const CheckOptions& options, const reference::Backend& engine
 
 int start_check(const CheckOptions& options) {
   if (options.chapter && !options.cases.empty())
-    throw UsageError("--chapter goes with the course, not with --case");
+    throw UsageError("--chapter applies to the course and cannot be combined with --case");
   if (options.command.empty() == options.engine.empty())
     throw UsageError(
-        "give either the command that starts your engine after `--`, or --engine with one that is built in; "
-        "see `plumb check --help`");
+        "give either the command that starts your engine after `--`, or a built-in engine with --engine; see "
+        "`plumb check --help`");
   if (options.show && options.command.empty()) throw UsageError("--show needs the command of your engine");
   const double seconds = parse_positive("--timeout", options.timeout);
   if (!options.engine.empty()) {
@@ -161,7 +161,7 @@ int start_check(const CheckOptions& options) {
 
 void add_check(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "check", "put an engine through the course, chapter by chapter, and name its mistakes");
+      "check", "check an engine chapter by chapter with the tasks of the course, and name its mistakes");
   auto options = std::make_shared<CheckOptions>();
   command
       ->add_option("command", options->command,
@@ -173,27 +173,29 @@ void add_check(CLI::App& app, Action& chosen) {
       ->type_name("N")
       ->check([](const std::string& text) -> std::string {
         int number = 0;
-        return CLI::detail::lexical_cast(text, number) ? ""
-                                                       : fmt::format("'{}' is no chapter: give 1 to 5", text);
+        return CLI::detail::lexical_cast(text, number)
+                   ? ""
+                   : fmt::format("'{}' is not a chapter; give 1 to 5", text);
       });
   command
       ->add_option("--case", options->cases,
-                   "in place of the course: a case file or a folder of them; may be repeated")
+                   "instead of the course: a case file or a folder of case files; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE|DIR");
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("DT");
-  command->add_option("--timeout", options->timeout, "s that the program may take for each line (default 10)")
+  command
+      ->add_option("--timeout", options->timeout, "time limit for each line of the program, s (default 10)")
       ->type_name("T");
   command->add_flag("--show", options->show,
-                    "then open a window: the first check that failed, with the right motion as an outline");
+                    "open a window with the first check that failed, and the right motion as an outline");
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
   command->footer(
       "Examples:\n  plumb check -- python3 docs/course/starters/ball.py\n  plumb check --chapter 3 -- "
-      "./my_engine --quiet\n  plumb check --show -- python3 my_engine.py\n"
-      "  plumb check --engine plumb --format json\n  plumb check --case my_case.json -- ./my_engine\n"
-      "What an engine does not declare is \"not yet\". The chapters are in docs/course.\n"
-      "Exit codes: 0 all checks pass, 1 some do not, 2 usage, or a program that does not answer \"hello\".");
+      "./my_engine --quiet\n  plumb check --show -- python3 my_engine.py\n  plumb check --engine plumb "
+      "--format json\n  plumb check --case my_case.json -- ./my_engine\nA feature that the engine does not "
+      "declare is reported as \"not yet\". The chapters are in docs/course.\nExit codes: 0 all checks pass, "
+      "1 some do not, 2 usage, or a program that does not answer \"hello\".");
   command->callback([&chosen, options] { chosen = [options] { return start_check(*options); }; });
 }
 

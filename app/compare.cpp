@@ -83,7 +83,8 @@ void put_common_first(harness::CompareOptions& what) {
 }
 
 int again(const CompareCommandOptions& options) {
-  if (!options.dt.empty()) throw UsageError("--dt and --again: each run has the step that it had");
+  if (!options.dt.empty())
+    throw UsageError("--dt cannot be combined with --again, which repeats each run with its own step");
   AgainRequest request{.results = options.again,
                        .names = options.names,
                        .size = options.size,
@@ -97,7 +98,7 @@ int again(const CompareCommandOptions& options) {
 
 int start_compare(const CompareCommandOptions& options) {
   if (!options.again.empty()) return again(options);
-  if (options.jobs > 1) throw UsageError("--jobs goes with --again: costs are measured one at a time");
+  if (options.jobs > 1) throw UsageError("--jobs needs --again: costs are measured one at a time");
   if (mean_results(options.names))
     return compare_results(options.names.front(), options.names.back(), options.format);
   std::vector<std::unique_ptr<reference::Backend>> programs;
@@ -154,42 +155,41 @@ int start_compare(const CompareCommandOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "compare",
-      "run scenarios on engines, hold each run against the truth, and measure its cost; or compare two\n"
-      "sets of results: compare OLD NEW");
+  CLI::App* command =
+      app.add_subcommand("compare",
+                         "run scenarios on engines, compare each run with the truth, and measure its cost; "
+                         "or compare two\nsets of results: compare OLD NEW");
   auto options = std::make_shared<CompareCommandOptions>();
   command
       ->add_option("names", options->names,
                    "scenarios, variants or sizes (default: all), case files and folders of them "
-                   "(docs/cases.md); or two "
-                   "folders of results")
+                   "(docs/cases.md); or two folders of results to compare")
       ->type_name("NAME");
   options->engines.add_to(*command);
   add_size(*command, options->size);
   command->add_option("--dt", options->dt, "step in s, like 0.01 or 1/240 (default 1/60)")->type_name("DT");
-  command->add_option("--timeout", options->timeout, "s that a run may take (default 300)")->type_name("T");
+  command->add_option("--timeout", options->timeout, "time limit of a run, s (default 300)")->type_name("T");
   command
       ->add_option("--out", options->out,
-                   "folder for the results; they are added to its results.jsonl (default results)")
+                   "folder for the results, which are appended to its results.jsonl (default results)")
       ->check(problem_with_path)
       ->type_name("DIR");
-  command->add_option("--format", options->format, "console, json (a result a line) or csv")
+  command->add_option("--format", options->format, "console, json (one result per line) or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
-  command->add_option("--junit", options->junit, "also write the results as JUnit's XML, for CI")
+  command->add_option("--junit", options->junit, "also write the results as JUnit XML, for CI")
       ->check(problem_with_path)
       ->type_name("FILE");
-  command->add_flag("--no-cost", options->no_cost, "leave out what a step costs");
+  command->add_flag("--no-cost", options->no_cost, "do not measure costs");
   command
-      ->add_option(
-          "--again", options->again,
-          "make the runs of a set of results again, each with its own settings, and print which differ "
-          "in any bit; costs are not measured")
+      ->add_option("--again", options->again,
+                   "repeat the runs of a set of results, each with its own settings, and print which differ "
+                   "in any bit; costs are not measured")
       ->type_name("DIR");
-  command->add_option("--jobs", options->jobs, "with --again: runs at a time (default 1)")
+  command->add_option("--jobs", options->jobs, "with --again: number of runs at the same time (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  command->add_flag("--no-report", options->no_report, "write results.jsonl alone; `plumb report` draws it");
+  command->add_flag("--no-report", options->no_report,
+                    "write only results.jsonl; `plumb report` writes the report");
   command->footer(
       "Examples:\n  plumb compare\n  plumb compare free_fall pendulum_chain --size 20 --engine plumb,box2d\n"
       "  plumb compare elastic_collision/oblique --dt 1/240 --format json --out /tmp/oblique\n"

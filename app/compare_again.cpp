@@ -32,8 +32,9 @@ std::vector<scenarios::Instance> instances_of(const std::vector<Result>& rows) {
     try {
       out.push_back(chosen_instances({scene.front().label}, 0).front());
     } catch (const Error&) {
-      throw Error(Error::Kind::Name, "the results", "scene", scene.front().label,
-                  "is no scenario: name the case files or folders that the results are of after --again DIR");
+      throw Error(
+          Error::Kind::Name, "the results", "scene", scene.front().label,
+          "is not a scenario; after --again DIR, name the case files or folders that the results come from");
     }
   }
   return out;
@@ -56,7 +57,7 @@ int compare_again(const AgainRequest& request) {
   std::error_code code;
   if (std::filesystem::equivalent(request.results, request.out, code))
     throw UsageError(
-        fmt::format("--again {0} --out {0}: the runs made again go to another folder", request.results));
+        fmt::format("--again {0} --out {0}: the repeated runs need another folder", request.results));
   std::vector<Result> rows = sweep::read_all_costs(request.results);
   const std::size_t there = rows.size();
   sweep::AgainOptions options{.jobs = request.jobs, .seconds_a_run = request.seconds_a_run};
@@ -88,7 +89,7 @@ int compare_again(const AgainRequest& request) {
   const bool whole = sweep::run_again(missing, options, events);
   progress.clear();
   if (!whole) {
-    notice(fmt::format("interrupted; the same command goes on from what is in {}", request.out));
+    notice(fmt::format("interrupted; the same command continues from the results in {}", request.out));
     return kInterrupted;
   }
   const std::vector<sweep::Difference> differences = sweep::differences(rows, made);
@@ -100,9 +101,10 @@ int compare_again(const AgainRequest& request) {
     print(sweep::difference_table(differences, harness::Style::of_file(STDOUT_FILENO)));
     if (there > rows.size())
       print(
-          fmt::format("{} runs were not made again: stopped for their time, or of other scenes and engines\n",
+          fmt::format("{} runs were not repeated: they exceeded the time limit, or their scenes or engines "
+                      "are not available\n",
                       there - rows.size()));
-    print(sweep::all_same(differences) ? "all runs are the same to the bit\n"
+    print(sweep::all_same(differences) ? "all runs are identical to the bit\n"
                                        : "not all runs are the same\n");
   }
   return sweep::all_same(differences) ? kOk : kCheckFailed;

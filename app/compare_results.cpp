@@ -38,7 +38,7 @@ bool are_results(const std::string& name) {
   if (!harness::sweep::holds_rows(name)) return false;
   if (is_scenario(name))
     throw UsageError(
-        fmt::format("'{0}' is a scenario and a folder of results: './{0}' means the folder", name));
+        fmt::format("'{0}' is both a scenario and a folder of results; './{0}' means the folder", name));
   return true;
 }
 
@@ -52,7 +52,7 @@ bool mean_results(const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (!are_results(name)) others += fmt::format("{}'{}'", others.empty() ? "" : ", ", name);
   throw UsageError(fmt::format(
-      "compare takes scenarios, or two sets of results (folders that hold a results.jsonl): not both, not {}",
+      "compare takes either scenarios or two sets of results (folders with a results.jsonl), not {}",
       others.empty() ? std::to_string(count) : "one; no results are in " + others));
 }
 

@@ -57,9 +57,10 @@ std::string as_text(const Style& style) {
     out += "  " + harness::wrap(std::string(backend->summary()), style.width - 2, 2) + "\n";
     if (identity.foreign_cost)
       out += "  " +
-             harness::wrap("its costs are those of WebAssembly or JavaScript, not ranked with native ones; " +
-                               versions_of(*backend),
-                           style.width - 2, 2) +
+             harness::wrap(
+                 "its costs are those of WebAssembly or JavaScript and are not ranked with native engines; " +
+                     versions_of(*backend),
+                 style.width - 2, 2) +
              "\n";
     for (const reference::Option& option : backend->options()) {
       const std::string text = fmt::format("--set {}={}  {}", option.name, option.fallback, option.help);
@@ -93,13 +94,14 @@ std::string as_json() {
 }  // namespace
 
 void add_engines(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("engines", "the engines: version, precision, options, and why one is missing");
+  CLI::App* command = app.add_subcommand(
+      "engines", "list the engines with version, precision and options, and why one is missing");
   auto format = std::make_shared<std::string>("console");
   command->add_option("--format", *format, "console or json")->check(CLI::IsMember({"console", "json"}));
   auto wanted = std::make_shared<std::vector<std::string>>();
   command
-      ->add_option("--install", *wanted, "instead: install an engine from npm, in a version; may be repeated")
+      ->add_option("--install", *wanted,
+                   "instead: install an engine from npm, optionally in a version; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME[@VERSION]");
   command->footer(

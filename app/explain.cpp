@@ -21,7 +21,7 @@ void add_explain(CLI::App& app, Action& chosen) {
     SettingsOptions settings;
   };
   CLI::App* command = app.add_subcommand(
-      "explain", "what plumb does for a scene: its stages, why each is there, what it costs");
+      "explain", "show how plumb computes a scene: its stages, the reason for each, and its cost");
   auto options = std::make_shared<Options>();
   command->add_option("name", options->name, "a scenario or a scene file")
       ->required()

@@ -48,18 +48,18 @@ int start_front(const FrontOptions& options) {
 
 void add_front(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "front", "from results: each engine's front, cost at equal error, error at equal cost, dominance");
+      "front",
+      "from results: each engine's Pareto front, cost at equal error, error at equal cost, dominance");
   auto options = std::make_shared<FrontOptions>();
   command->add_option("results", options->folder, "a folder that `plumb sweep` wrote, or a results.jsonl")
       ->required()
       ->type_name("DIR");
   add_metric(*command, options->metric,
-             "that the fronts are of (default: position_error, or what the scene has)");
+             "error of the fronts (default: position_error, or the scene's own metric)");
   command
-      ->add_option(
-          "--machine", options->machine,
-          "kind of machine whose costs are taken (default: fronts of each; for dominance and data, in each "
-          "scene the kind with the most)")
+      ->add_option("--machine", options->machine,
+                   "kind of machine whose costs are used (default: fronts of each kind; for dominance and "
+                   "data, the kind with the most costs in each scene)")
       ->type_name("NAME");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));

@@ -68,14 +68,13 @@ std::string missing_text(const std::string& folder, const cluster::Survey& surve
          Ink::Red);
   }
   for (const auto& [number, why] : survey.damaged)
-    line(fmt::format("damaged: {} ({}); `plumb work {} --unit {} --again` does it again", number, why, folder,
+    line(fmt::format("damaged: {} ({}); `plumb work {} --unit {} --again` repeats it", number, why, folder,
                      number),
          Ink::Red);
   if (!survey.noisy.empty())
-    line(fmt::format(
-             "others used the machine during: {}; `plumb plan {} --next` has them measured again, elsewhere "
-             "if there are other machines, twice at most",
-             cluster::ranges(survey.noisy), folder),
+    line(fmt::format("disturbed by other programs: {}; `plumb plan {} --next` plans further measurements, at "
+                     "most two, on other machines if there are any",
+                     cluster::ranges(survey.noisy), folder),
          Ink::Yellow);
   return out;
 }
@@ -100,13 +99,13 @@ int status(const GatherOptions& options) {
   const double share = plan.units.empty()
                            ? 1
                            : static_cast<double>(survey.done.size()) / static_cast<double>(plan.units.size());
-  print(fmt::format("{} {} of {} units, {} of work done", bar(share, 40), survey.done.size(),
+  print(fmt::format("{} {} of {} units, {} of computing done", bar(share, 40), survey.done.size(),
                     plan.units.size(), time_text(survey.seconds_done)));
   if (survey.seconds_left > 0) {
     const std::size_t workers = std::max<std::size_t>(1, survey.running.size());
     print(fmt::format(", about {} left", time_text(survey.seconds_left)));
     if (workers > 1)
-      print(fmt::format(": {} with the {} at work",
+      print(fmt::format(": {} with the {} workers that run",
                         time_text(survey.seconds_left / static_cast<double>(workers)), workers));
   }
   print("\n" + machines_text(survey) + missing_text(options.folder, survey, style));
@@ -122,10 +121,10 @@ std::string lines_text(const cluster::Gathered& gathered, const std::string& out
     statuses += fmt::format("{}{} {}", statuses.empty() ? "" : ", ", count, status);
   if (!statuses.empty()) text += statuses + "\n";
   if (gathered.cut_short > 0)
-    text += fmt::format("{} cut short, left out\n", plural(gathered.cut_short, "last line"));
+    text += fmt::format("{} incomplete, left out\n", plural(gathered.cut_short, "last line"));
   if (gathered.twice > 0) text += fmt::format("{} done twice, counted once\n", plural(gathered.twice, "run"));
   if (!gathered.differ.empty())
-    text += fmt::format("of these {} differ, first {}: the machines do not compute the same\n",
+    text += fmt::format("{} of these differ, the first is {}: the machines do not compute the same results\n",
                         gathered.differ.size(), gathered.differ.front());
   return text;
 }
@@ -143,7 +142,7 @@ int gather(const GatherOptions& options) {
     print(missing_text(options.folder, gathered.survey, style));
     print(fmt::format(
         "{} of {} units are done{}\n", gathered.survey.done.size(), plan.units.size(),
-        missing.empty() ? "" : fmt::format("; `plumb submit {} --on ...` does the rest", options.folder)));
+        missing.empty() ? "" : fmt::format("; `plumb submit {} --on ...` runs the rest", options.folder)));
   }
   flush();
   int code = missing.empty() && gathered.survey.damaged.empty() ? kOk : kCheckFailed;
@@ -165,7 +164,8 @@ void add_common(CLI::App& command, GatherOptions& options) {
       ->check(CLI::IsMember({"console", "json"}));
   command
       .add_option("--expiry", options.expiry,
-                  "s after which a claim that is not renewed is a dead machine's (default 300)")
+                  "age in s at which a claim that is not renewed expires, because its machine is taken for "
+                  "dead (default 300)")
       ->type_name("T");
 }
 
@@ -173,26 +173,25 @@ void add_common(CLI::App& command, GatherOptions& options) {
 
 void add_gather(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "gather", "merge the units that are done: the usual results and report, and what is missing");
+      "gather", "merge the results of the finished units, write the report, and list the missing units");
   auto options = std::make_shared<GatherOptions>();
   add_common(*command, *options);
   command
       ->add_option("--out", options->out,
-                   "folder for the results; those there are replaced (default results)")
+                   "folder for the results; existing results are replaced (default results)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_flag("--no-report", options->no_report, "leave report.html out; `plumb report DIR` writes it");
   command->footer(
-      "Examples:\n  plumb gather work\n  plumb gather work --out night --no-report\n"
-      "It may be run at any time, also twice at once. See docs/cluster.md. Exit codes: 0 all units are "
-      "there, 1\n"
-      "some are missing, 2 usage.");
+      "Examples:\n  plumb gather work\n  plumb gather work --out night --no-report\nIt may be run at any "
+      "time, also several times at once. See docs/cluster.md. Exit codes: 0 all units are there, 1\nsome are "
+      "missing, 2 usage.");
   command->callback([&chosen, options] { chosen = [options] { return gather(*options); }; });
 }
 
 void add_status(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("status", "how far a folder of work is, what failed, how long it will take");
+  CLI::App* command = app.add_subcommand(
+      "status", "show the progress of a folder of work, failed units, and the remaining time");
   auto options = std::make_shared<GatherOptions>();
   add_common(*command, *options);
   command->footer("Examples:\n  plumb status work\n  plumb status work --format json");

@@ -46,7 +46,7 @@ int guarded(const std::string& engine, const std::function<int()>& work) {
   if (number == SIGINT || harness::interrupted()) return kInterrupted;
   const char* name = sigabbrev_np(number);
   throw Error(Error::Kind::Run, fmt::format("engine '{}'", engine), "", "",
-              fmt::format("crashed with signal {} (SIG{}); what came before is on stdout", number,
+              fmt::format("crashed with signal {} (SIG{}); the output until then is on stdout", number,
                           name != nullptr ? name : "?"));
 }
 

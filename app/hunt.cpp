@@ -60,8 +60,8 @@ void choose(const std::vector<std::string>& names, hunting::HuntOptions& what) {
     }
     const hunting::Idiom* idiom = &hunting::find_idiom(name);
     if (idiom->role != hunting::Idiom::Role::Structure)
-      throw UsageError(
-          fmt::format("'{}' is no structure: it comes with others by itself; see `plumb hunt --list`", name));
+      throw UsageError(fmt::format(
+          "'{}' is not a structure but is added to structures automatically; see `plumb hunt --list`", name));
     if (std::find(out.begin(), out.end(), idiom) == out.end()) out.push_back(idiom);
   }
 }
@@ -165,7 +165,8 @@ int start_hunt(const HuntCommandOptions& options) {
                     done.scenes, done.runs, done.skipped, done.kinds.size(), options.out));
   }
   if (done.interrupted) {
-    fmt::print(stderr, "plumb: interrupted; the same command goes on from what is in {}\n", options.out);
+    fmt::print(stderr, "plumb: interrupted; the same command continues from the results in {}\n",
+               options.out);
     return kInterrupted;
   }
   return done.kinds.empty() ? kOk : kCheckFailed;
@@ -174,54 +175,51 @@ int start_hunt(const HuntCommandOptions& options) {
 }  // namespace
 
 void add_hunt(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "hunt", "random scenes, judged without an answer sheet: laws, symmetries, engines as jury");
+  CLI::App* command =
+      app.add_subcommand("hunt", "run random scenes, judged by physical laws, symmetries and other engines");
   auto options = std::make_shared<HuntCommandOptions>();
   command
       ->add_option("families", options->names,
-                   "structures to draw from (default: all), see --list; or case files and folders of them, "
-                   "whose scenes "
-                   "are varied")
+                   "families of scenes (default: all), see --list; or case files and folders of them, whose "
+                   "scenes are varied")
       ->type_name("FAMILY|CASE");
   options->engines.add_to(*command);
-  command->add_option("--seed", options->seed, "draws other scenes (default 1)")
+  command->add_option("--seed", options->seed, "seed of the random scenes (default 1)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
-  command->add_option("--minutes", options->minutes, "how long to hunt (default 10)")->type_name("T");
-  command->add_option("--scenes", options->scenes, "stop after so many scenes")
+  command->add_option("--minutes", options->minutes, "duration of the hunt, min (default 10)")
+      ->type_name("T");
+  command->add_option("--scenes", options->scenes, "stop after this number of scenes")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command
       ->add_option("--shrinks", options->shrinks,
-                   "findings of a judge, engine and family that are made smaller (default 3)")
+                   "number of findings of a judge, engine and family that are shrunk (default 3)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
-  command->add_option("--jobs", options->jobs, "processes (default: one a core)")
+  command->add_option("--jobs", options->jobs, "number of processes (default: one per core)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command
       ->add_option("--out", options->out,
-                   "folder for what is found; a hunt that is there goes on (default hunt)")
+                   "folder for the findings; an existing hunt continues (default hunt)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
-  command->add_option("--replay", options->replay, "a finding's file, to be run and judged again")
+  command->add_option("--replay", options->replay, "run and judge the file of a finding again")
       ->type_name("FILE");
-  command->add_flag("--list", options->list, "what scenes are composed of");
-  command->add_option("--draw", options->draw, "print the scene of that number, from 0, and run nothing")
+  command->add_flag("--list", options->list, "list the parts of which scenes are composed");
+  command->add_option("--draw", options->draw, "print the scene with this number, from 0, without running it")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->footer(
-      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-float,box2d --seed 7\n"
-      "  plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n"
-      "  plumb hunt my_case.json museum --minutes 5\n"
-      "  plumb hunt --replay hunt/findings/001-energy.json\n"
-      "The same seed draws the same scenes on every machine. Stopping at any instant loses at most the "
-      "scenes\n"
-      "under way; the same command goes on. See docs/hunting.md. Exit codes: 0 nothing was found; 1 "
-      "something\n"
-      "was; 2 usage; 130 interrupted.");
+      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-float,box2d --seed 7\n  "
+      "plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n  plumb hunt my_case.json "
+      "museum --minutes 5\n  plumb hunt --replay hunt/findings/001-energy.json\nThe same seed gives the same "
+      "scenes on every machine. If it is stopped, at most the scenes that run are lost;\nthe same command "
+      "continues. See docs/hunting.md. Exit codes: 0 nothing was found; 1 something\nwas; 2 usage; 130 "
+      "interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_hunt(*options); }; });
 }
 

@@ -30,7 +30,7 @@ int start_limits(const LimitsOptions& options) {
   const std::string kept = std::filesystem::path(options.out).replace_extension(".jsonl").string();
   harness::write_whole(kept, harness::limits::to_jsonl(data));
   harness::write_whole(options.out, page);
-  print(fmt::format("{} has the measured part anew, from what is kept in {}\n", options.out, kept));
+  print(fmt::format("{} has the new measured part; its data are in {}\n", options.out, kept));
   flush();
   return kOk;
 }
@@ -39,15 +39,16 @@ int start_limits(const LimitsOptions& options) {
 
 void add_limits(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "limits", "write the measured part of docs/limits.md from what stress and thresholds found");
+      "limits", "write the measured part of docs/limits.md from the results of stress and thresholds");
   auto options = std::make_shared<LimitsOptions>();
   command
-      ->add_option("folder", options->folder, "with stress.jsonl, thresholds.jsonl or both (default stress)")
+      ->add_option("folder", options->folder,
+                   "folder with stress.jsonl, thresholds.jsonl or both (default stress)")
       ->type_name("DIR");
   command
       ->add_option("--out", options->out,
-                   "page whose part between the markers is replaced; what it is made of is kept beside it\n"
-                   "as .jsonl (default: the part goes to stdout)")
+                   "page whose part between the markers is replaced; its data are written beside it "
+                   "as\n.jsonl (default: write the part to stdout)")
       ->check(problem_with_path)
       ->type_name("FILE");
   command->footer(

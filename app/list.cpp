@@ -106,7 +106,8 @@ std::string cases_as_text(const std::vector<std::string>& names, const Style& st
   for (const std::string& name : names) {
     const std::vector<std::string> files = case_files(name);
     if (files.empty())
-      throw UsageError(fmt::format("'{}' is no case file and no folder of them, see docs/cases.md", name));
+      throw UsageError(
+          fmt::format("'{}' is neither a case file nor a folder of case files; see docs/cases.md", name));
     for (const std::string& file : files) {
       const harness::case_file::CaseFile read = harness::case_file::read_case(file);
       std::vector<std::string> expected;
@@ -131,31 +132,34 @@ void add_list(CLI::App& app, Action& chosen) {
     std::string page, pictures;
     bool limits = false;
   };
-  CLI::App* command = app.add_subcommand("list", "the scenarios by topic, with their variants and sizes");
+  CLI::App* command =
+      app.add_subcommand("list", "list the scenarios by topic, with their variants and sizes");
   auto options = std::make_shared<Options>();
-  command->add_option("files", options->files, "instead: case files and folders of them")
+  command->add_option("files", options->files, "list these case files and folders of case files instead")
       ->type_name("FILE|DIR");
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
-  command->add_option("--filter", options->filter.text, "cases whose name, summary or source has this text")
+  command
+      ->add_option("--filter", options->filter.text,
+                   "only cases whose name, summary or source contains this text")
       ->type_name("TEXT");
-  command->add_option("--truth", options->filter.truth, "cases whose truth is of this kind")
+  command->add_option("--truth", options->filter.truth, "only cases whose truth is of this kind")
       ->check(CLI::IsMember({"closed_form", "integrated", "equilibrium"}));
   command
       ->add_option("--needs", options->filter.needs,
-                   "cases that need each of these: kinds of shapes, joints and forces, and features")
+                   "only cases that need all of these: kinds of shapes, joints and forces, and features")
       ->delimiter(',')
       ->check(CLI::IsMember(harness::all_needs()))
       ->type_name("NAME,...");
   command->add_flag("--known-limits", options->limits,
-                    "the bounds that engines are known to miss, as docs/known-limits.md");
+                    "print the bounds that engines are known to miss, as in docs/known-limits.md");
   command
       ->add_option("--page", options->page,
-                   "every case with its source and who agrees, as docs/scenarios.md: from a file that\n"
-                   "`plumb agreement --format json` wrote")
+                   "print every case with its source and the engines that agree, as in docs/scenarios.md, "
+                   "from a\nfile that `plumb agreement --format json` wrote")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
-  command->add_option("--pictures", options->pictures, "draw each scenario into this folder, as SVG")
+  command->add_option("--pictures", options->pictures, "draw each scenario as SVG into this folder")
       ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
   command->footer(

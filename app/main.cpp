@@ -54,7 +54,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
   if (first == "demo" || first == "view") return run_window(argc, argv);
   if (first.front() != '-' && std::find(names.begin(), names.end(), first) == names.end())
     throw UsageError(
-        fmt::format("there is no subcommand '{}'{}; see `plumb --help`", first, did_you_mean(first, names)));
+        fmt::format("'{}' is not a subcommand{}; see `plumb --help`", first, did_you_mean(first, names)));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   // Make such writes fail with an error, which is reported, instead of ending the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App app("plumb, a 2D rigid-body engine and the harness that proves it", "plumb");
+  CLI::App app("plumb, a 2D rigid-body engine and the harness that verifies it", "plumb");
   app.set_version_flag("--version", fmt::format("plumb {}", harness::version()));
   app.require_subcommand(0, 1);
   app.footer(

@@ -18,7 +18,9 @@ namespace {
 std::string problem_with_name(const std::string& name) {
   const bool letters = name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos &&
                        !name.empty() && name[0] >= 'a' && name[0] <= 'z';
-  return letters ? "" : "a scenario's name has lower-case letters, digits and '_', and starts with a letter";
+  return letters
+             ? ""
+             : "a scenario's name consists of lower-case letters, digits and '_', and starts with a letter";
 }
 
 // Writes `folder`/`name`.cpp, which must not exist yet.
@@ -29,9 +31,9 @@ void write_scenario(const std::string& name, const std::string& folder) {
     text.replace(at, stand_in.size(), name);
   const std::filesystem::path path = std::filesystem::path(folder) / (name + ".cpp");
   if (!std::filesystem::is_directory(folder))
-    throw UsageError(
-        fmt::format("there is no folder '{}': run this in a checkout, or name one with --folder", folder));
-  if (std::filesystem::exists(path)) throw UsageError(fmt::format("'{}' is there already", path.string()));
+    throw UsageError(fmt::format(
+        "there is no folder '{}'; run this in a checkout, or give a folder with --folder", folder));
+  if (std::filesystem::exists(path)) throw UsageError(fmt::format("'{}' exists already", path.string()));
   std::ofstream file(path);
   file << text;
   file.flush();
@@ -46,7 +48,7 @@ void add_new(CLI::App& app, Action& chosen) {
   struct Options {
     std::string kind, name, folder = "scenarios";
   };
-  CLI::App* command = app.add_subcommand("new", "writes the file of a new scenario, which builds and passes");
+  CLI::App* command = app.add_subcommand("new", "write the file of a new scenario, which builds and passes");
   auto options = std::make_shared<Options>();
   command->add_option("kind", options->kind, "what to write")->required()->check(CLI::IsMember({"scenario"}));
   command->add_option("name", options->name, "its name, as in `plumb compare NAME`")

@@ -56,7 +56,7 @@ std::string npm(const std::vector<std::string>& arguments, bool silent) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Error(Error::Kind::Io, "npm", arguments.front(), printable(arguments.back()),
-                "failed; what it said is above");
+                "failed; its output is above");
   return out;
 }
 
@@ -79,7 +79,7 @@ NamedVersion named_version(const std::string& text) {
     const std::string version = at == std::string::npos ? engine.version : text.substr(at + 1);
     if (!is_version(version))
       throw UsageError(
-          fmt::format("'{}' is no version: give numbers, like {}@{}", version, name, engine.version));
+          fmt::format("'{}' is not a version; give numbers, like {}@{}", version, name, engine.version));
     return {engine, version};
   }
   throw UsageError(fmt::format("npm has no engine '{}' for plumb{}", name, did_you_mean(name, names)));

@@ -73,7 +73,7 @@ Given parse(std::vector<std::string> words) {
   for (CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
     if (one->get_name() == command) parsed = one;
   if (parsed == nullptr)
-    throw UsageError(fmt::format("a plan is not made of '{}': it takes {}", command, kCommands));
+    throw UsageError(fmt::format("'{}' cannot be planned; plan takes {}", command, kCommands));
   std::reverse(words.begin(), words.end());
   try {
     app.parse(words);
@@ -91,10 +91,12 @@ Given parse(std::vector<std::string> words) {
     }
   }
   for (const char* name : {"list", "draw", "replay", "explore", "from"})
-    if (out.has(name)) throw UsageError(fmt::format("--{} runs nothing that a plan could be made of", name));
+    if (out.has(name))
+      throw UsageError(fmt::format("--{} runs nothing, so that there is nothing to plan", name));
   for (const char* name : {"out", "format"})
     if (out.has(name))
-      throw UsageError(fmt::format("--{} goes to `plumb gather`: each unit has a folder of its own", name));
+      throw UsageError(
+          fmt::format("--{} is an option of `plumb gather`: each unit has its own folder", name));
   return out;
 }
 
@@ -206,7 +208,7 @@ class Splitter {
         for (const harness::thresholds::Threshold& one : harness::thresholds::all()) add(one.name);
     } else {
       if (given_.command == "compare" && mean_results(given_.names))
-        throw UsageError("compare OLD NEW is done at once: there is nothing to plan");
+        throw UsageError("compare OLD NEW needs no plan: it runs no scenes");
       const int size = std::stoi(given_.value("size", "0"));
       for (const std::string& name : given_.names)
         if (given_.command == "sweep" && is_file(name)) add(kept_file(name));
@@ -228,8 +230,7 @@ class Splitter {
     const fs::path to = files / name;
     std::error_code code;
     if (fs::exists(to, code) && harness::read_text(to.string()) != text)
-      throw UsageError(
-          fmt::format("the plan has another file '{}' already: give this one another name", name));
+      throw UsageError(fmt::format("the plan already has another file '{}'; rename this one", name));
     harness::write_whole(to.string(), text);
     return "{folder}/files/" + name;
   }
@@ -394,7 +395,8 @@ class Splitter {
 
 void tell(const std::string& folder) {
   print(fmt::format(
-      "`plumb submit {0} --on local` does them here, `--on slurm` and `--on parallel` elsewhere\n", folder));
+      "`plumb submit {0} --on local` runs them on this machine, `--on slurm` and `--on parallel` on others\n",
+      folder));
 }
 
 int start_plan(const PlanOptions& options, const std::vector<std::string>& words) {
@@ -407,7 +409,7 @@ int start_plan(const PlanOptions& options, const std::vector<std::string>& words
   }
   const int added =
       cluster::add_to_plan(fs::absolute(options.folder).lexically_normal().string(), std::move(plan));
-  print(fmt::format("{} units, about {:.3g} s in all, {:.2g} s the longest", wanted, seconds, longest));
+  print(fmt::format("{} units, about {:.3g} s in total, {:.2g} s for the longest", wanted, seconds, longest));
   if (added != static_cast<int>(wanted)) print(fmt::format("; {} of them are new", added));
   print("\n");
   tell(options.folder);
@@ -423,11 +425,12 @@ int start_next(const std::string& given) {
   cluster::NextRound next = cluster::next_round(folder, plan, survey);
   plan.units = std::move(next.units);
   if (cluster::add_to_plan(folder, std::move(plan)) == 0) {
-    notice("the results so far call for no more units");
+    notice("the results require no further units");
     return kNothingFree;
   }
-  print(fmt::format("{} units go on from what is done, {} are measured again, as others used the machine\n",
-                    next.further, next.again));
+  print(fmt::format(
+      "{} units continue from finished ones, {} are measured again because other programs used the machine\n",
+      next.further, next.again));
   tell(given);
   return kOk;
 }
@@ -445,44 +448,42 @@ cluster::Plan plan_of(const PlanOptions& options, const std::vector<std::string>
 
 void add_plan(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "plan", "split a comparison, sweep, stress map, search or hunt into units for many machines");
+      "plan", "split a comparison, sweep, stress map, search or hunt into units of work for many machines");
   auto options = std::make_shared<PlanOptions>();
   auto next = std::make_shared<bool>(false);
-  command->add_option("folder", options->folder, "folder of work; one that is there gets what it lacks")
+  command->add_option("folder", options->folder, "folder of work; an existing one gets the missing units")
       ->required()
       ->check(problem_with_path)
       ->type_name("FOLDER");
   command
       ->add_option("--unit-seconds", options->unit_seconds,
-                   "s up to which scenes share a unit; 0: each its own (default 60)")
+                   "s; short scenes share a unit up to this time; 0: one unit for each scene (default 60)")
       ->type_name("T");
-  command->add_option("--seeds", options->seeds, "units of a hunt, each with a seed of its own (default 8)")
+  command
+      ->add_option("--seeds", options->seeds, "number of units of a hunt, each with its own seed (default 8)")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
   command
       ->add_option("--earlier", options->earlier,
-                   "folder of results or of work whose times the estimates are from; may be repeated")
+                   "folder of results or of work from which run times are estimated; may be repeated")
       ->allow_extra_args(false)
       ->type_name("DIR");
   command->add_flag("--by-engine", options->by_engine,
-                    "split compare by engine too: no agreement, and costs of one kind of machine alone");
-  command->add_flag(
-      "--next", *next,
-      "instead of a command: what the results so far call for, the costs of a sweep whose fronts "
-      "are found, and units that were disturbed");
+                    "also split compare by engine; then agreement is not computed, and costs come from one "
+                    "kind of machine");
+  command->add_flag("--next", *next,
+                    "instead of a command: plan the further units that the results require, which are the "
+                    "costs of a sweep whose fronts are found, and units that were disturbed");
   command->prefix_command();
   command->footer(
-      "Examples:\n  plumb plan work compare\n  plumb plan work --unit-seconds 30 stress --cell-seconds 60\n"
-      "  plumb plan work --seeds 100 hunt --minutes 30\n  plumb plan work --next\n"
-      "After the folder and plan's own options comes a command as it would be given to plumb: compare, "
-      "sweep,\n"
-      "stress, thresholds, hunt or reality. See docs/cluster.md. Exit codes: 0 planned, 2 usage, 3 --next: "
-      "no more "
-      "is called for.");
+      "Examples:\n  plumb plan work compare\n  plumb plan work --unit-seconds 30 stress --cell-seconds 60\n  "
+      "plumb plan work --seeds 100 hunt --minutes 30\n  plumb plan work --next\nAfter the folder and the "
+      "options of plan, give a command as for plumb itself: compare, sweep,\nstress, thresholds, hunt or "
+      "reality. See docs/cluster.md. Exit codes: 0 planned, 2 usage, 3 --next: no further units.");
   command->callback([&chosen, options, next, command] {
     chosen = [options, next, words = command->remaining()] {
       if (*next && !words.empty())
-        throw UsageError("--next takes no command: it goes on with those of the folder");
+        throw UsageError("--next takes no command; it continues the commands of the folder");
       return *next ? start_next(options->folder) : start_plan(*options, words);
     };
   });

@@ -69,10 +69,10 @@ int start_reality(const RealityOptions& options) {
   const std::vector<const reference::Backend*> engines = chosen_engines(options.engines, programs);
   if (options.published) return run_published(engines, options);
   if (const std::string missing = reality::missing_file(options.data); !missing.empty()) {
-    notice(fmt::format(
-        "there is no '{}' in '{}': the measurements are not part of plumb; docs/reality.md says where "
-        "to get them, --data names their folder",
-        missing, options.data));
+    notice(
+        fmt::format("there is no '{}' in '{}'; the measurements are not part of plumb. docs/reality.md says "
+                    "where to get them; give their folder with --data",
+                    missing, options.data));
     return kNoData;
   }
   harness::catch_interrupts();
@@ -98,14 +98,14 @@ int start_reality(const RealityOptions& options) {
 }  // namespace
 
 void add_reality(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "reality",
-      "engines and laws of impact held against measured motions, the law's error apart from the numerical");
+  CLI::App* command = app.add_subcommand("reality",
+                                         "compare engines and laws of impact with measured motions, and "
+                                         "separate the law's error from the numerical one");
   auto options = std::make_shared<RealityOptions>();
   command
       ->add_option(
           "--data", options->data,
-          "folder with ellipse_impacts.csv and square_drops.csv, see docs/reality.md (default impacts)")
+          "folder with ellipse_impacts.csv and square_drops.csv; see docs/reality.md (default impacts)")
       ->check(problem_with_path)
       ->type_name("DIR");
   options->engines.add_to(*command);
@@ -117,13 +117,12 @@ void add_reality(CLI::App& app, Action& chosen) {
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
-  command->add_option("--seed", options->seed, "of the random halves (default 1)")
+  command->add_option("--seed", options->seed, "seed of the random halves (default 1)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
   command->add_flag("--published", options->published,
-                    "published laws of real matter instead, which need no measurements: bouncing balls, "
-                    "column collapse, dominoes, "
-                    "rocking block");
+                    "compare with published laws instead, which need no measurements: bouncing balls, column "
+                    "collapse, dominoes, rocking block");
   command->footer(
       "Examples:\n  plumb reality --data ~/impacts --out reality\n  plumb reality --engine plumb,box2d "
       "--format csv\n"

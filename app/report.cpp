@@ -39,8 +39,8 @@ int start_report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "report", "results as one HTML file with charts, checks and settings, which any browser opens");
+  CLI::App* command =
+      app.add_subcommand("report", "write results as one HTML file with charts, checks and settings");
   auto options = std::make_shared<ReportOptions>();
   command
       ->add_option(
@@ -53,7 +53,7 @@ void add_report(CLI::App& app, Action& chosen) {
       ->type_name("FILE");
   command
       ->add_option("--picture", options->picture,
-                   "also draw which engine survives which family of `plumb stress`, as SVG")
+                   "also draw which engine survives which family of `plumb stress`, as SVG, into this file")
       ->check(problem_with_path)
       ->type_name("FILE");
   command->footer(

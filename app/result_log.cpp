@@ -39,7 +39,7 @@ ResultLog::ResultLog(const std::string& folder)
   std::filesystem::create_directories(folder, code);
   if (code)
     throw Error(Error::Kind::Io, fmt::format("folder '{}'", folder), "", "",
-                fmt::format("cannot be made: {}; name another with --out", code.message()));
+                fmt::format("cannot be created: {}; choose another with --out", code.message()));
   end_last_line(path_);
   file_.reset(std::fopen(path_.c_str(), "a"));
   if (!file_)

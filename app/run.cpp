@@ -51,7 +51,7 @@ int steps_a_sample(const std::string& rate, double dt) {
   const double wanted = parse_positive("--rate", rate), steps = 1 / (wanted * dt), whole = std::round(steps);
   if (whole < 1 || whole > 1e9 || std::abs(steps - whole) > 1e-6 * steps) {
     throw UsageError(fmt::format(
-        "--rate is '{}': samples lie on steps, so with this dt give {:g}, {:g}, {:g}, ... (or another --dt)",
+        "--rate is '{}', but samples lie on steps: with this dt give {:g}, {:g}, {:g}, ... (or change --dt)",
         rate, 1 / dt, 1 / (2 * dt), 1 / (3 * dt)));
   }
   return static_cast<int>(whole);
@@ -72,11 +72,10 @@ void require_finite(const RunOptions& options, const Scene& scene, double time,
                              s.velocity.x, s.velocity.y, s.angular_velocity};
     if (std::all_of(std::begin(values), std::end(values), [](double value) { return std::isfinite(value); }))
       continue;
-    throw Error(
-        Error::Kind::Run, fmt::format("engine '{}'", options.engine), "", "",
-        fmt::format("the state of body '{}' is not finite at t = {:g} s; what came before is on stdout. A "
-                    "smaller --dt or more --substeps may help",
-                    scene.bodies[i].name, time));
+    throw Error(Error::Kind::Run, fmt::format("engine '{}'", options.engine), "", "",
+                fmt::format("the state of body '{}' is not finite at t = {:g} s; the samples until then are "
+                            "on stdout. Try a smaller --dt or more --substeps",
+                            scene.bodies[i].name, time));
   }
 }
 
@@ -149,7 +148,7 @@ int start_run(RunOptions options) {
   if (!options.parameters.empty()) {
     if (options.engine.empty()) options.engine = "plumb-precise";
     if (options.engine != "plumb-precise" || options.forces)
-      throw UsageError("--sensitivities are of plumb-precise, in place of the motion or of --forces");
+      throw UsageError("--sensitivities needs plumb-precise, and cannot be combined with --forces");
   }
   const auto programs = programs_of(options.commands);
   const reference::Backend& backend = one_engine(options.engine, programs);
@@ -176,7 +175,8 @@ int start_run(RunOptions options) {
 }  // namespace
 
 void add_run(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("run", "run a scene on an engine; the trajectory goes to stdout");
+  CLI::App* command =
+      app.add_subcommand("run", "run a scene on an engine, and write the trajectory to stdout");
   auto options = std::make_shared<RunOptions>();
   command->add_option("name", options->name, "a scenario or a scene file (- reads stdin)")
       ->required()
@@ -187,18 +187,19 @@ void add_run(CLI::App& app, Action& chosen) {
   add_size(*command, options->size);
   options->settings.add_to(*command);
   command
-      ->add_option("--duration", options->duration, "s (default: the scenario's, 10 for a file's own scene)")
+      ->add_option("--duration", options->duration,
+                   "duration in s (default: the scenario's, 10 for a scene from a file)")
       ->type_name("T");
-  command->add_option("--rate", options->rate, "samples a second (default: every step)")->type_name("HZ");
-  command->add_option("--format", options->format, "csv or json, a line a sample (default csv)")
+  command->add_option("--rate", options->rate, "samples per second (default: every step)")->type_name("HZ");
+  command->add_option("--format", options->format, "csv or json, one line per sample (default csv)")
       ->check(CLI::IsMember({"csv", "json"}));
   command->add_flag("--forces", options->forces,
-                    "print the forces of joints and contacts in place of the motion (plumb-precise)");
+                    "print the forces of joints and contacts instead of the motion (plumb-precise)");
   command
-      ->add_option("--sensitivities", options->parameters,
-                   "print d state / d parameter for these numbers of the scene in place of the motion "
-                   "(plumb-precise): gravity.y, bodies.NAME.mass, bodies.NAME.shapes.friction, "
-                   "joints.NAME.length, forces[0].stiffness")
+      ->add_option(
+          "--sensitivities", options->parameters,
+          "print d state / d parameter for these numbers of the scene instead of the motion (plumb-precise): "
+          "gravity.y, bodies.NAME.mass, bodies.NAME.shapes.friction, joints.NAME.length, forces[0].stiffness")
       ->delimiter(',')
       ->type_name("PARAM,...");
   command->footer(

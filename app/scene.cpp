@@ -15,7 +15,7 @@ void add_scene(CLI::App& app, Action& chosen) {
     int size = 0;
   };
   CLI::App* command =
-      app.add_subcommand("scene", "a scenario's scene as JSON, for `plumb run` or another program");
+      app.add_subcommand("scene", "print a scenario's scene as JSON, for `plumb run` or another program");
   auto options = std::make_shared<Options>();
   command->add_option("name", options->name, "a scenario, or a file to check and print")
       ->required()

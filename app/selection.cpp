@@ -16,11 +16,9 @@ namespace plumb::app {
 
 void EngineOptions::add_to(CLI::App& command) {
   command
-      .add_option(
-          "--engine", names,
-          "engines, separated by commas, with @VERSION for those from npm; linked: all that are linked "
-          "in; all: those "
-          "from npm too")
+      .add_option("--engine", names,
+                  "engines, separated by commas, with @VERSION for those from npm; linked: all native ones; "
+                  "all: also those from npm")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("E");
@@ -29,10 +27,9 @@ void EngineOptions::add_to(CLI::App& command) {
 
 void add_engine_command(CLI::App& command, std::vector<std::string>& commands) {
   command
-      .add_option(
-          "--engine-command", commands,
-          "one more engine: a program that speaks docs/protocol.md; may be repeated. --engine then selects "
-          "it by its NAME")
+      .add_option("--engine-command", commands,
+                  "add an engine: a program that speaks the line protocol (docs/protocol.md); may be "
+                  "repeated. --engine then selects it by its NAME")
       ->allow_extra_args(false)
       ->type_name("NAME=COMMAND");
 }
@@ -90,8 +87,8 @@ void append_case(const std::string& file, std::vector<scenarios::Instance>& out)
   scenarios::Instance instance = harness::case_file::case_instance(file);
   for (const scenarios::Instance& other : out)
     if (other.label() == instance.label())
-      throw UsageError(fmt::format("'{}': there is another case by the name '{}'; give each its own", file,
-                                   instance.label()));
+      throw UsageError(
+          fmt::format("'{}': another case is also named '{}'; rename one", file, instance.label()));
   out.push_back(std::move(instance));
 }
 
@@ -101,7 +98,7 @@ std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>
   std::vector<scenarios::Instance> out;
   const auto append = [&](const std::string& name) {
     if (const std::vector<std::string> files = case_files(name); !files.empty()) {
-      if (size > 0) throw UsageError(fmt::format("--size goes with a scenario's name, not with '{}'", name));
+      if (size > 0) throw UsageError(fmt::format("--size needs the name of a scenario, not '{}'", name));
       for (const std::string& file : files) append_case(file, out);
       return;
     }
@@ -111,7 +108,7 @@ std::vector<scenarios::Instance> chosen_instances(const std::vector<std::string>
   if (!wanted.empty()) return out;
   for (const scenarios::Scenario& scenario : scenarios::all())
     if (size == 0 || scenario.scales) append(scenario.name);
-  if (out.empty()) throw UsageError("--size is given, but no scenario scales");
+  if (out.empty()) throw UsageError("--size is given, but none of the scenarios has sizes");
   return out;
 }
 

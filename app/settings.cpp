@@ -11,8 +11,8 @@ void SettingsOptions::add_to(CLI::App& command) {
       .add_option("--dt", dt,
                   "step in s, like 0.01 or 1/240 (default 1/60); for an adaptive engine the sampling grid")
       ->type_name("DT");
-  command.add_option("--substeps", substeps, "equal parts of a step")->type_name("N");
-  command.add_option("--tolerance", tolerance, "of an adaptive engine, like 1e-9")->type_name("X");
+  command.add_option("--substeps", substeps, "substeps per step")->type_name("N");
+  command.add_option("--tolerance", tolerance, "tolerance of an adaptive engine, like 1e-9")->type_name("X");
   command.add_option("--set", set, "an engine's own option, see `plumb engines`; may be repeated")
       ->type_name("OPTION=VALUE")
       ->allow_extra_args(false);

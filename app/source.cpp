@@ -36,12 +36,13 @@ double duration_of(const Scene& scene, double otherwise) {
 }  // namespace
 
 void add_size(CLI::App& command, int& size) {
-  command.add_option("--size", size, "how large, where the scenario scales")
+  command.add_option("--size", size, "size, if the scenario has sizes")
       ->type_name("N")
       ->check([](const std::string& text) -> std::string {
         int number = 0;
         const bool whole = CLI::detail::lexical_cast(text, number);
-        return whole && number > 0 ? "" : fmt::format("'{}' is no size: give a whole number above 0", text);
+        return whole && number > 0 ? ""
+                                   : fmt::format("'{}' is not a size; give a whole number above 0", text);
       });
 }
 
@@ -50,7 +51,7 @@ scenarios::Instance one_instance(const std::string& name, int size) {
   if (members.size() > 1) {
     std::string others;
     for (const auto& member : members) others += (others.empty() ? "" : ", ") + member.label();
-    notice(fmt::format("'{}' is {} scenes: {}; this is the first", name, members.size(), others));
+    notice(fmt::format("'{}' has {} scenes: {}; the first is used", name, members.size(), others));
   }
   return members.front();
 }
@@ -62,14 +63,16 @@ bool is_file(const std::string& text) {
 }
 
 void add_file_duration(CLI::App& command, std::string& duration) {
-  command.add_option("--duration", duration, "s that a file's scene runs (default: its scenario's, else 10)")
+  command
+      .add_option("--duration", duration,
+                  "duration in s of a scene from a file (default: its scenario's, else 10)")
       ->type_name("T")
       ->check([](const std::string& text) -> std::string {
         try {
           parse_positive("--duration", text);
           return "";
         } catch (const UsageError&) {
-          return fmt::format("'{}' is no time: give a number of seconds above 0", text);
+          return fmt::format("'{}' is not a time; give a number of seconds above 0", text);
         }
       });
 }
@@ -77,7 +80,8 @@ void add_file_duration(CLI::App& command, std::string& duration) {
 scenarios::Instance file_instance(const std::string& path, const std::string& duration,
                                   std::vector<std::unique_ptr<scenarios::Scenario>>& kept) {
   if (harness::case_file::is_case(path)) {
-    if (!duration.empty()) throw UsageError("--duration goes with a scene file: a case file has its own");
+    if (!duration.empty())
+      throw UsageError("--duration needs a scene file: a case file has its own duration");
     return harness::case_file::case_instance(path);
   }
   Source source = load(path, 0);
@@ -115,7 +119,7 @@ Source load(const std::string& name_or_file, int size) {
   }
   if (size > 0)
     throw Error(Error::Kind::Value, "--size", "", std::to_string(size),
-                "goes with a scenario's name, not with a file");
+                "needs the name of a scenario, not a file");
   if (harness::case_file::is_case(name_or_file)) {
     harness::case_file::CaseFile file = harness::case_file::read_case(name_or_file);
     return {std::move(file.problem.scene), file.problem.duration, {}};

@@ -80,7 +80,7 @@ stress::StressOptions what_to_run(const StressCommandOptions& options,
   const double megabytes =
       options.cell_memory.empty() ? kMegabytes : parse_positive("--cell-memory", options.cell_memory);
   if (megabytes < 1 || megabytes > 1e9)
-    throw UsageError(fmt::format("--cell-memory is '{}': give megabytes, like 2048", options.cell_memory));
+    throw UsageError(fmt::format("--cell-memory is '{}'; give megabytes, like 2048", options.cell_memory));
   what.cell_memory = static_cast<std::size_t>(megabytes) << 20;
   return what;
 }
@@ -105,7 +105,7 @@ int start_stress(const StressCommandOptions& options) {
   const stress::Stressed done = stress::stress(what, events);
   progress.clear();
   if (done.interrupted) {
-    notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
+    notice(fmt::format("interrupted; the same command continues from the results in {}", options.out));
     return kInterrupted;
   }
   if (options.format != "console") {
@@ -120,39 +120,37 @@ int start_stress(const StressCommandOptions& options) {
 }  // namespace
 
 void add_stress(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("stress", "the extremes: where each engine breaks, as maps along an axis");
+  CLI::App* command = app.add_subcommand(
+      "stress", "show where each engine breaks in families of scenes, as maps along an axis");
   auto options = std::make_shared<StressCommandOptions>();
   command->add_option("families", options->names, "families of scenes (default: all); see --list")
       ->type_name("FAMILY");
   options->engines.add_to(*command);
   command
-      ->add_option("--out", options->out,
-                   "folder for the cells; a run that is there goes on (default stress)")
+      ->add_option("--out", options->out, "folder for the cells; an existing run continues (default stress)")
       ->check(problem_with_path)
       ->type_name("DIR");
-  command->add_option("--jobs", options->jobs, "cells at a time (default: one a core)")
+  command->add_option("--jobs", options->jobs, "number of cells at the same time (default: one per core)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  command->add_flag("--quick", options->quick, "every third value of each axis, and 3 s a cell");
-  command->add_option("--timeout", options->cell_seconds, "s that a run may take (default 10)")
+  command->add_flag("--quick", options->quick, "every third value of each axis, and 3 s per cell");
+  command->add_option("--timeout", options->cell_seconds, "time limit of a run, s (default 10)")
       ->type_name("T");
   command
       ->add_option("--cell-memory", options->cell_memory,
-                   "megabytes of address space that a cell's process may take (default 2048)")
+                   "limit of the address space of a cell's process in megabytes (default 2048)")
       ->type_name("MB");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
-  command->add_flag("--list", options->list, "the families, with their axes and bounds");
+  command->add_flag("--list", options->list, "list the families, with their axes and bounds");
   // Older names, not in the help.
   command->add_option("--cell-seconds", options->cell_seconds)->group("");
   command->footer(
       "Examples:\n  plumb stress --quick\n  plumb stress mass_ratio_stack stack_height --engine "
-      "plumb-float,box2d\n"
-      "  plumb stress --list\n  plumb stress bullet_circle --engine-command \"mine=python3 my_engine.py\"\n"
-      "Each cell runs in a process of its own. Stopping at any instant loses at most the cells under way;\n"
-      "the same command goes on. See docs/stress.md. Exit codes: 0 done, whatever broke; 2 usage; 130\n"
-      "interrupted.");
+      "plumb-float,box2d\n  plumb stress --list\n  plumb stress bullet_circle --engine-command "
+      "\"mine=python3 my_engine.py\"\nEach cell runs in its own process. If it is stopped, at most the cells "
+      "that run are lost; the same command\ncontinues. See docs/stress.md. Exit codes: 0 done, whatever the "
+      "outcomes; 2 usage; 130\ninterrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_stress(*options); }; });
 }
 

@@ -52,7 +52,7 @@ int run_script(const std::string& script) {
 // Runs the units on this machine, `jobs` at a time, and gathers the results.
 int run_here(const std::string& folder, const SubmitOptions& options, const LocalWork& work) {
   if (!do_here(work)) {
-    notice(fmt::format("interrupted; `plumb submit {} --on local` goes on", options.folder));
+    notice(fmt::format("interrupted; `plumb submit {} --on local` continues", options.folder));
     return kInterrupted;
   }
   flush();
@@ -153,41 +153,45 @@ int start_submit(SubmitOptions options) {
 }  // namespace
 
 void add_submit(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("submit", "do a folder of work by Slurm, by GNU parallel, or here");
+  CLI::App* command = app.add_subcommand(
+      "submit", "run the units of a folder of work by Slurm, by GNU parallel, or on this machine");
   auto options = std::make_shared<SubmitOptions>();
-  command->add_option("folder", options->folder, "folder that `plumb plan` made")
+  command->add_option("folder", options->folder, "folder that `plumb plan` wrote")
       ->required()
       ->type_name("FOLDER");
   command->add_option("--on", options->on, "slurm, parallel or local")
       ->required()
       ->check(CLI::IsMember({"slurm", "parallel", "local"}));
-  command->add_option("--nodes", options->nodes, "slurm: units at a time (default: as the queue lets)")
+  command
+      ->add_option("--nodes", options->nodes,
+                   "slurm: number of units at the same time (default: as many as the queue allows)")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command->add_option("--partition", options->partition, "slurm: partition (default: the cluster's)")
       ->type_name("NAME");
-  command->add_option("--memory", options->memory, "slurm: megabytes of a unit (default 4096)")
+  command->add_option("--memory", options->memory, "slurm: memory of a unit in megabytes (default 4096)")
       ->check(CLI::PositiveNumber)
       ->type_name("MB");
   command
-      ->add_option("--hosts", options->hosts,
-                   "parallel: hosts, parted by commas, or a file for --sshloginfile (default: this machine)")
+      ->add_option(
+          "--hosts", options->hosts,
+          "parallel: hosts, separated by commas, or a file for --sshloginfile (default: this machine)")
       ->type_name("HOSTS");
   command
-      ->add_option("--jobs", options->jobs,
-                   "local: units at a time (default: one a core, one alone where costs are measured)")
+      ->add_option(
+          "--jobs", options->jobs,
+          "local: number of units at the same time (default: one per core, or one if costs are measured)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command->add_option("--out", options->out, "folder for the results (default FOLDER/results)")
       ->check(problem_with_path)
       ->type_name("DIR");
-  command->add_flag("--dry-run", options->dry_run, "write the scripts and run nothing");
+  command->add_flag("--dry-run", options->dry_run, "only write the scripts");
   command->footer(
-      "Examples:\n  plumb submit work --on local\n  plumb submit work --on slurm --nodes 8 --dry-run\n"
-      "  plumb submit work --on parallel --hosts node1,node2\n"
-      "The scripts are in FOLDER/submit, to be read and edited. See docs/cluster.md. Exit codes: 0 "
-      "submitted, or\n"
-      "all done; 1 some units are missing; 2 usage; 130 interrupted.");
+      "Examples:\n  plumb submit work --on local\n  plumb submit work --on slurm --nodes 8 --dry-run\n  "
+      "plumb submit work --on parallel --hosts node1,node2\nThe scripts are in FOLDER/submit; they may be "
+      "edited. See docs/cluster.md. Exit codes: 0 submitted, or\nall done; 1 some units are missing; 2 "
+      "usage; 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_submit(*options); }; });
 }
 

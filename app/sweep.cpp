@@ -46,7 +46,7 @@ void require_different(const std::vector<scenarios::Instance>& instances) {
   for (const scenarios::Instance& instance : instances)
     if (!labels.insert(instance.label()).second)
       throw UsageError(
-          fmt::format("'{}' is named twice: give each scene once, and files' scenes names of their own",
+          fmt::format("'{}' is given twice; give each scene once, and unique names to scenes from files",
                       instance.label()));
 }
 
@@ -81,14 +81,14 @@ int sweep_on_cores(const SweepCommandOptions& options) {
         plan_of({.folder = folder, .unit_seconds = {}, .earlier = {}, .at_once = options.jobs}, words));
   } else if (const cluster::Plan plan = cluster::read_plan(folder); plan.commands.front() != words) {
     throw Error(Error::Kind::Value, fmt::format("folder '{}'", options.out), "", "",
-                fmt::format("is of another sweep, `plumb {}`; name another folder with --out",
+                fmt::format("belongs to another sweep, `plumb {}`; choose another folder with --out",
                             fmt::join(plan.commands.front(), " ")));
   } else {
     cluster::require_same_program(folder, plan, cluster::this_program());
   }
   // The time is given: what was disturbed is not measured again.
   if (!do_here({.folder = folder, .jobs = options.jobs, .repeats = false})) {
-    notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
+    notice(fmt::format("interrupted; the same command continues from the results in {}", options.out));
     return kInterrupted;
   }
   const cluster::Gathered gathered =
@@ -118,7 +118,7 @@ int start_sweep(const SweepCommandOptions& options) {
     }
   }
   if (!options.duration.empty() && files.empty())
-    throw UsageError("--duration goes with a scene file: scenarios have their own");
+    throw UsageError("--duration needs a scene file: scenarios have their own duration");
   if (options.names.empty()) what.instances = chosen_instances({}, options.size);
   require_different(what.instances);
   what.engines = chosen_engines(options.engines, programs);
@@ -128,7 +128,7 @@ int start_sweep(const SweepCommandOptions& options) {
   what.from = options.from;
   if (options.jobs > 1) {
     if (what.only_explore > 0 || !what.from.empty())
-      throw UsageError("--jobs goes with a whole sweep, not with --explore or --from");
+      throw UsageError("--jobs cannot be combined with --explore or --from");
     return sweep_on_cores(options);
   }
 
@@ -145,14 +145,14 @@ int start_sweep(const SweepCommandOptions& options) {
   const sweep::Swept swept = sweep::sweep(what, events);
   progress.clear();
   if (swept.interrupted) {
-    notice(fmt::format("interrupted; the same command goes on from what is in {}", options.out));
+    notice(fmt::format("interrupted; the same command continues from the results in {}", options.out));
     return kInterrupted;
   }
   if (swept.dropped > 0)
-    notice(fmt::format(
-        "the budget of {:g} s left out the costs of {} settings; a larger --budget in a new folder "
-        "measures them",
-        what.budget, swept.dropped));
+    notice(
+        fmt::format("the budget of {:g} s was too short for the costs of {} settings; measure them with a "
+                    "larger --budget in a new folder",
+                    what.budget, swept.dropped));
   if (what.only_explore == 0) show(swept.rows, options);
   return kOk;
 }
@@ -160,8 +160,8 @@ int start_sweep(const SweepCommandOptions& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app, Action& chosen) {
-  CLI::App* command =
-      app.add_subcommand("sweep", "run every engine over its settings: what accuracy costs on each of them");
+  CLI::App* command = app.add_subcommand(
+      "sweep", "run engines with many settings, and show what accuracy costs on each of them");
   auto options = std::make_shared<SweepCommandOptions>();
   command
       ->add_option("names", options->names,
@@ -170,33 +170,34 @@ void add_sweep(CLI::App& app, Action& chosen) {
   options->engines.add_to(*command);
   add_size(*command, options->size);
   add_file_duration(*command, options->duration);
-  command->add_option("--budget", options->budget, "s that the whole may take (default 540)")->type_name("T");
+  command->add_option("--budget", options->budget, "time limit of the whole sweep, s (default 540)")
+      ->type_name("T");
   command
       ->add_option("--jobs", options->jobs,
-                   "searches at a time, as units of a folder of work in DIR (see `plumb plan`); costs are "
-                   "measured one at a time (default 1)")
+                   "number of searches at the same time, as units of a folder of work in DIR (see `plumb "
+                   "plan`); costs are measured one at a time (default 1)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command
       ->add_option("--explore", options->explore,
-                   "s for finding the fronts, of which no cost is measured: that is for a sweep --from it")
+                   "time limit in s for the search for the fronts, without costs; measure these with another "
+                   "sweep and --from")
       ->type_name("T");
-  command->add_option("--from", options->from, "folder of a sweep whose runs are taken over; may be repeated")
+  command->add_option("--from", options->from, "folder of a sweep whose runs are reused; may be repeated")
       ->allow_extra_args(false)
       ->type_name("DIR");
   command
       ->add_option("--out", options->out,
-                   "folder for the results; a sweep that is there goes on (default sweep)")
+                   "folder for the results; an existing sweep continues (default sweep)")
       ->check(problem_with_path)
       ->type_name("DIR");
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->footer(
-      "Examples:\n  plumb sweep free_fall off_centre_torque elastic_collision pendulum_chain\n"
-      "  plumb sweep pendulum_chain --size 20 --engine plumb,box2d --budget 60 --out chain\n"
-      "  plumb sweep my_scene.json\n"
-      "Stopping it at any instant loses at most the run under way; the same command goes on.\n"
-      "See docs/trade.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
+      "Examples:\n  plumb sweep free_fall off_centre_torque elastic_collision pendulum_chain\n  plumb sweep "
+      "pendulum_chain --size 20 --engine plumb,box2d --budget 60 --out chain\n  plumb sweep "
+      "my_scene.json\nIf it is stopped, at most the run in progress is lost; the same command "
+      "continues.\nSee docs/trade.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_sweep(*options); }; });
 }
 

@@ -85,7 +85,7 @@ int start_thresholds(const ThresholdsOptions& options) {
   const thresholds::Searched searched = thresholds::find_missing(requests, how, record, say);
   progress.clear();
   if (searched.interrupted) {
-    notice(fmt::format("interrupted; the same command goes on from what is in {}", record.path()));
+    notice(fmt::format("interrupted; the same command continues from the results in {}", record.path()));
     return kInterrupted;
   }
   show(searched.findings, options.format);
@@ -98,35 +98,35 @@ int start_thresholds(const ThresholdsOptions& options) {
 
 void add_thresholds(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "thresholds", "each engine's own critical values, by bisection, beside the exact ones");
+      "thresholds", "find each engine's critical values by bisection, and compare them with the exact ones");
   auto options = std::make_shared<ThresholdsOptions>();
   command->add_option("names", options->names, "thresholds, see --list (default: all)")->type_name("NAME");
   options->engines.add_to(*command);
-  command->add_option("--digits", options->digits, "digits of a critical value (default 3)")
+  command->add_option("--digits", options->digits, "significant digits of a critical value (default 3)")
       ->check(CLI::Range(1, 4))
       ->type_name("N");
-  command->add_option("--timeout", options->seconds, "s that a run may take (default 30)")->type_name("T");
-  command->add_option("--jobs", options->jobs, "searches at a time (default: one a core)")
+  command->add_option("--timeout", options->seconds, "time limit of a run, s (default 30)")->type_name("T");
+  command->add_option("--jobs", options->jobs, "number of searches at the same time (default: one per core)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command
       ->add_option("--out", options->out,
-                   "folder of thresholds.jsonl; what is there already is not searched again (default stress)")
+                   "folder of thresholds.jsonl; values that it has are not searched again (default stress)")
       ->check(problem_with_path)
       ->type_name("DIR");
-  command->add_option("--format", options->format, "console, json (a value a line) or csv")
+  command->add_option("--format", options->format, "console, json (one value per line) or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->add_flag("--all-settings", options->all_settings,
-                    "also with the engines' settings for extremes, docs/stress.md");
-  command->add_flag("--list", options->list, "say which there are");
+                    "also with the engines' other settings (docs/stress.md)");
+  command->add_flag("--list", options->list, "list the thresholds");
   // Older names, not in the help.
   command->add_option("--run-seconds", options->seconds)->group("");
   command->footer(
-      "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-float,box2d\n"
-      "  plumb thresholds stopped_bullet --format json --out bullets\n"
-      "  plumb thresholds --engine plumb-precise --engine-command mine='python3 my_engine.py'\n"
-      "Stopping it at any instant loses at most the searches under way; the same command goes on.\n"
-      "See docs/thresholds.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
+      "Examples:\n  plumb thresholds\n  plumb thresholds ramp_friction overhang --engine plumb-float,box2d\n "
+      " plumb thresholds stopped_bullet --format json --out bullets\n  plumb thresholds --engine "
+      "plumb-precise --engine-command mine='python3 my_engine.py'\nIf it is stopped, at most the searches in "
+      "progress are lost; the same command continues.\nSee docs/thresholds.md. Exit codes: 0 done, 2 usage, "
+      "130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_thresholds(*options); }; });
 }
 

@@ -40,11 +40,12 @@ int start_tune(const TuneCommandOptions& options) {
                              : is_case               ? "expected_miss"
                                                      : "position_error";
   if (!own && options.tolerance.empty() == options.budget.empty())
-    throw UsageError("give either --tolerance, what must be reached, or --cost-us, what a step may cost");
+    throw UsageError(
+        "give either --tolerance, the error to reach, or --cost-us, the cost allowed for a step");
   if (options.size > 0 && is_file(options.name))
-    throw UsageError("--size goes with a scenario's name, not with a file");
+    throw UsageError("--size needs the name of a scenario, not a file");
   if (!options.duration.empty() && !is_file(options.name))
-    throw UsageError("--duration goes with a scene file: scenarios have their own");
+    throw UsageError("--duration needs a scene file: scenarios have their own duration");
   sweep::TuneOptions what{.instance = is_file(options.name)
                                           ? file_instance(options.name, options.duration, files)
                                           : one_instance(options.name, options.size),
@@ -63,7 +64,7 @@ int start_tune(const TuneCommandOptions& options) {
   const sweep::Tuned tuned = sweep::tune(what, [&](const std::string& text) { progress.say(text); });
   progress.clear();
   if (tuned.interrupted) {
-    notice("interrupted; a search keeps nothing, --budget makes it shorter");
+    notice("interrupted; nothing is stored. A smaller --budget makes the search shorter");
     return kInterrupted;
   }
   print(options.format == "json" ? sweep::tune_json(what, tuned)
@@ -76,25 +77,27 @@ int start_tune(const TuneCommandOptions& options) {
 }  // namespace
 
 void add_tune(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "tune",
-      "the cheapest settings that reach an accuracy, or the most accurate within a cost, on every engine");
+  CLI::App* command = app.add_subcommand("tune",
+                                         "find the cheapest settings that reach an accuracy, or the most "
+                                         "accurate within a cost, on every engine");
   auto options = std::make_shared<TuneCommandOptions>();
   command->add_option("name", options->name, "a scenario, a scene file or a case file")
       ->required()
       ->type_name("NAME|FILE");
-  command->add_option("--tolerance", options->tolerance, "what the metric may be, in its unit, like 1e-3")
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "largest allowed error, in the unit of the metric, like 1e-3")
       ->type_name("X");
-  command->add_option("--cost-us", options->budget, "instead: microseconds that a step of the game may cost")
+  command
+      ->add_option("--cost-us", options->budget, "instead: cost allowed for a step of the game, microseconds")
       ->type_name("US");
   add_metric(*command, options->metric,
-             "the error that is to be small (default position_error; of a case file expected_miss, which is "
-             "to be 1 at most)");
-  command
-      ->add_option("--dt", options->step,
-                   "step of the game in s (default 1/60); the engines' steps are this or divide it")
+             "the error to minimise (default position_error; for a case file expected_miss, which must be at "
+             "most 1)");
+  command->add_option("--dt", options->step, "step of the game in s (default 1/60); engines may divide it")
       ->type_name("DT");
-  command->add_option("--budget", options->seconds, "s that the whole may take (default 45)")->type_name("T");
+  command->add_option("--budget", options->seconds, "time limit of the whole search, s (default 45)")
+      ->type_name("T");
   add_file_duration(*command, options->duration);
   options->engines.add_to(*command);
   add_size(*command, options->size);
@@ -105,9 +108,9 @@ void add_tune(CLI::App& app, Action& chosen) {
   command->add_option("--step", options->step)->group("");
   command->add_option("--seconds", options->seconds)->group("");
   command->footer(
-      "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n"
-      "  plumb tune my_scene.json --cost-us 200 --engine plumb,plumb-float,box2d\n"
-      "Exit codes: 0 an engine can, 1 none can, 2 usage, 130 interrupted. See docs/trade.md.");
+      "Examples:\n  plumb tune pendulum_chain --size 20 --tolerance 1e-3\n  plumb tune my_scene.json "
+      "--cost-us 200 --engine plumb,plumb-float,box2d\nExit codes: 0 settings were found, 1 none meet the "
+      "requirement, 2 usage, 130 interrupted. See docs/trade.md.");
   command->callback([&chosen, options] { chosen = [options] { return start_tune(*options); }; });
 }
 

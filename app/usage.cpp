@@ -36,7 +36,7 @@ double parse_positive(const std::string& option, const std::string& text) {
 }
 
 std::string problem_with_path(const std::string& text) {
-  return text.empty() ? "the name is empty: give that of a file or folder, or leave the option out" : "";
+  return text.empty() ? "the name is empty; give a file or folder, or omit the option" : "";
 }
 
 }  // namespace plumb::app

@@ -112,8 +112,8 @@ std::vector<Result> judge_all(const std::vector<scenarios::Instance>& cases, con
 int start_verdict(const VerdictOptions& options) {
   if (options.command.empty() == options.engine.empty())
     throw UsageError(
-        "give either the command that starts an engine after `--`, or --engine with one that is built in; "
-        "see `plumb verdict --help`");
+        "give either the command that starts an engine after `--`, or a built-in engine with --engine; see "
+        "`plumb verdict --help`");
   std::unique_ptr<reference::Backend> program;
   if (!options.command.empty()) program = reference::make_process_backend(options.name, options.command);
   const reference::Backend& engine = program ? *program : reference::find_backend(options.engine);
@@ -138,26 +138,28 @@ int start_verdict(const VerdictOptions& options) {
 
 void add_verdict(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
-      "verdict", "run the whole catalogue on one engine: a verdict a case, what it misses first");
+      "verdict", "run all scenarios on one engine, with a verdict for each case; misses come first");
   auto options = std::make_shared<VerdictOptions>();
   command
       ->add_option("command", options->command,
-                   "starts a program that speaks docs/protocol.md; put it after --")
+                   "command of a program that speaks the line protocol (docs/protocol.md); put it after --")
       ->type_name("COMMAND...");
   command
       ->add_option("--engine", options->engine,
-                   "an engine that is built in or installed, in place of a command")
+                   "an engine that is built in or installed, instead of a command")
       ->type_name("E");
   command
       ->add_option("--case", options->names,
                    "only these scenarios, case files or folders of them; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|FILE");
-  command->add_option("--name", options->name, "what to call the engine (default yours)")->type_name("NAME");
-  command->add_option("--budget", options->budget, "s that the whole may take (default 60)")->type_name("T");
+  command->add_option("--name", options->name, "name of the engine in the output (default yours)")
+      ->type_name("NAME");
+  command->add_option("--budget", options->budget, "time limit of the whole run, s (default 60)")
+      ->type_name("T");
   command->add_option("--format", options->format, "console or json")
       ->check(CLI::IsMember({"console", "json"}));
-  command->add_option("--junit", options->junit, "also write JUnit's XML")
+  command->add_option("--junit", options->junit, "also write JUnit XML")
       ->check(problem_with_path)
       ->type_name("FILE");
   command->add_option("--json", options->json, "also write the verdicts as JSON")

@@ -20,7 +20,7 @@ constexpr const char* kMissing =
 
 void add_window(CLI::App& app) {
   app.add_subcommand("demo", "play the demos of the course in a window")->prefix_command();
-  app.add_subcommand("view", "a scenario or a scene in a window, against its truth and other engines")
+  app.add_subcommand("view", "show a scenario or a scene in a window, beside its truth and other engines")
       ->prefix_command();
 }
 

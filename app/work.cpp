@@ -34,7 +34,7 @@ int tell(const std::string& folder, int number, cluster::Worked worked) {
       print(fmt::format("unit {} is done\n", number));
       break;
     case cluster::Worked::Before:
-      print(fmt::format("unit {} was done before\n", number));
+      print(fmt::format("unit {} was already done\n", number));
       break;
     case cluster::Worked::Failed: {
       const cluster::Failure failure = cluster::read_failure(folder, number).value_or(cluster::Failure{});
@@ -44,7 +44,7 @@ int tell(const std::string& folder, int number, cluster::Worked worked) {
       return kCheckFailed;
     }
     case cluster::Worked::Interrupted:
-      notice(fmt::format("interrupted; unit {} is free again", number));
+      notice(fmt::format("interrupted; unit {} can be claimed again", number));
       return kInterrupted;
     case cluster::Worked::Elsewhere:
       break;
@@ -73,7 +73,7 @@ int do_all(const std::string& folder, const cluster::Plan& plan, const cluster::
 int start_work(const WorkCommandOptions& options) {
   if ((options.unit > 0 ? 1 : 0) + (options.next ? 1 : 0) + (options.all ? 1 : 0) != 1)
     throw UsageError("work takes one of --unit K, --next and --all");
-  if (options.again && options.unit == 0) throw UsageError("--again goes with --unit K");
+  if (options.again && options.unit == 0) throw UsageError("--again needs --unit K");
   const std::string folder = std::filesystem::absolute(options.folder).lexically_normal().string();
   const cluster::Plan plan = cluster::read_plan(folder);
   cluster::require_same_program(options.folder, plan, cluster::this_program());
@@ -94,39 +94,37 @@ int start_work(const WorkCommandOptions& options) {
 }  // namespace
 
 void add_work(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand("work", "do a unit of a folder that `plumb plan` made");
+  CLI::App* command = app.add_subcommand("work", "run units of a folder that `plumb plan` wrote");
   auto options = std::make_shared<WorkCommandOptions>();
   command->add_option("folder", options->folder, "folder of work")->required()->type_name("FOLDER");
-  command->add_option("--unit", options->unit, "do this one, whoever claims it; done is done")
+  command
+      ->add_option("--unit", options->unit,
+                   "run this unit even if another process claims it; finished units are not run again")
       ->check(CLI::PositiveNumber)
       ->type_name("K");
-  command->add_flag("--next", options->next, "do the longest that is free");
-  command->add_flag("--all", options->all, "do one after the other until none is left");
+  command->add_flag("--next", options->next, "run the longest free unit");
+  command->add_flag("--all", options->all, "run one unit after the other until none is left");
   command->add_flag("--again", options->again, "with --unit: measure again; the new results replace the old");
-  command
-      ->add_option("--kind", options->kind,
-                   "kind of this machine, where the processor's name does not tell (default: that name)")
+  command->add_option("--kind", options->kind, "kind of this machine (default: the processor's name)")
       ->type_name("NAME");
   command
-      ->add_option("--attempts", options->attempts,
-                   "leave a unit alone that failed so many times (default 3)")
+      ->add_option("--attempts", options->attempts, "skip a unit after this number of failures (default 3)")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command
       ->add_option("--expiry", options->expiry,
-                   "s after which a claim that is not renewed is a dead machine's (default 300)")
+                   "age in s at which a claim that is not renewed expires, because its machine is taken for "
+                   "dead (default 300)")
       ->type_name("T");
   command
       ->add_option("--calibration", options->calibration,
-                   "s that the machine is timed for, half before and half after a unit (default 1)")
+                   "duration of the calibration in s, half before and half after a unit (default 1)")
       ->type_name("T");
   command->footer(
-      "Examples:\n  plumb work FOLDER --unit 17\n  plumb work FOLDER --all\n"
-      "Any number may run at once, on any machine that sees the folder. Killed at any instant nothing is "
-      "lost\n"
-      "but the unit under way. See docs/cluster.md. Exit codes: 0 done, 1 the unit failed, 2 usage or "
-      "another\n"
-      "program, 3 no unit is free, 130 interrupted.");
+      "Examples:\n  plumb work FOLDER --unit 17\n  plumb work FOLDER --all\nAny number of processes may run "
+      "at once, on any machine that sees the folder. If one is killed, only the unit\nthat it runs is lost. "
+      "See docs/cluster.md. Exit codes: 0 done, 1 the unit failed, 2 usage or another\nprogram, 3 no unit is "
+      "free, 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_work(*options); }; });
 }
 

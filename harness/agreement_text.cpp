@@ -81,13 +81,15 @@ std::string agreement_text(std::span<const Agreement> cases, AgreementDetail det
   for (const Agreement& one : cases)
     if (is_unanimous(one) && one.ran() > 0) unanimous.push_back(fmt::format("{} ({})", one.label, one.ran()));
   if (!unanimous.empty())
-    out += "  " +
-           style.paint(
-               wrap(fmt::format("all that run a case, with its truth and with each other, in {} of {}: {}",
-                                unanimous.size(), cases.size(), joined(unanimous)),
-                    style.width - 2, 4),
-               Ink::Green) +
-           "\n";
+    out +=
+        "  " +
+        style.paint(
+            wrap(fmt::format(
+                     "all engines that run the case agree with the truth and with each other in {} of {}: {}",
+                     unanimous.size(), cases.size(), joined(unanimous)),
+                 style.width - 2, 4),
+            Ink::Green) +
+        "\n";
   Reasons reasons;
   for (const Agreement& one : cases) {
     if (is_unanimous(one)) continue;
@@ -97,7 +99,7 @@ std::string agreement_text(std::span<const Agreement> cases, AgreementDetail det
       for (const Absence& absence : one.absent)
         if (absence.broke) missed.push_back(fmt::format("{} (no result)", absence.engine));
       out += "  " +
-             wrap(fmt::format("{}: {} of {} with the truth{}{}", one.label, one.agree.size(), one.ran(),
+             wrap(fmt::format("{}: {} of {} agree with the truth{}{}", one.label, one.agree.size(), one.ran(),
                               missed.empty() ? "" : "; not ", joined(missed, "; ")),
                   style.width - 2, 4) +
              "\n";
@@ -105,9 +107,10 @@ std::string agreement_text(std::span<const Agreement> cases, AgreementDetail det
     }
     out += "  " + style.paint(one.label, Ink::Bold) + "\n";
     const auto line = [&](const std::string& text) { out += "    " + wrap(text, style.width - 4, 6) + "\n"; };
-    line(fmt::format("with the truth: {}", one.agree.empty() ? "none"
-                                                             : fmt::format("{} ({} of {})", joined(one.agree),
-                                                                           one.agree.size(), one.ran())));
+    line(fmt::format("agree with the truth: {}",
+                     one.agree.empty()
+                         ? "none"
+                         : fmt::format("{} ({} of {})", joined(one.agree), one.agree.size(), one.ran())));
     if (!missed.empty()) line("not: " + joined(missed, "; "));
     if (one.ran() > 1) line("with each other: " + groups_text(one));
     for (const Absence& absence : one.absent)

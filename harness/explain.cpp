@@ -39,7 +39,7 @@ double share_of(const Stage& stage, double total) { return total > 0 ? stage.nan
 Accuracy accuracy_of(const reference::Backend& backend, const reference::StepSettings& settings) {
   if (!backend.name().starts_with("plumb")) {
     throw Error(Error::Kind::Unsupported, fmt::format("engine '{}'", backend.name()), "", "",
-                "has no plan to explain: only 'plumb', 'plumb-float' and 'plumb-precise' have one");
+                "cannot be explained: only 'plumb', 'plumb-float' and 'plumb-precise' have a plan");
   }
   const reference::Method method = backend.method(settings);
   if (method.scheme == reference::Scheme::Adaptive) {

@@ -41,16 +41,12 @@ struct Tally {
 std::string legend(const Style& style) {
   const char* text =
       "Reading the tables: position, angle and velocity are the largest errors against the truth, over all "
-      "bodies "
-      "and the whole run; energy is its drift as a share of the largest kinetic energy; joint gap and "
-      "overlap are "
-      "how far joints come apart and bodies overlap; cost is the time of one step. \"agrees with\" says yes "
-      "if every "
-      "check passes: truth (the exact motion, within what the engine's own method allows), scheme (what its "
-      "method "
-      "computes exactly), laws (what is conserved); no if a known limit is missed, with the reason below the "
-      "table; "
-      "NO if it is unexpected. 5/7: it agrees with five of seven other engines.";
+      "bodies and the whole run; energy is its drift as a fraction of the largest kinetic energy; joint gap "
+      "and overlap are the largest distances by which joints come apart and bodies overlap; cost is the time "
+      "of one step. \"agrees with\" is yes if every check passes: truth (the exact motion, within the error "
+      "of the engine's method), scheme (results that its method computes exactly), laws (conserved "
+      "quantities). It is \"no\" for a known limit, with the reason below the table, and \"NO\" for an "
+      "unexpected miss. 5/7: the engine agrees with five of seven other engines.";
   return style.paint(wrap(text, style.width, 0), Ink::Dim) + "\n\n";
 }
 
@@ -115,10 +111,10 @@ std::string conclusion(std::span<const Result> results, const Style& style) {
   }
   for (const std::string& label : suspect_truths(results)) {
     out += style.paint(
-               wrap(fmt::format("  {}: all engines agree with each other and none with the truth. The truth "
-                                "is suspect: check the scenario's formula, its units and its initial state "
-                                "first.",
-                                label),
+               wrap(fmt::format(
+                        "  {}: all engines agree with each other, and none with the truth. The truth may be "
+                        "wrong: check the scenario's formula, its units and its initial state first.",
+                        label),
                     style.width, 4),
                Ink::Red) +
            "\n";

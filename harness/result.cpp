@@ -23,7 +23,7 @@ template <class Enum, class Names>
 Enum parse(const std::string& name, const Names& all) {
   for (const Enum value : all)
     if (name_of(value) == name) return value;
-  throw Error(Error::Kind::Syntax, "a result", "", name, "is not a name that results have");
+  throw Error(Error::Kind::Syntax, "a result", "", name, "is not a member of a result");
 }
 
 double number(const Json& json) {

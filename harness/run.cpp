@@ -39,7 +39,7 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
     result.excused = identity.limits.empty() ? std::string(kGuest) : identity.limits;
   } else if (!must_pass.empty() &&
              std::find(must_pass.begin(), must_pass.end(), result.engine) == must_pass.end()) {
-    result.excused = "the case does not ask this engine to pass";
+    result.excused = "the case does not require this engine to pass";
   }
   result.foreign_cost = identity.foreign_cost;
   if (!identity.available) {
@@ -65,7 +65,7 @@ int steps_a_sample(double sample, double dt) {
   const double steps = sample / dt, whole = std::round(steps);
   if (whole < 1 || std::abs(steps - whole) > 1e-6 * whole) {
     throw Error(Error::Kind::Value, "the run", "dt", fmt::format("{}", dt),
-                fmt::format("must divide the {} s from one sample to the next", sample));
+                fmt::format("must divide the interval of {} s between samples", sample));
   }
   return static_cast<int>(whole);
 }
@@ -90,7 +90,7 @@ Result run(const Case& scene_case, const reference::Backend& backend, const refe
   if (sample != scene_case.truth.steps()) {
     throw Error(Error::Kind::Run, fmt::format("engine '{}'", backend.name()), "samples",
                 fmt::format("{}", sample),
-                fmt::format("were handed over where {} were asked for", scene_case.truth.steps()));
+                fmt::format("were returned instead of {}", scene_case.truth.steps()));
   }
   observer.finish(result);
   return result;

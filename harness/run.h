@@ -32,7 +32,7 @@ Result run(const Case& scene_case, const reference::Backend& backend, const refe
            Track* track = nullptr, double* nanoseconds = nullptr);
 
 /// Explains why a guest's miss is not a failure; see `reference::Identity::guest`.
-inline constexpr std::string_view kGuest = "measured, not held: this engine declares no limits";
+inline constexpr std::string_view kGuest = "measured, not required: this engine declares no limits";
 
 /// Limit of a sample's error or distance, in extents of the scene; beyond it the run counts as diverged.
 inline constexpr double kDiverged = 1e3;

@@ -93,9 +93,9 @@ std::string costs(const std::vector<Pair>& pairs) {
     }
   }
   if (measured == 0) return "";
-  std::string text = "  cost a step, theirs over plumb's: ";
+  std::string text = "  cost per step, theirs / plumb's: ";
   text += ratios.empty() ? "unknown" : range(ratios);
-  if (hidden > 0) text += fmt::format("; in {} of {} the noise hides which is cheaper", hidden, measured);
+  if (hidden > 0) text += fmt::format("; in {} of {} noise hides which is cheaper", hidden, measured);
   return text + "\n";
 }
 
@@ -181,12 +181,11 @@ std::string summary(std::span<const Result> results, const Style& style) {
   const bool noisy = std::any_of(results.begin(), results.end(),
                                  [](const Result& result) { return result.cost && is_noisy(*result.cost); });
   if (noisy) {
-    out +=
-        style.paint(
-            wrap("~ before a cost: noise; the middle half of its repetitions spreads by more than a quarter",
-                 style.width, 2),
-            Ink::Dim) +
-        "\n";
+    out += style.paint(wrap("~ before a cost: noisy; the interquartile range of its repetitions exceeds a "
+                            "quarter of the median",
+                            style.width, 2),
+                       Ink::Dim) +
+           "\n";
   }
   const bool foreign = std::any_of(results.begin(), results.end(),
                                    [](const Result& result) { return result.cost && result.foreign_cost; });

@@ -53,11 +53,11 @@ std::string read_text(std::istream& in, const std::string& subject) {
   errno = 0;
   while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kLargest) fail(subject, "has more than 1 GiB, and is not read any further");
+    if (text.size() > kLargest) fail(subject, "has more than 1 GiB");
   }
   // Standard input is read through stdio, whose errors the stream does not show.
   if (in.bad() || (&in == &std::cin && std::ferror(stdin) != 0))
-    fail(subject, fmt::format("cannot be read to its end: {}", std::strerror(errno)));
+    fail(subject, fmt::format("cannot be read completely: {}", std::strerror(errno)));
   return text;
 }
 

@@ -91,7 +91,7 @@ std::string verdict_text(std::span<const Result> results, const Style& style) {
   const Score score = score_of(results);
   out += fmt::format("\n{} of {} cases agree; {} miss, {} broke, {} unsupported", score.agrees,
                      score.judged(), score.misses, score.broke, score.unsupported);
-  if (score.not_reached > 0) out += fmt::format(", {} not reached in the time", score.not_reached);
+  if (score.not_reached > 0) out += fmt::format(", {} not reached in time", score.not_reached);
   return out + "\n";
 }
 

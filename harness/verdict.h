@@ -27,7 +27,7 @@ struct Score {
 Score score_of(std::span<const Result> results);
 
 /// Reason for a run that was not made because the time was up.
-inline constexpr const char* kOutOfTime = "the time was up before";
+inline constexpr const char* kOutOfTime = "no time was left";
 
 /// Returns a line per case: first the misses with their sizes, then what broke, what agrees, and what was not
 /// run.

@@ -235,8 +235,8 @@ class Box2dBackend final : public Backend {
   Identity identity() const override { return {.version = PLUMB_BOX2D_VERSION, .precision = "float"}; }
 
   std::vector<Option> options() const override {
-    return {{"velocity_iterations", "8", "sweeps over velocity constraints a substep"},
-            {"position_iterations", "3", "sweeps over position constraints a substep"},
+    return {{"velocity_iterations", "8", "velocity iterations per substep"},
+            {"position_iterations", "3", "position iterations per substep"},
             {"continuous", "on", "on or off: continuous collision against static bodies"}};
   }
   std::vector<Knob> knobs() const override {
@@ -312,7 +312,7 @@ class Box2dBackend final : public Backend {
           return "Box2D merges corners that are this close";
       }
       if (const auto* chain = std::get_if<Chain>(&shape.geometry)) {
-        if (too_close(chain->points, chain->closed)) return "Box2D refuses chain points that are this close";
+        if (too_close(chain->points, chain->closed)) return "Box2D rejects chain points that are this close";
       }
     }
     return "";

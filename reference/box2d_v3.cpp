@@ -219,21 +219,18 @@ class V3Backend final : public Backend {
   std::string_view name() const override { return equalised_ ? "box2d-v3" : "box2d-v3-default"; }
   std::string_view summary() const override {
     return equalised_ ? "Box2D 3: soft contacts in substeps; settings equalised"
-                      : "Box2D 3: soft contacts in substeps; with its own settings out of the box";
+                      : "Box2D 3: soft contacts in substeps; with its default settings";
   }
   Identity identity() const override {
     return {.version = PLUMB_BOX2D_V3_VERSION,
             .precision = "float",
             .guest = true,
             .limits =
-                "Box2D v3 finds contacts once a step, holds them and joints as damped springs over 4 "
-                "substeps, with a slop of "
-                "5 mm, and applies restitution at the end of the step."};
+                "Box2D v3 finds contacts once per step, solves them and joints as soft constraints in 4 "
+                "substeps, leaves a slop of 5 mm, and applies restitution at the end of the step."};
   }
 
-  std::vector<Option> options() const override {
-    return {{"soft_substeps", "4", "substeps of its own a step"}};
-  }
+  std::vector<Option> options() const override { return {{"soft_substeps", "4", "Box2D substeps per step"}}; }
   std::vector<Knob> knobs() const override { return {{"soft_substeps", {"1", "2", "4", "8", "16", "32"}}}; }
 
   Method method(const StepSettings& settings) const override {

@@ -215,20 +215,19 @@ class ChipmunkBackend final : public Backend {
   std::string_view name() const override { return equalised_ ? "chipmunk" : "chipmunk-default"; }
   std::string_view summary() const override {
     return equalised_ ? "Chipmunk 7: sequential impulses; settings equalised"
-                      : "Chipmunk 7: sequential impulses; with its own settings out of the box";
+                      : "Chipmunk 7: sequential impulses; with its default settings";
   }
   Identity identity() const override {
     return {.version = cpVersionString,
             .precision = "double",
             .guest = true,
             .limits =
-                "Chipmunk moves bodies before it changes their velocities, so that forces act a step late, "
-                "sweeps its "
-                "impulses 10 times a step, and removes a tenth of an overlap in a sixtieth of a second."};
+                "Chipmunk integrates positions before velocities, so that forces act one step late. It makes "
+                "10 iterations per step and removes a tenth of an overlap in 1/60 s."};
   }
 
   std::vector<Option> options() const override {
-    std::vector<Option> out{{"iterations", "10", "sweeps over all impulses a substep"}};
+    std::vector<Option> out{{"iterations", "10", "iterations per substep"}};
     if (equalised_)
       out.push_back({"slop", "0.001", "m, of overlap that contacts leave alone; Chipmunk's own is 0.1"});
     return out;

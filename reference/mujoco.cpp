@@ -258,7 +258,7 @@ class MujocoBackend final : public Backend {
  public:
   std::string_view name() const override { return kName; }
   std::string_view summary() const override {
-    return "MuJoCo: joint angles as coordinates, no contacts here";
+    return "MuJoCo: joint angles as coordinates; without contacts";
   }
   Identity identity() const override { return {.version = mj_versionString(), .precision = "double"}; }
 
@@ -293,7 +293,7 @@ class MujocoBackend final : public Backend {
                  {"substeps", std::to_string(chosen.substeps)},
                  {"integrator", chosen.stepper == Stepper::RungeKutta4 ? "rk4" : "euler"},
                  {"joints", "coordinates: hinges by their angle, free bodies by x, y and angle"},
-                 {"contacts", "off; scenes in which shapes may touch are refused"},
+                 {"contacts", "off; scenes in which shapes may touch are rejected"},
                  {"forces",
                   chosen.stepper == Stepper::RungeKutta4 ? "at every stage" : "at the start of each substep"},
                  {"linear_damping", "0"},

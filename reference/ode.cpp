@@ -263,24 +263,23 @@ class OdeBackend final : public Backend {
   std::string_view name() const override { return equalised_ ? "ode" : "ode-default"; }
   std::string_view summary() const override {
     return equalised_ ? "ODE: contacts as one exact complementarity problem; settings equalised"
-                      : "ODE: the quick step, with its own settings out of the box";
+                      : "ODE: the quick step, with its default settings";
   }
   Identity identity() const override {
     return {.version = PLUMB_ODE_VERSION,
             .precision = "double",
             .guest = true,
             .limits =
-                "ODE takes back an overlap or a gap by a fifth a step and lets contacts give by its CFM, and "
-                "an impact is "
-                "noticed where shapes overlap already."};
+                "ODE removes a fifth of an overlap or gap per step (ERP), its contacts yield by its CFM, and "
+                "it finds an impact only once the shapes overlap."};
   }
 
   std::vector<Option> options() const override {
     std::vector<Option> out{
-        {"solver", equalised_ ? "exact" : "quick", "exact (dWorldStep) or quick (20 sweeps)"}};
+        {"solver", equalised_ ? "exact" : "quick", "exact (dWorldStep) or quick (20 iterations)"}};
     if (equalised_) {
-      out.push_back({"erp", "0.2", "fraction of an error that a step takes back"});
-      out.push_back({"cfm", "1e-10", "compliance of constraints, 1/kg s"});
+      out.push_back({"erp", "0.2", "fraction of an error that a step removes (ERP)"});
+      out.push_back({"cfm", "1e-10", "compliance of constraints (CFM), 1/kg s"});
     }
     return out;
   }
@@ -332,7 +331,7 @@ class OdeBackend final : public Backend {
   static std::string missing(const Body& body) {
     if (body.lock_x || body.lock_y) return "locked axes are not mapped";
     if (body.linear_damping != 0 || body.angular_damping != 0)
-      return "ODE's damping is a share a step, not a rate";
+      return "ODE's damping is a fraction per step, not a rate";
     for (const Shape& shape : body.shapes) {
       if (shape.rolling_resistance != 0 || shape.surface_speed != 0)
         return "rolling resistance and surface speeds are not mapped";

@@ -106,15 +106,16 @@ class WorldBackend final : public PlumbBackend {
   std::vector<Option> options() const override {
     return {
         {"solver", name_of(kRealtime.solver),
-         "soft_steps, sequential_impulses, jakobsen, xpbd or direct (islands with joints as a whole)"},
+         "soft_steps, sequential_impulses, jakobsen, xpbd or direct (direct solve of islands with joints)"},
         {"integrator", std::string(name_of(kRealtime.integrator)),
-         "velocity_verlet, semi_implicit_euler or explicit_euler: of soft_steps and direct"},
+         "velocity_verlet, semi_implicit_euler or explicit_euler; for soft_steps and direct"},
         {"iterations", std::to_string(kRealtime.iterations),
-         "a substep: of sequential_impulses and jakobsen"},
+         "iterations per substep; for sequential_impulses and jakobsen"},
         {"continuous", "on", "on or off: continuous collision"},
-        {"sleep", "off", "on or off: islands at rest stop being computed"},
+        {"sleep", "off", "on or off: sleep of islands at rest"},
         {"on_violation", std::string(name_of(kRealtime.on_violation)),
-         "ignore, report or stop: what becomes of a run whose gaps, overlaps or energy miss their bound"}};
+         "ignore, report or stop: reaction to a violation (joint gaps, overlaps or energy beyond their "
+         "bounds)"}};
   }
 
   std::vector<Knob> knobs() const override {
@@ -188,9 +189,8 @@ class PreciseBackend final : public PlumbBackend {
   using PlumbBackend::PlumbBackend;
 
   std::vector<Option> options() const override {
-    return {
-        {"method", std::string(name_of(kPrecise.method)), "automatic, explicit, implicit or symplectic"},
-        {"estimate_error", "no", "yes: a second run at a tenth of the tolerance beside, to compare with"}};
+    return {{"method", std::string(name_of(kPrecise.method)), "automatic, explicit, implicit or symplectic"},
+            {"estimate_error", "no", "yes: estimate the error by a second run at a tenth of the tolerance"}};
   }
 
   std::vector<Knob> knobs() const override {

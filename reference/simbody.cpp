@@ -133,14 +133,17 @@ class SimbodyBackend final : public Backend {
   std::string_view name() const override { return equalised_ ? "simbody" : "simbody-default"; }
   std::string_view summary() const override {
     return equalised_ ? "Simbody: mechanisms in joint angles, to a tolerance of 1e-9"
-                      : "Simbody: mechanisms in joint angles, to its own accuracy of 1e-3";
+                      : "Simbody: mechanisms in joint angles, to its default accuracy of 1e-3";
   }
   Identity identity() const override {
-    return {.version = PLUMB_SIMBODY_VERSION,
-            .precision = "double",
-            .guest = true,
-            .limits = equalised_ ? "Simbody's tolerance is one of a step, whose errors add up."
-                                 : "Simbody's own accuracy is 1e-3 a step, whose errors add up."};
+    return {
+        .version = PLUMB_SIMBODY_VERSION,
+        .precision = "double",
+        .guest = true,
+        .limits = equalised_
+                      ? "Simbody's tolerance is for the error of one step; the errors of all steps add up."
+                      : "Simbody's default accuracy is 1e-3 for the error of one step; the errors of all "
+                        "steps add up."};
   }
 
   Method method(const StepSettings& settings) const override {

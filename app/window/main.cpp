@@ -41,30 +41,31 @@ struct Given {
 };
 
 void add_options(CLI::App& command, Given& given) {
-  command.add_flag("--headless", given.headless, "no window: needs no display");
-  command.add_option("--seconds", given.seconds, "how long, of real time (headless: of the show's)")
+  command.add_flag("--headless", given.headless, "run without a window and display");
+  command.add_option("--seconds", given.seconds, "duration in s of real time (headless: of simulated time)")
       ->type_name("T");
   command.add_option("--screenshot", given.screenshot, "write the last frame to this PNG file")
       ->check(problem_with_path)
       ->type_name("FILE");
   command.add_option("--width", given.width, "px")->check(CLI::Range(64, 8192));
   command.add_option("--height", given.height, "px")->check(CLI::Range(64, 8192));
-  command.add_option("--colours", given.colours, "at most so many in pictures: smaller files")
+  command.add_option("--colours", given.colours, "number of colours in pictures, for smaller files")
       ->check(CLI::Range(2, 256));
   command.add_option("--theme", given.theme, "dark or light")->check(CLI::IsMember({"dark", "light"}));
   command.add_flag("--no-panel", given.bare, "start without the panel");
-  command.add_flag("--report", given.report, "print time, hash and figures at the end, as --headless does");
-  command.add_option("--dt", given.dt, "length of a step, s: short for --set dt=DT")->type_name("DT");
-  command.add_option("--set", given.settings, "a control, as NAME=VALUE (again for more)");
+  command.add_flag("--report", given.report, "print time, hash and values at the end, as with --headless");
+  command.add_option("--dt", given.dt, "length of a step in s; short for --set dt=DT")->type_name("DT");
+  command.add_option("--set", given.settings, "set a control, as NAME=VALUE (may be repeated)");
   command.add_option("--show", given.drawings,
                      "contacts, normals, impulses, boxes, centres, joints, names, velocities, forces, masses "
-                     "or code (again for more)");
+                     "or code (may be repeated)");
   command
       .add_option("--script", given.script,
-                  "what the player does: lines like '0.5 press 1 2' (docs/demos.md)")
+                  "file with input events: lines like '0.5 press 1 2' (docs/demos.md)")
       ->check(problem_with_path)
       ->type_name("FILE");
-  command.add_option("--measure-frames", given.frames, "draw so many frames and say how long they took")
+  command
+      .add_option("--measure-frames", given.frames, "draw this number of frames and print the time they took")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
 }
@@ -81,7 +82,7 @@ window::Options options_of(const Given& given) {
   if (!given.script.empty())
     options.script = window::parse_script(harness::read_text(given.script), given.script);
   if (given.headless && given.seconds.empty() && given.frames == 0)
-    throw UsageError("--headless needs an end: give --seconds T");
+    throw UsageError("--headless needs an end; give --seconds T");
   return options;
 }
 
@@ -120,7 +121,7 @@ std::vector<course::Chapter> chapter_of(const std::string& demo) {
     if (demo == kDemos[chapter.number - 1]) return {std::move(chapter)};
   if (demo.empty()) return all;
   throw UsageError(
-      fmt::format("'{}' is no chapter's demo: with --engine-command give bouncing_ball, cannonballs, "
+      fmt::format("'{}' is not a chapter's demo; with --engine-command give bouncing_ball, cannonballs, "
                   "pool_break, spinning_boxes or ragdoll, or no name for all",
                   demo));
 }
@@ -243,29 +244,26 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   Given given;
   CLI::App* demo = app.add_subcommand("demo", "play the demos of the course");
-  demo->add_option("name", given.name, "which; see --list");
+  demo->add_option("name", given.name, "name of a demo; see --list");
   demo->add_flag("--list", given.list, "the demos");
   add_engine_command(*demo, given.commands);
-  demo->add_option("--check", given.check, "with --engine-command: begin with this check of `plumb check`")
+  demo->add_option("--check", given.check, "with --engine-command: start with this check of `plumb check`")
       ->type_name("NAME");
   add_options(*demo, given);
   demo->footer(
-      "With --engine-command the scenes of the course's checks are shown, moved by that engine, with the "
-      "right "
-      "motion as an outline.\n"
-      "Examples:\n  plumb demo\n  plumb demo bouncing_ball --engine-command mine='python3 my_engine.py'\n  "
-      "plumb demo ragdoll --theme light\n"
-      "  plumb demo bouncing_ball --headless --seconds 2 --screenshot ball.png");
-  CLI::App* view = app.add_subcommand("view", "watch a scenario against its truth and other engines");
+      "With --engine-command the window shows the scenes of the course's checks, run by that engine, with "
+      "the right motion as an outline.\nExamples:\n  plumb demo\n  plumb demo bouncing_ball --engine-command "
+      "mine='python3 my_engine.py'\n  plumb demo ragdoll --theme light\n  plumb demo bouncing_ball "
+      "--headless --seconds 2 --screenshot ball.png");
+  CLI::App* view = app.add_subcommand("view", "show a scenario beside its truth and other engines");
   view->add_option("name", given.name, "a scenario or a scene file")->required()->type_name("NAME|FILE");
   add_size(*view, given.size);
   add_engine_command(*view, given.commands);
-  view->add_option(
-          "--engine", given.engine,
-          "the engine that moves the scene (default: the first --engine-command that is no --ghost, else "
-          "plumb)")
+  view->add_option("--engine", given.engine,
+                   "the engine that runs the scene (default: the first --engine-command that is not a "
+                   "--ghost, else plumb)")
       ->type_name("ENGINE");
-  view->add_option("--ghost", given.ghosts, "draw this engine, or the truth, as an outline (again for more)")
+  view->add_option("--ghost", given.ghosts, "draw this engine, or the truth, as an outline (may be repeated)")
       ->type_name("ENGINE");
   add_options(*view, given);
   view->footer(

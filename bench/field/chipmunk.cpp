@@ -136,7 +136,7 @@ class ChipmunkWorld final : public FieldWorld {
             {"sleeping", settings_.sleeping ? "on, after 0.5 s" : "off"},
             {"collision_slop", shortest(kSlop) + " m (its 0.1 is meant for pixels)"},
             {"collision_bias", "10 % of an overlap in 1/60 s"},
-            {"friction", "product of square roots: the geometric mean"},
+            {"friction", "geometric mean"},
             {"restitution", "product of square roots: below the larger where they differ"},
             {"revolute", "pivot, rotary limit, motor and rotary spring: a constraint each"},
             {"joints_between_static_bodies", "left out"},

@@ -24,22 +24,16 @@ namespace {
 enum Exit { kOk = 0, kFailed = 1, kUsage = 2, kMissing = 3, kOutput = 4, kInterrupted = 130 };
 
 constexpr const char* kFooter =
-    "Examples:\n"
-    "  plumb_field                                        all scenes on all engines; this takes a while\n"
-    "  plumb_field --quick                                small scenes and few steps: whether all work\n"
-    "  plumb_field large_pyramid tumbler --repeat 5\n"
-    "  plumb_field joint_grid --engine box2d --engine chipmunk --format csv\n"
-    "  plumb_field chain_10 --engine plumb --solver soft_steps,direct,xpbd\n"
-    "  plumb_field tumbler --engine plumb --threads 1,2\n"
-    "  plumb_field tumbler --engine plumb --profile       how the step's time is shared among its stages\n"
-    "Times are medians over the repetitions; speed is Box2D's time (of the third, if it is here) over the "
-    "engine's.\n"
-    "Depths and joints' gaps are the worst and the mean of ten looks at the run, heights and speeds those at "
-    "its end.\n"
-    "See docs/speed.md.\n"
-    "Exit codes: 0 ok, 1 an engine failed, 2 usage, 3 an engine that is not in this build, 4 stdout cannot "
-    "be\n"
-    "written, 130 interrupted.";
+    "Examples:\n  plumb_field                                        all scenes on all engines; this takes a "
+    "while\n  plumb_field --quick                                small scenes and few steps, to test that "
+    "all work\n  plumb_field large_pyramid tumbler --repeat 5\n  plumb_field joint_grid --engine box2d "
+    "--engine chipmunk --format csv\n  plumb_field chain_10 --engine plumb --solver soft_steps,direct,xpbd\n "
+    " plumb_field tumbler --engine plumb --threads 1,2\n  plumb_field tumbler --engine plumb --profile       "
+    "the time of each stage of a step\nTimes are medians over the repetitions; speed is Box2D's time "
+    "(version 3 if it is in this build) / the engine's.\nOverlaps and joint gaps are the maximum and the "
+    "mean of ten samples of the run, heights and speeds those at its end.\nSee docs/speed.md.\nExit codes: 0 "
+    "ok, 1 an engine failed, 2 usage, 3 an engine that is not in this build, 4 stdout cannot be\nwritten, "
+    "130 interrupted.";
 
 /// Ends the program with a message and an exit code.
 struct Stop : std::runtime_error {
@@ -183,35 +177,35 @@ int run(const Plan& plan, const std::string& format) {
 
 void describe(CLI::App& app, Options& options, Plan& plan) {
   app.footer(kFooter);
-  app.add_option("scene", options.scenes, "scenes to run; all when none is named")->type_name("SCENE");
-  app.add_option("--engine", options.engines, "engines to run; all when none is named")
+  app.add_option("scene", options.scenes, "scenes to run (default: all)")->type_name("SCENE");
+  app.add_option("--engine", options.engines, "engines to run (default: all)")
       ->delimiter(',')
       ->type_name("NAME");
-  app.add_option("--steps", options.steps, "measured steps, in place of each scene's own")
+  app.add_option("--steps", options.steps, "number of measured steps (default: each scene's own)")
       ->check(CLI::Range(10, 10000000))
       ->type_name("N");
   app.add_option("--repeat", plan.repeat, "repetitions, each in a new world (3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("R");
   app.add_option("--clock", options.clock,
-                 "wall, or cpu: the processors' time, for machines that others use too (wall)")
+                 "wall, or cpu for processor time, on machines that other programs use too (wall)")
       ->check(CLI::IsMember({"wall", "cpu"}));
-  app.add_option("--limit", plan.limit, "seconds of an engine's time after which a run is given up (600)")
+  app.add_option("--limit", plan.limit, "time limit of a run in seconds (600)")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
-  app.add_option("--substeps", plan.settings.substeps, "of engines that solve by substeps (4)")
+  app.add_option("--substeps", plan.settings.substeps, "number of substeps, for engines that have them (4)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   app.add_option("--threads", options.threads,
-                 "that share a step of plumb, each number beside the others (1); --clock cpu adds them up")
+                 "numbers of threads of plumb, each in its own row (1); --clock cpu adds their times")
       ->delimiter(',')
       ->check(CLI::Range(1, 64))
       ->type_name("N");
   app.add_option("--solver", options.solvers,
-                 "solvers to run plumb with, each beside the others; all: every one (its default)")
+                 "solvers of plumb, each in its own row; all: every solver (default: plumb's own)")
       ->delimiter(',')
       ->type_name("NAME");
-  app.add_option("--iterations", plan.settings.iterations, "sweeps of solvers that sweep (10)")
+  app.add_option("--iterations", plan.settings.iterations, "iterations of solvers that iterate (10)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   app.add_option("--continuous", options.continuous,
@@ -220,15 +214,14 @@ void describe(CLI::App& app, Options& options, Plan& plan) {
   app.add_flag("--sleeping", options.sleeping, "let bodies at rest sleep");
   app.add_option("--format", options.format, "table, json or csv (table)")
       ->check(CLI::IsMember({"table", "json", "csv"}));
-  app.add_flag(
-      "--profile", plan.settings.profiling,
-      "print what each stage of plumb's step takes, by the wall clock, which costs some 100 ns a step");
-  app.add_flag("--quick", plan.quick, "small scenes and few steps; figures mean little");
-  app.add_flag("--list", options.list, "name the scenes and the engines, and end");
+  app.add_flag("--profile", plan.settings.profiling,
+               "print the wall time of each stage of plumb's step; the timers cost about 100 ns per step");
+  app.add_flag("--quick", plan.quick, "small scenes and few steps; the figures are not meaningful");
+  app.add_flag("--list", options.list, "list the scenes and the engines");
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("The scenes that the field measures itself with, on every engine, in turn", "plumb_field");
+  CLI::App app("Benchmark scenes of well-known engines, on every engine in turn", "plumb_field");
   Options options;
   Plan plan;
   describe(app, options, plan);

@@ -98,7 +98,7 @@ class Run {
       steps -= now;
       const double seconds = builder_.cost().seconds;
       if (seconds > limit_)
-        throw TooSlow(fmt::format("given up after {} steps in {:.3g} s: {:.3g} ms a step", taken_, seconds,
+        throw TooSlow(fmt::format("stopped after {} steps in {:.3g} s: {:.3g} ms per step", taken_, seconds,
                                   1e3 * seconds / taken_));
     }
   }

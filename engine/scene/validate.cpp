@@ -127,7 +127,7 @@ class Checker {
       (void)Formula(formula, rule.variables);
     } catch (const std::invalid_argument& problem) {
       fail(Error::Kind::Syntax, field, printable(formula),
-           std::string("is no formula: it ") + problem.what());
+           std::string("is not a formula: it ") + problem.what());
     }
   }
   void operator()(const std::string& field, std::tuple<const std::string&, const std::string&> formulas,

@@ -76,7 +76,7 @@ class Reader {
     root_.at("expect").each([&](const Member& entry) { expect(entry); });
     if (out_.problem.expected.empty())
       root_.at("expect").fail(Error::Kind::Value,
-                              "must have an entry: a case that expects nothing cannot fail");
+                              "must not be empty: a case without expectations cannot fail");
     set_truth();
     return std::move(out_);
   }
@@ -120,7 +120,8 @@ class Reader {
     constexpr const char* kKinds[] = {"of", "law", "states", "motion"};
     int kinds = 0;
     for (const char* kind : kKinds) kinds += entry.has(kind) ? 1 : 0;
-    if (kinds != 1) entry.fail(Error::Kind::Value, "must have one of the members of, law, states and motion");
+    if (kinds != 1)
+      entry.fail(Error::Kind::Value, "must have one of the members 'of', 'law', 'states' and 'motion'");
     if (entry.has("of")) {
       expect_figure(entry);
     } else if (entry.has("law")) {
@@ -151,7 +152,7 @@ class Reader {
     if (entry.has("from")) expectation.from = instant(entry.at("from"));
     if (entry.has("until")) expectation.until = instant(entry.at("until"));
     if (entry.has("at") && (entry.has("from") || entry.has("until")))
-      entry.fail(Error::Kind::Value, "must have either at, or from and until");
+      entry.fail(Error::Kind::Value, "must have either 'at', or 'from' and 'until'");
     if (expectation.until < expectation.from)
       entry.at("until").fail(Error::Kind::Value, "must not be before from");
   }
@@ -163,7 +164,7 @@ class Reader {
     read_times(entry, expectation);
     const bool limits = entry.has("at_least") || entry.has("at_most");
     if (entry.has("is") == limits)
-      entry.fail(Error::Kind::Value, "must have either is, or at_least and at_most");
+      entry.fail(Error::Kind::Value, "must have either 'is', or 'at_least' and 'at_most'");
     const auto optional = [&](const char* key) {
       return entry.has(key) ? std::optional(expression(entry.at(key))) : std::nullopt;
     };
@@ -350,7 +351,7 @@ scenarios::Instance case_instance(const std::string& path) {
   if (std::any_of(catalogue.begin(), catalogue.end(),
                   [&](const auto& other) { return other.name == file.name; }))
     throw Error(Error::Kind::Name, "case file " + plumb::quoted(path), "name", printable(file.name),
-                "is the name of a scenario that plumb has; choose another");
+                "is already the name of a scenario; choose another");
   scenarios::Scenario& scenario = kept.emplace_back();
   scenario.name = file.name;
   scenario.summary = file.summary;

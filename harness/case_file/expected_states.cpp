@@ -50,7 +50,7 @@ int column_of(const std::string& name, const std::string& path) {
   for (std::size_t c = 0; c < kStateComponents.size(); ++c)
     if (name == kStateComponents[c]) return static_cast<int>(c);
   throw Error(Error::Kind::Name, "file " + plumb::quoted(path), "", printable(name),
-              "is no column: t, body, x, y, angle, vx, vy and w are", 1);
+              "is not a column; the columns are t, body, x, y, angle, vx, vy and w", 1);
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::vector<scenarios::Expectation> expectations_of(const std::vector<StateRow>&
   }
   if (series.empty())
     throw Error(Error::Kind::Value, "states", "", "",
-                "have no value with a tolerance: nothing would be compared");
+                "have no value with a tolerance, so that nothing would be compared");
   std::vector<scenarios::Expectation> out;
   for (const auto& [key, values] : series) {
     const auto [body, c] = key;

@@ -98,9 +98,9 @@ void Names::put(const std::string& name, const Symbol& symbol) {
 
 void Names::add(const std::string& name, double value) {
   if (!is_name(name))
-    throw problem(Error::Kind::Name, name, "is no name: letters, digits and underscores make one");
+    throw problem(Error::Kind::Name, name, "is not a name: use letters, digits and underscores");
   if (!symbols_.try_emplace(name, Symbol{.value = value}).second)
-    throw problem(Error::Kind::Name, name, "is the name of something else already");
+    throw problem(Error::Kind::Name, name, "is already the name of something else");
 }
 
 struct Expression::Parts {
@@ -124,7 +124,8 @@ Expression::Expression(const std::string& text, const Names& names) : parts_(std
       throw problem(Error::Kind::Name, name, "is unknown here" + did_you_mean(name, known));
     }
     if (found->second.kind == Names::Kind::Shared)
-      throw problem(Error::Kind::Name, name, "means two things of the scene; give them other names");
+      throw problem(Error::Kind::Name, name,
+                    "is ambiguous: two parts of the scene have this name; rename one");
     return parts_->used.emplace_back(Parts::Used{found->second, found->second.value});
   };
   if (double value = 0; read_number(text, value)) {
@@ -145,11 +146,11 @@ Expression::Expression(const std::string& text, const Names& names) : parts_(std
     for (const std::string& name : variables) parts_->parser.DefineVar(name, &use(name).value);
     parts_->parser.Eval();  // throws for the remaining kinds of errors
   } catch (const mu::Parser::exception_type& error) {
-    throw problem(Error::Kind::Syntax, text, "is no formula: " + printable(error.GetMsg(), 160));
+    throw problem(Error::Kind::Syntax, text, "is not a formula: " + printable(error.GetMsg(), 160));
   }
 #else
   throw problem(Error::Kind::Unsupported, text,
-                "is a formula, for which plumb needs muparser: install libmuparser-dev and build again");
+                "is a formula, which needs muparser: install libmuparser-dev and build again");
 #endif
 }
 

@@ -42,7 +42,7 @@ class Member {
     const std::vector<std::string> known(keys.begin(), keys.end());
     for (const auto& [key, value] : json_->items())
       if (std::find(known.begin(), known.end(), key) == known.end())
-        at(key).fail(Error::Kind::Name, "is no member here" + did_you_mean(key, known));
+        at(key).fail(Error::Kind::Name, "is not a member of this object" + did_you_mean(key, known));
   }
 
   bool is_text() const { return json_->is_string(); }
@@ -55,7 +55,7 @@ class Member {
   }
 
   std::string text() const {
-    if (!json_->is_string()) fail(Error::Kind::Syntax, "must be a text \"...\"");
+    if (!json_->is_string()) fail(Error::Kind::Syntax, "must be a string \"...\"");
     return json_->get<std::string>();
   }
 

@@ -66,8 +66,9 @@ class Replacement {
 
  private:
   [[noreturn]] void fail() {
-    throw CannotWrite(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",
-                      fmt::format("cannot be written: {}; what was there stays", std::strerror(errno)));
+    throw CannotWrite(
+        Error::Kind::Io, fmt::format("file '{}'", path_), "", "",
+        fmt::format("cannot be written: {}; the previous file is unchanged", std::strerror(errno)));
   }
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -322,7 +323,7 @@ Gathered gather(const std::string& folder, const Plan& plan, const std::string& 
   fs::create_directories(out, code);
   if (code)
     throw Error(Error::Kind::Io, fmt::format("folder '{}'", out), "", "",
-                fmt::format("cannot be made: {}; name another with --out", code.message()));
+                fmt::format("cannot be created: {}; choose another with --out", code.message()));
   const std::string lock_path = (fs::path(out) / ".lock").string();
   const int lock = open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (lock >= 0) flock(lock, LOCK_EX);

@@ -164,7 +164,7 @@ parallel --joblog {place}/log/joblog --resume-failed --retries 3 --jobs {jobs} \
 {further}{program} gather {folder_quoted} --out {out}
 )",
       fmt::arg("folder", options.folder), fmt::arg("further", further_text(plan, options, how)),
-      fmt::arg("why", plan.measures_cost(units) ? "; one, as costs are measured" : ""),
+      fmt::arg("why", plan.measures_cost(units) ? "; one, because costs are measured" : ""),
       fmt::arg("place", quoted_for_shell(options.place)), fmt::arg("jobs", jobs), fmt::arg("hosts", hosts),
       fmt::arg("directory", quoted_for_shell(plan.directory)),
       fmt::arg("program", quoted_for_shell(plan.program.path)),

@@ -81,7 +81,7 @@ void make_folders(const std::string& folder) {
     fs::create_directories(fs::path(folder) / part, code);
     if (code)
       throw Error(Error::Kind::Io, fmt::format("folder '{}'", folder), "", "",
-                  fmt::format("cannot be made: {}; name another", code.message()));
+                  fmt::format("cannot be created: {}; choose another", code.message()));
   }
 }
 
@@ -137,11 +137,10 @@ Program this_program() {
 
 void require_same_program(const std::string& folder, const Plan& plan, const Program& now) {
   const auto refuse = [&](const std::string& what, const std::string& then, const std::string& is) {
-    throw Error(
-        Error::Kind::Value, fmt::format("the plan in '{}'", folder), what, then,
-        fmt::format("is of another program: {} is '{}' here; run '{}', or plan into another folder with "
-                    "this one",
-                    what, is, plan.program.path));
+    throw Error(Error::Kind::Value, fmt::format("the plan in '{}'", folder), what, then,
+                fmt::format("is from another program: {} is '{}' here; run '{}', or make a plan in another "
+                            "folder with this program",
+                            what, is, plan.program.path));
   };
   if (plan.program.hash != now.hash) refuse("hash", plan.program.hash, now.hash);
   for (const auto& [engine, version] : plan.program.engines) {

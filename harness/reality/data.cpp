@@ -45,7 +45,7 @@ void read_table(const std::string& path, const std::vector<std::string>& columns
         const auto found = std::find(fields.begin(), fields.end(), column);
         if (found == fields.end())
           throw Error(Error::Kind::Syntax, fmt::format("'{}'", path), column, "",
-                      "is no column: the first line names the columns, see docs/reality.md", number);
+                      "is not a column: the first line names the columns, see docs/reality.md", number);
         places.push_back(static_cast<std::size_t>(found - fields.begin()));
       }
       continue;

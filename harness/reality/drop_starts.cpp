@@ -136,7 +136,7 @@ const std::vector<DropLaw>& drop_laws() {
       {"newton", "Newton's restitution, Coulomb's friction for the impulses", simple, coefficients, numbers},
       {"poisson", "Poisson's restitution by Routh's method", simple, with_rule(ImpactRule::Poisson), numbers},
       {"stronge", "Stronge's energetic restitution", simple, with_rule(ImpactRule::Stronge), numbers},
-      {"stronge-later", "Stronge's, less friction once the slip has stopped", later,
+      {"stronge-later", "Stronge's, with less friction after the slip has stopped", later,
        with_rule(ImpactRule::Stronge), later_numbers}};
   return laws;
 }

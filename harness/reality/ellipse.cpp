@@ -167,7 +167,7 @@ EllipseFindings examine_ellipse(std::span<const MeasuredImpact> impacts, std::ui
   }
   out.bound = examine(least_off, {ellipse_laws()[0].parameters[0]}, train, test, seed);
   out.bound.name = "bound";
-  out.bound.text = "the best impulse at the contact point: no law there can do better";
+  out.bound.text = "best impulse at the contact point: a bound for all such laws";
   out.engines = examine_ellipse_engines(test, out.laws.front(), engines, seed);
   return out;
 }

@@ -114,19 +114,25 @@ const std::vector<EllipseLaw>& ellipse_laws() {
       simple("newton", "Newton's restitution, Coulomb's friction for the impulses", precise::newton_impulse),
       simple("poisson", "Poisson's restitution by Routh's method", precise::poisson_impulse),
       simple("stronge", "Stronge's energetic restitution", precise::stronge_impulse),
-      tangential("stronge-tangential", "Stronge's, a part of the slip comes back", precise::stronge_impulse),
-      falling("stronge-falling", "Stronge's, restitution falls with speed", precise::stronge_impulse),
-      later("poisson-later", "Poisson's, a second friction once the slip has stopped",
+      tangential("stronge-tangential", "Stronge's, with partial reversal of the slip",
+                 precise::stronge_impulse),
+      falling("stronge-falling", "Stronge's, with restitution that decreases with speed",
+              precise::stronge_impulse),
+      later("poisson-later", "Poisson's, with a second friction coefficient after the slip has stopped",
             precise::poisson_impulse),
-      later("stronge-later", "Stronge's, a second friction once the slip has stopped",
+      later("stronge-later", "Stronge's, with a second friction coefficient after the slip has stopped",
             precise::stronge_impulse),
-      later_falling("stronge-later-falling", "Stronge's, second friction, restitution falls with speed",
+      later_falling("stronge-later-falling",
+                    "Stronge's, with a second friction coefficient and restitution that decreases with speed",
                     precise::stronge_impulse),
       oblique("stronge-later-oblique",
-              "Stronge's, second friction, restitution falls with slip over approach before the impact",
+              "Stronge's, with a second friction coefficient and restitution that decreases with slip / "
+              "approach speed",
               precise::stronge_impulse),
-      along_floor("stronge-later-floor", "Stronge's, second friction, restitution changes along this floor",
-                  precise::stronge_impulse)};
+      along_floor(
+          "stronge-later-floor",
+          "Stronge's, with a second friction coefficient and restitution that varies along this floor",
+          precise::stronge_impulse)};
   return laws;
 }
 

@@ -147,11 +147,11 @@ std::string page_of(const Findings& findings) {
   const EllipseFindings& ellipse = findings.ellipse;
   const DropFindings& drops = findings.drops;
   std::string out =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<title>plumb: held against measurements</title>\n<style>\n";
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>plumb: "
+      "compared with measurements</title>\n<style>\n";
   out += std::string(report::kStyle) +
-         "</style>\n</head>\n<body>\n<header><h1>plumb <span>held against "
+         "</style>\n</head>\n<body>\n<header><h1>plumb <span>compared with "
          "measurements</span></h1></header>\n<main>\n";
   out += fmt::format(
       "<p class=\"note\">Parameters are fitted on one random half of the data (seed {}), errors are of the "

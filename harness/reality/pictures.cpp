@@ -57,7 +57,7 @@ std::string ellipse_picture(const Findings& findings) {
   const auto at = [&](double error, double share) {
     return std::array<double, 2>{kLeft + kWide * error / kLargest, kTop + kHigh * (1 - share)};
   };
-  std::string out = open(960, 370, "Share of the measured impacts whose error is below a value");
+  std::string out = open(960, 370, "Fraction of the measured impacts whose error is below a value");
   for (int i = 0; i <= 4; ++i) {
     const double share = 0.25 * i, y = at(0, share)[1];
     out += line(kLeft, y, kLeft + kWide, y) +

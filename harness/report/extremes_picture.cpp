@@ -78,9 +78,8 @@ std::string extremes_picture(const std::vector<stress::Cell>& cells) {
     }
   }
   out += fmt::format(
-      "<text class=\"soft\" x=\"{}\" y=\"{}\">cells survived of those run; \u2013: the engine does not have "
-      "what the family "
-      "needs</text>\n",
+      "<text class=\"soft\" x=\"{}\" y=\"{}\">cells survived of those run; \u2013: the engine lacks a "
+      "feature that the family needs</text>\n",
       8, height - 10);
   return out + "</svg>\n";
 }

@@ -53,7 +53,7 @@ std::string counts(std::span<const Difference> rows) {
     for (const MetricChange& error : row.errors) ++(error.better() ? better : worse);
   }
   std::string out =
-      fmt::format("{} runs in both: errors of {} the same to the bit; {} figures better, {} worse\n",
+      fmt::format("{} runs in both: errors of {} identical to the bit; {} figures better, {} worse\n",
                   static_cast<int>(rows.size()) - gone - fresh, same, better, worse);
   out += fmt::format("costs: {} better, {} worse, {} cannot be told from noise", verdicts[0], verdicts[1],
                      verdicts[2]);

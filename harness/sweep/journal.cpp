@@ -43,7 +43,7 @@ Journal::Journal(const std::string& path) : path_(path) {
     errno = why;
     if (why == EWOULDBLOCK)
       throw Error(Error::Kind::Io, fmt::format("file '{}'", path_), "", "",
-                  "another run is at work in this folder; name another with --out");
+                  "another run uses this folder; choose another with --out");
     fail("cannot be locked");
   }
   std::string text;
@@ -55,7 +55,7 @@ Journal::Journal(const std::string& path) : path_(path) {
     lines_.push_back(text.substr(begin, end - begin));
   if (begin < text.size() && ftruncate(file_, static_cast<off_t>(begin)) != 0) {
     close(file_);
-    fail("its last line was cut short and cannot be taken off");
+    fail("its last line is incomplete and cannot be removed");
   }
 }
 

@@ -123,16 +123,16 @@ std::shared_ptr<const OwnLimit> find_own_limit(const scenarios::Problem& problem
     ++runs;
     out->distance = runs == 1 ? INFINITY : distance(out->states, *states);
     out->states = std::move(*states);
-    out->source =
-        fmt::format("{}'s own limit, {}, within {} m of that at {}", backend.name(), settings_text(settings),
-                    figure(out->distance), adaptive ? "a hundred times the tolerance" : "twice the step");
+    out->source = fmt::format("{}'s own limit at {}, within {} m of the result at {}", backend.name(),
+                              settings_text(settings), figure(out->distance),
+                              adaptive ? "a hundred times the tolerance" : "twice the step");
     const double took = std::chrono::duration<double>(Clock::now() - start).count();
     if (out->distance < kRounding || 2 * took > seconds) break;
   }
   if (runs >= 2) {
     out->problem.clear();
   } else if (out->problem.empty()) {
-    out->problem = fmt::format("two runs of steps of 1/240 s and finer take more than {:g} s", seconds);
+    out->problem = fmt::format("two runs with steps of 1/240 s or less take more than {:g} s", seconds);
   }
   return out;
 }

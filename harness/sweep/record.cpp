@@ -42,9 +42,9 @@ Json start_json(const std::vector<std::string>& engines, const std::string& sett
 void require_same(const std::string& path, const Json& then, const Json& now) {
   for (const auto& [name, value] : now.items()) {
     if (then.value(name, Json()) == value) continue;
-    throw Error(
-        Error::Kind::Value, fmt::format("file '{}'", path), name, then.value(name, Json()).dump(),
-        fmt::format("is of another sweep: it is {} now; name another folder with --out", value.dump()));
+    throw Error(Error::Kind::Value, fmt::format("file '{}'", path), name, then.value(name, Json()).dump(),
+                fmt::format("belongs to another sweep: it is now {}; choose another folder with --out",
+                            value.dump()));
   }
 }
 

@@ -56,9 +56,8 @@ void require_machine(const std::vector<Result>& rows, const std::string& machine
     if (others.find("'" + row.machine + "'") == std::string::npos)
       others += fmt::format("{}'{}'", others.empty() ? "" : ", ", row.machine);
   }
-  throw Error(
-      Error::Kind::Name, "a kind of machine", "", machine,
-      others.empty() ? "has no costs here" : "has no costs here: those there are come from " + others);
+  throw Error(Error::Kind::Name, "a kind of machine", "", machine,
+              others.empty() ? "has no costs here" : "has no costs here; there are costs of " + others);
 }
 
 }  // namespace

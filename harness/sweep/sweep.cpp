@@ -99,7 +99,7 @@ void InstanceSweep::set_up() {
     const reference::StepSettings plain;
     if (identity.available) reason = backend->unsupported(problem.scene, plain);
     if (reason.empty() && !cases_.has_truth() && !cases_.limit(*backend).problem.empty()) {
-      reason = fmt::format("no limit of its own: {}", cases_.limit(*backend).problem);
+      reason = fmt::format("its solutions do not converge: {}", cases_.limit(*backend).problem);
       status = Status::Failed;
     }
     if (reason.empty()) {

@@ -97,10 +97,10 @@ void Tuner::enter() {
     if (why.empty()) why = backend->unsupported(problem.scene, {.dt = options_.step});
     if (why.empty() && !cases_.has_truth()) {
       const OwnLimit& limit = cases_.limit(*backend);
-      why = limit.problem.empty() ? "" : "no limit of its own: " + limit.problem;
+      why = limit.problem.empty() ? "" : "its solutions do not converge: " + limit.problem;
       // The uncertainty of the limit is that of the errors.
       if (why.empty() && goal_.error && limit.distance > *goal_.error / 2)
-        why = fmt::format("{}: too uncertain for this tolerance", limit.source);
+        why = fmt::format("{}: not accurate enough for this tolerance", limit.source);
     }
     entrants_.push_back({.backend = backend, .explorer = Explorer(Space(*backend, ladder_))});
     entrants_.back().problem = why;
@@ -130,7 +130,7 @@ void Tuner::take(Entrant& entrant, IsolatedRun run) {
   if (run.result.status != Status::Ok || !error || !std::isfinite(*error) || !run.rough) {
     entrant.explorer.fail(*place);
     entrant.last_failure = run.result.status == Status::Ok
-                               ? fmt::format("{} has no meaning for this scene", options_.metric->name)
+                               ? fmt::format("{} does not apply to this scene", options_.metric->name)
                                : fmt::format("{}: {}", name_of(run.result.status), run.result.reason);
     return;
   }
@@ -215,12 +215,12 @@ void Tuner::confirm(const Entrant& entrant, TuneAnswer& answer) {
   answer.found = ran && (!options_.tolerance || *error <= *options_.tolerance);
   if (answer.found) return;
   const std::string what =
-      ran ? fmt::format("reach {}", figure(*error))
+      ran ? fmt::format("reached {}", figure(*error))
       : again.result.status == Status::Ok
-          ? fmt::format("give no {}", options_.metric->name)
-          : fmt::format("end as {}: {}", name_of(again.result.status), again.result.reason);
-  answer.problem =
-      fmt::format("{}: they met it, and run once more {}", settings_text(answer.row.asked), what);
+          ? fmt::format("gave no {}", options_.metric->name)
+          : fmt::format("ended as {}: {}", name_of(again.result.status), again.result.reason);
+  answer.problem = fmt::format("{}: these settings met it once, but a second run {}",
+                               settings_text(answer.row.asked), what);
 }
 
 void Tuner::fill(TuneAnswer& answer, const Trial& trial) const {
@@ -248,7 +248,7 @@ TuneAnswer Tuner::answer(Entrant& entrant) {
   }
   if (measured.empty()) {
     if (out.problem.empty())
-      out.problem = entrant.last_failure.empty() ? "no run within the time" : entrant.last_failure;
+      out.problem = entrant.last_failure.empty() ? "no run finished in time" : entrant.last_failure;
     return out;
   }
   if (meets(*measured.front())) return out;  // none of those that met the goal did so twice

@@ -20,8 +20,8 @@ std::string wish(const TuneOptions& options) {
   if (options.tolerance)
     return fmt::format("the cheapest settings with {} at most {:g}{}", options.metric->name,
                        *options.tolerance, unit);
-  return fmt::format("the settings with the least {} at no more than {} a step of {} s", options.metric->name,
-                     duration_text(*options.budget_ns), dt_text(options.step));
+  return fmt::format("the settings with the least {} at a cost of at most {} per step of {} s",
+                     options.metric->name, duration_text(*options.budget_ns), dt_text(options.step));
 }
 
 // Returns the command that runs these settings.
@@ -93,8 +93,8 @@ std::string tune_text(const TuneOptions& options, const Tuned& tuned, const Styl
         style.paint("  " + wrap("errors against the truth: " + source, style.width - 2, 4), Ink::Dim) + "\n";
   } else {
     out += style.paint(
-               "  " + wrap("no answer is known for this scene: each engine is held against its own limit "
-                           "as steps get finer, which says that it is consistent, not that it is right",
+               "  " + wrap("no truth is known for this scene: each engine is compared with its own limit for "
+                           "small steps, which shows that it is consistent, not that it is right",
                            style.width - 2, 4),
                Ink::Yellow) +
            "\n";

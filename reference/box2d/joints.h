@@ -47,8 +47,8 @@ class Box2dJointLimits {
 
  private:
   static constexpr const char* kLevers =
-      "Box2D's springs have a stiffness by the bodies' masses alone; anchors off the centres of mass are not "
-      "translated";
+      "Box2D's springs derive their stiffness from the masses alone; anchors off the centres of mass are not "
+      "supported";
 
   std::string why(const RevoluteJoint& j) const {
     return j.spring ? "Box2D's revolute joint has no spring" : "";
@@ -70,17 +70,17 @@ class Box2dJointLimits {
     return j.spring && !(j.anchor_a == Vec2d{} && j.anchor_b == Vec2d{}) ? kLevers : "";
   }
   std::string why(const MotorJoint&) const {
-    return "Box2D's motor joint corrects a share of the offset a step; it has no spring";
+    return "Box2D's motor joint corrects a fraction of the offset per step; it has no spring";
   }
   std::string why(const MouseJoint& j) const { return j.anchor_b == Vec2d{} ? "" : kLevers; }
   std::string why(const GearJoint& j) const {
     for (const std::string& body : {j.body_a, j.body_b}) {
       if (!fixed_hinge(scene_, body))
-        return "Box2D's gears need a hinge of each body (as its body_b) on what stands still; " +
+        return "Box2D's gears need a hinge of each body (as its body_b) on a static body; " +
                plumb::quoted(body) + " has none";
     }
     const double off = angle(j.body_b) - j.ratio * angle(j.body_a) - j.phase;
-    return std::abs(off) <= 1e-6 ? "" : "Box2D's gears keep the phase that they start with";
+    return std::abs(off) <= 1e-6 ? "" : "Box2D's gears keep their phase at the start";
   }
   std::string why(const PulleyJoint&) const { return ""; }
   std::string why(const RatchetJoint&) const { return "Box2D has no ratchet"; }

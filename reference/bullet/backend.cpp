@@ -31,10 +31,10 @@ class BulletBackend final : public Backend {
   }
 
   std::vector<Option> options() const override {
-    return {{"iterations", "10", "sweeps over all constraints a substep"},
-            {"joint_erp", "0.2", "share of a joint's gap that a substep corrects"},
-            {"contact_erp", "0.2", "share of a penetration that a substep corrects"},
-            {"speculative", "off", "on or off: contacts act before shapes touch, which swallows bounces"}};
+    return {{"iterations", "10", "iterations per substep"},
+            {"joint_erp", "0.2", "fraction of a joint's gap that a substep corrects"},
+            {"contact_erp", "0.2", "fraction of a penetration that a substep corrects"},
+            {"speculative", "off", "on or off: speculative contacts, which may suppress restitution"}};
   }
 
   std::vector<Knob> knobs() const override {

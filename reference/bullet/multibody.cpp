@@ -210,7 +210,8 @@ class MultibodyBackend final : public Backend {
                " is not held by hinges: 'bullet-double' moves free bodies";
     }
     if (chosen.fourth_order && !scene.forces.empty())
-      return "forces are held for a step, which is no fourth order; use --set integrator=euler";
+      return "forces are constant within a step, so the method is not of fourth order; use --set "
+             "integrator=euler";
     return out_of_range(scene, sizeof(btScalar) == sizeof(float) ? kFloatRange : kDoubleRange);
   }
 
@@ -220,7 +221,7 @@ class MultibodyBackend final : public Backend {
                  {"substeps", std::to_string(chosen.substeps)},
                  {"integrator", chosen.fourth_order ? "rk4" : "euler"},
                  {"joints", "coordinates: hinges by their angle (Featherstone)"},
-                 {"contacts", "off; scenes in which shapes may touch are refused"},
+                 {"contacts", "off; scenes in which shapes may touch are rejected"},
                  {"forces", "at the start of each substep"},
                  {"linear_damping", "0"},
                  {"angular_damping", "0"},

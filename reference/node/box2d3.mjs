@@ -126,9 +126,9 @@ function create(scene, settings) {
 
 serve({
   name: "box2d3", version: versionOf("box2d3-wasm"), precision: "float", summary: "Box2D v3 in WebAssembly", scheme: "soft_step", innerSubsteps: 4,
-  limits: "Box2D v3 holds contacts and joints as damped springs of 30 and 60 Hz over 4 substeps, with a slop of 5 mm, and applies " +
-    "restitution at the end of the step.",
+  limits: "Box2D v3 solves contacts and joints as soft constraints of 30 and 60 Hz in 4 substeps, leaves a slop of 5 mm, and " +
+    "applies restitution at the end of the step.",
   joints: ["revolute", "distance"], features: ["contacts", "filters", "kinematic", "fixed_rotation"],
-  options: [{ name: "soft_substeps", fallback: "4", help: "substeps of its own a step" }],
+  options: [{ name: "soft_substeps", fallback: "4", help: "Box2D substeps per step" }],
   create,
 });

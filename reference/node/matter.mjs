@@ -100,11 +100,11 @@ function create(scene, settings) {
 
 serve({
   name: "matter", version: versionOf("matter-js"), precision: "double", summary: "matter-js in JavaScript",
-  limits: "matter-js takes circles for polygons, lets impacts below 2 pixels a frame not bounce, holds friction by a rule of " +
-    "its own, and closes joints by moving bodies a few sweeps a step, which adds and takes energy.",
+  limits: "matter-js approximates circles by polygons, drops restitution below 2 pixels per frame, has its own rule of " +
+    "friction, and closes joints by a few position iterations per step, which changes the energy.",
   joints: ["revolute", "distance"], features: ["contacts", "filters", "fixed_rotation"],
-  options: [{ name: "position_iterations", fallback: "6", help: "sweeps over positions a substep" },
-            { name: "velocity_iterations", fallback: "4", help: "sweeps over velocities a substep" },
+  options: [{ name: "position_iterations", fallback: "6", help: "position iterations per substep" },
+            { name: "velocity_iterations", fallback: "4", help: "velocity iterations per substep" },
             { name: "constraint_iterations", fallback: "2", help: "sweeps over constraints a substep" }],
   create,
 });

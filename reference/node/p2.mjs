@@ -85,9 +85,9 @@ function create(scene, settings) {
 
 serve({
   name: "p2", version: versionOf("p2-es"), precision: "float", summary: "p2 in JavaScript",
-  limits: "p2 holds contacts and joints by springs that give under load, and limits friction by an estimate of the weight, " +
-    "not by the contact's own force.",
+  limits: "p2 solves contacts and joints as soft constraints that yield under load, and limits friction by an estimate of " +
+    "the weight, not by the contact's normal force.",
   joints: ["revolute", "distance"], features: ["contacts", "filters", "kinematic", "fixed_rotation"],
-  options: [{ name: "iterations", fallback: "10", help: "sweeps a substep" }],
+  options: [{ name: "iterations", fallback: "10", help: "iterations per substep" }],
   create,
 });

@@ -73,10 +73,10 @@ function create(scene, settings) {
 
 serve({
   name: "planck", version: versionOf("planck"), precision: "double", summary: "planck in JavaScript",
-  limits: "planck is Box2D 2: sequential impulses are swept 8 times a step, polygons keep a skin of 1 cm and contacts a " +
-    "slop of 5 mm, and an impact is noticed where the step ends.",
+  limits: "planck is Box2D 2: it makes 8 iterations per step, polygons have a skin of 1 cm and contacts a slop of 5 mm, and " +
+    "impacts are found at the end of the step.",
   joints: ["revolute", "distance"], features: ["contacts", "filters", "kinematic", "fixed_rotation"],
-  options: [{ name: "velocity_iterations", fallback: "8", help: "sweeps over velocities a substep" },
-            { name: "position_iterations", fallback: "3", help: "sweeps over positions a substep" }],
+  options: [{ name: "velocity_iterations", fallback: "8", help: "velocity iterations per substep" },
+            { name: "position_iterations", fallback: "3", help: "position iterations per substep" }],
   create,
 });

@@ -94,9 +94,9 @@ const inner = major > 0 || minor >= 12;
 
 serve({
   name: "rapier", version, innerSubsteps: inner ? 4 : 1, scheme: inner ? "soft_step" : "semi_implicit_euler", precision: "float", summary: "Rapier 2D in WebAssembly",
-  limits: "Rapier corrects contacts and joints softly over many steps, sweeps them a few times a step, and has no rule " +
-    "for the impact's own instant: what is to be held at once, or passed along a row, is held in part.",
+  limits: "Rapier solves contacts and joints as soft constraints with a few iterations per step, and does not place impacts " +
+    "within the step. Loads and impacts that pass through several bodies are resolved only in part.",
   joints: ["revolute"], features: ["contacts", "filters", "kinematic", "fixed_rotation"],
-  options: [{ name: "solver_iterations", fallback: "", help: "sweeps a step (default: the version's own)" }],
+  options: [{ name: "solver_iterations", fallback: "", help: "iterations per step (default: the version's own)" }],
   create,
 });

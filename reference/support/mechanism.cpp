@@ -172,7 +172,7 @@ std::string ill_fitting(const Scene& scene, const Link& link, const std::vector<
   if (std::sqrt(length_squared(gap)) > kRelative * length)
     return "the hinge of body " + plumb::quoted(body.name) + " is open at the start";
   if (std::sqrt(length_squared(slip)) > kRelative * speed)
-    return "the velocity of body " + plumb::quoted(body.name) + " tears at its hinge";
+    return "the velocity of body " + plumb::quoted(body.name) + " violates its hinge";
   return "";
 }
 
@@ -187,7 +187,7 @@ std::string not_a_mechanism(const Scene& scene) {
     return field + ", which this engine does not have; 'plumb' runs it";
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const auto* hinge = std::get_if<RevoluteJoint>(&scene.joints[j]);
-    if (hinge == nullptr) return quoted_joint(scene, j) + ": only revolute joints become coordinates";
+    if (hinge == nullptr) return quoted_joint(scene, j) + ": only revolute joints can be coordinates";
     for (const std::string& name : {hinge->body_a, hinge->body_b}) {
       const auto body = find_body(scene, name);
       if (body && scene.bodies[*body].type == BodyType::Kinematic)

@@ -103,9 +103,8 @@ std::unique_ptr<Backend> make_guest(const std::string& name, const NodeEngine& e
                                       version + "` does it");
   std::vector<std::string> command{"node", engine.script, folder_of(engine, version)};
   if (out_of_the_box) command.emplace_back("default");
-  const std::string summary =
-      directive(engine.script, "summary") +
-      (out_of_the_box ? "; with its own settings out of the box" : "; settings equalised");
+  const std::string summary = directive(engine.script, "summary") +
+                              (out_of_the_box ? "; with its default settings" : "; settings equalised");
   return std::make_unique<Guest>(make_process_backend(name, std::move(command), summary));
 }
 

@@ -10,7 +10,7 @@ const kOutcomes = {
 const outcomeOf = (outcome) => kOutcomes[outcome] ?? ["broken", outcome];
 const kLegend = [["all", "ok", "survived"], ["near", "inexact", "off by less than ten times its bound"],
   ["wrong", "sinks \u2026", "runs on with wrong physics"], ["broken", "NaN \u2026", "not finite, crashed, exploded or out of time"],
-  ["refused", "refused", "said that it cannot"], ["none", "\u2013", "the engine does not have what the family needs: not counted"]];
+  ["refused", "refused", "said that it cannot"], ["none", "\u2013", "the engine lacks a feature that the family needs: not counted"]];
 
 // Steps are shares of a second: 1/60.
 const axisText = (value) => (value > 1e-3 && value < 0.1 && figure4(value) !== String(value) ? stepText(value) : figure4(value).replace(/^1\u00b7/, ""));

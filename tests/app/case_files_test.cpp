@@ -152,7 +152,7 @@ TEST(CaseFiles, EnginesThatNeedNotPassFailNothing) {
   const Ran ran = plumb({"compare", file, "--engine", "plumb-precise,box2d", "--no-cost", "--out",
                          folder.path("r"), "--junit", folder.path("report.xml")});
   EXPECT_EQ(ran.code, 0) << ran.out;
-  EXPECT_THAT(ran.out, HasSubstr("the case does not ask this engine to pass"));
+  EXPECT_THAT(ran.out, HasSubstr("the case does not require this engine to pass"));
   EXPECT_THAT(folder.read("report.xml"), HasSubstr("to pass\n</system-out>")) << "a line a miss";
 }
 
@@ -176,7 +176,7 @@ TEST(Agreement, IsPrintedAtTheEndOfAComparisonAndFromItsResults) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   const Ran text = plumb({"agreement", folder.path("r")});
   EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_THAT(text.out, HasSubstr("with the truth: plumb, plumb-precise (2 of 3)"));
+  EXPECT_THAT(text.out, HasSubstr("agree with the truth: plumb, plumb-precise (2 of 3)"));
   EXPECT_THAT(text.out, HasSubstr("not: box2d velocity_error"));
   EXPECT_THAT(text.out, HasSubstr("Each of Box2D's 8 iterations"));
   EXPECT_THAT(ran.out, HasSubstr(text.out)) << "the same, derived anew";
@@ -195,11 +195,11 @@ TEST(CaseFiles, BadFilesNameFileMemberAndValue) {
   const std::string good = R"({"of": "ball.y", "is": "5 - 5*t^2", "tolerance": 1e-6})";
   const Bad files[] = {
       {fall(R"({"of": "bal.y", "is": 1, "tolerance": 1})"), "expect[0].of", "did you mean 'ball.y'"},
-      {fall(R"({"of": "ball.y", "is": "5 - ", "tolerance": 1})"), "expect[0].is", "is no formula"},
+      {fall(R"({"of": "ball.y", "is": "5 - ", "tolerance": 1})"), "expect[0].is", "is not a formula"},
       {fall(R"({"of": "ball.y", "is": 1, "tolerance": 0})"), "expect[0].tolerance", "must be above 0"},
       {fall(R"({"of": "ball.y", "is": 1, "tolerance": -1})"), "expect[0].tolerance", "must be above 0"},
       {fall(R"({"of": "ball.y", "is": 1})"), "expect[0].tolerance", "is missing"},
-      {fall(R"({"of": "ball.y", "tolerance": 1})"), "expect[0]", "must have either is, or at_least"},
+      {fall(R"({"of": "ball.y", "tolerance": 1})"), "expect[0]", "must have either 'is', or 'at_least'"},
       {fall(R"({"of": "ball.y", "is": 1, "tolerance": 1, "at": 2})"), "expect[0].at",
        "from 0 to the duration"},
       {fall(R"({"law": "enrgy", "tolerance": 1})"), "expect[0].law", "did you mean 'energy'"},
@@ -209,7 +209,7 @@ TEST(CaseFiles, BadFilesNameFileMemberAndValue) {
       {fall(R"({"motion": "ball", "tolerance": 1})"), "expect[0]", "must have one of the members"},
       {fall(good, R"(, "expext": 1)"), "expext", "did you mean 'expect'"},
       {fall(good, R"(, "parameters": {"a": "t"})"), "parameters.a", "must not depend on t"},
-      {fall(""), "expect", "nothing cannot fail"},
+      {fall(""), "expect", "without expectations cannot fail"},
       {R"({"plumb_case": 2, "source": "", "scene": {}, "duration": 1, "expect": []})", "plumb_case",
        "must be 1"},
       {R"({"plumb_case": 1, "source": "", "scene": {"bodies": 3}, "duration": 1, "expect": []})", "scene",

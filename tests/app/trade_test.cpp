@@ -70,7 +70,7 @@ TEST(Compare, RunsOfASweepMadeAgainAreTheSameToTheBit) {
       "compare", "--again", folder.path("s"), "--out", folder.path("again"), "--jobs", "2"};
   const Ran again = plumb(command);
   EXPECT_EQ(again.code, 0) << again.out << again.err;
-  EXPECT_NE(again.out.find("all runs are the same to the bit"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("all runs are identical to the bit"), std::string::npos) << again.out;
   EXPECT_EQ(lines_of(folder.read("again/results.jsonl")).size(), count);
   // Complete runs are not made a second time.
   EXPECT_EQ(plumb(command).code, 0);

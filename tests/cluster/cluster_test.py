@@ -118,7 +118,7 @@ def a_sweep_of_several_cores_goes_on_where_it_was(tmp):
     before = (tmp / "out/results.jsonl").read_text()
     plumb(*command)
     assert (tmp / "out/results.jsonl").read_text() == before
-    assert "is of another sweep" in plumb("sweep", "free_fall/vacuum", "--jobs", 2, "--out", tmp / "out", code=2).stderr
+    assert "belongs to another sweep" in plumb("sweep", "free_fall/vacuum", "--jobs", 2, "--out", tmp / "out", code=2).stderr
     plumb("sweep", "free_fall/vacuum", "--jobs", 2, "--explore", 1, "--out", tmp / "new", code=2)
 
 

@@ -104,7 +104,7 @@ TEST(Agreement, TextHasEachReasonOnceAndCasesWithoutMissesTogether) {
   results.push_back(alone);
   const std::string text = agreement_text(agreements(results), AgreementDetail::Full, {});
   EXPECT_THAT(text, HasSubstr("in 1 of 3: rest (1)"));
-  EXPECT_THAT(text, HasSubstr("with the truth: a, b (2 of 3)"));
+  EXPECT_THAT(text, HasSubstr("agree with the truth: a, b (2 of 3)"));
   EXPECT_THAT(text, HasSubstr("not: c energy_drift 5, 50 x its bound and 1 more (1)"));
   EXPECT_THAT(text, HasSubstr("with each other: a, b; b, c"));
   const std::size_t first = text.find("c rounds to a metre.");
@@ -112,7 +112,7 @@ TEST(Agreement, TextHasEachReasonOnceAndCasesWithoutMissesTogether) {
   EXPECT_EQ(text.find("c rounds to a metre.", first + 1), std::string::npos);
   EXPECT_THAT(
       agreement_text(agreements(results), AgreementDetail::Brief, {}),
-      HasSubstr("drop: 2 of 3 with the truth; not c energy_drift 5, 50 x its bound and 1 more (1)\n"));
+      HasSubstr("drop: 2 of 3 agree with the truth; not c energy_drift 5, 50 x its bound and 1 more (1)\n"));
 }
 
 TEST(Agreement, JsonReadsBackAndCsvHasALineAMiss) {

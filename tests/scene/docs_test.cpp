@@ -232,7 +232,7 @@ bool beyond_schema(const Error& error) {
   for (const char* rule :
        {"must be unique", "must be the name of a body", "must differ from", "must be dynamic when",
         "must not lie on a line", "must not be zero: it is a direction", "must be at least the lower bound",
-        "densities", "another shape of the body", "weigh nothing", "when closed", "is no formula",
+        "densities", "another shape of the body", "weigh nothing", "when closed", "is not a formula",
         "must be the name of a joint", "must have a motor", "one drive at most"}) {
     if (error.problem().find(rule) != std::string::npos) return true;
   }

@@ -267,11 +267,11 @@ std::string refusal(const std::string& parts) {
 TEST(Formulas, AreRefusedWithThePlaceOfTheMistake) {
   EXPECT_NE(
       refusal(R"x(, "motion": {"y": "0.1*sin(w*t)"}}]})x")
-          .find("line 2: body 'k': motion.y is 0.1*sin(w*t): is no formula: it has an unknown name, 'w'"),
+          .find("line 2: body 'k': motion.y is 0.1*sin(w*t): is not a formula: it has an unknown name, 'w'"),
       std::string::npos);
   EXPECT_NE(refusal(R"(, "motion": {"z": 1}}]})").find("is not a field of a motion"), std::string::npos);
   EXPECT_NE(refusal(R"(}], "forces": [{"type": "formula_force", "body": "a", "force": ["sin(t", 0]}]})")
-                .find("force[0] is sin(t: is no formula: it ends where ')' is missing"),
+                .find("force[0] is sin(t: is not a formula: it ends where ')' is missing"),
             std::string::npos);
   EXPECT_NE(
       refusal(R"(}], "drives": [{"joint": "axle", "speed": "t"}]})").find("must be the name of a joint"),

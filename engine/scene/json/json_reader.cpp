@@ -65,7 +65,7 @@ std::string formula(const View& view) {
     return shortest(value);
   }
   std::string text = json::string(view);
-  if (text.empty()) view.fail(Error::Kind::Syntax, "is no formula: it is empty");
+  if (text.empty()) view.fail(Error::Kind::Syntax, "is not a formula: it is empty");
   return text;
 }
 
