@@ -78,12 +78,12 @@ std::string agreeing_cell(const Agreement& one) {
 std::string missing_cell(const Agreement& one, Notes& reasons) {
   std::string out;
   for (const Dissent& dissent : one.dissents) {
-    out += (out.empty() ? "" : "; ") + dissent.engine + " ";
+    out += (out.empty() ? "" : "; ") + dissent.engine + ": ";
     out += dissent.misses.empty()
                ? "diverges"
                : fmt::format("{} {} ({})", dissent.misses.front().check, figure(dissent.misses.front().value),
                              times_text(dissent.misses.front()));
-    out += fmt::format(", with {} of {} others [{}](#reasons)", one.partners(dissent.engine).size(),
+    out += fmt::format(", agrees with {} of {} others [{}](#reasons)", one.partners(dissent.engine).size(),
                        one.ran() - 1, reasons.number_of(dissent.reason));
   }
   return out;
@@ -158,12 +158,12 @@ motion in independent coordinates, `integrated` to about 15 digits, or an `equil
 the start dashed, the end filled, and the true paths between.
 
 An engine *agrees* if each of its checks is within its derived bound ([which](formats.md#checks)), at dt = 1/60 s and
-default settings. Of the others, the table has the check that is missed by the largest multiple of its bound, how many
-of the other engines they agree with (within the sum of both bounds), and the number of [the reason](#reasons). The
-figures were made with {}.
+default settings. For every other engine the table lists the check that exceeds its bound by the largest factor, the
+number of other engines that it agrees with (within the sum of both bounds), and [the reason](#reasons). The results are
+of {}.
 
 `plumb list --page docs/agreement.jsonl` generates this page, and `--pictures docs/pictures/scenarios` its pictures; a
-test compares both with the scenarios. What engines agree on comes from results:
+test compares both with the scenarios. Which engines agree comes from the results of these commands:
 
 ```sh
 plumb compare --engine all --no-cost --out all        # after plumb engines --install, for those from npm
@@ -186,7 +186,8 @@ plumb agreement all --without '*-default' --format json > docs/agreement.jsonl
         if (needed.contains(name)) needs += (needs.empty() ? "" : ", ") + name;
       page += fmt::format(
           "\n### {0}\n\n{4}. Needs: {2}.\n\n![{1}](pictures/scenarios/{3})\n\n"
-          "| case | truth | source | agree with it | miss |\n|---|---|---|---|---|\n",
+          "| case | truth | source | engines that agree | engines that miss a bound "
+          "|\n|---|---|---|---|---|\n",
           entry.instance.scenario->name, entry.instance.scenario->summary,
           needs.empty() ? "gravity alone" : needs, picture_name(entry),
           capitalised(entry.instance.scenario->summary));
