@@ -1,4 +1,4 @@
-// Sequential impulses: more sweeps carry a load farther up a chain.
+// Sequential impulses: more iterations carry a load farther up a chain.
 #include <algorithm>
 #include <cstdio>
 
@@ -27,6 +27,6 @@ double worst_gap(int iterations) {
 
 int main() {
   for (const int iterations : {1, 4, 16, 64})
-    std::printf("%2d sweeps: joints come apart by %.1f mm\n", iterations, 1000 * worst_gap(iterations));
+    std::printf("%2d iterations: joints come apart by %.1f mm\n", iterations, 1000 * worst_gap(iterations));
   return worst_gap(16) < worst_gap(1) ? 0 : 1;
 }

@@ -1,4 +1,4 @@
-// XPBD: a spring's stiffness does not depend on the step, and substeps take the place of sweeps.
+// XPBD: a spring's stiffness does not depend on the step, and substeps take the place of iterations.
 #include <cmath>
 #include <cstdio>
 
