@@ -43,7 +43,7 @@ struct Agreement {
   std::vector<std::string> agree;       ///< with the truth: every check is within its bound
   std::vector<Dissent> dissents;
   std::vector<Absence> absent;
-  /// Largest sets of two or more engines of which each pair differs by no more than the sum of their bounds.
+  /// Largest sets of two or more engines in which each pair differs by at most the sum of its bounds.
   std::vector<std::vector<std::string>> groups;
 
   std::size_t ran() const { return agree.size() + dissents.size(); }

@@ -39,27 +39,27 @@ inline constexpr double kRoundings = 4;
 /// adaptive method errs by its tolerance, relative to the scene's own length and speed, `kAdaptiveSteps`
 /// times a sample.
 ///
-/// **Forces that turn.** An angle error turns the acceleration of a body-fixed force (|F|/m per rad). For a
-/// world-fixed force at a point of the body it changes the torque (|F||r|/I per rad). Both are fed back; the
-/// rest of the motion of a jointed body is fed back only through its own variation. A joint's force that acts
-/// a substep early or late turns the body until the joint takes it back: h m r/I |a - g| in the angular
+/// **Forces that rotate.** An angle error rotates the acceleration of a body-fixed force (|F|/m per rad). For
+/// a world-fixed force at a point of the body it changes the torque (|F||r|/I per rad). Both are fed back;
+/// the rest of the motion of a jointed body is fed back only through its own variation. A joint's force that
+/// acts a substep early or late turns the body until the joint corrects it: h m r/I |a - g| in the angular
 /// velocity and h times that in the angle, with r the joint's distance from the centre.
 ///
-/// **Lasting contacts.** Their forces act up to a substep early or late, whatever the order of the method.
-/// With f = a - g: h |f| in velocity and h^2 |f| in position while they last, which the contact itself takes
-/// back (and m r/I of these in the angle, r the body's radius). Along the body's motion nothing takes back
-/// what is missed where they begin: dV = h |f.v|/|v|.
+/// **Persistent contacts.** Their forces act up to a substep early or late, whatever the order of the method.
+/// With f = a - g: h |f| in velocity and h^2 |f| in position while they last, which the contact itself
+/// corrects (and m r/I of these in the angle, r the body's radius). Along the body's motion nothing corrects
+/// the error of their beginning: dV = h |f.v|/|v|.
 ///
-/// **Impacts.** One is noticed up to one substep late or early, and the existing error of the approaching
-/// bodies shifts the time further: D = h + (P_i + P_j)/closing speed. Until then the velocity is that of
-/// the other side of the jump, so P_i += |jump| D. The contact's normal has turned by
+/// **Impacts.** An impact is detected up to one substep late or early, and the existing error of the
+/// approaching bodies shifts the time further: D = h + (P_i + P_j)/closing speed. Until then the velocity is
+/// that of the other side of the jump, so P_i += |jump| D. The contact's normal has rotated by
 ///   turn = (sliding speed D + P_i + P_j across the normal) / (distance of the centres - closing speed D).
 /// The jump is |jump| (u.n) n / closing in the relative velocity u and the normal n, so it is off by
 ///   |jump|/closing ((turn sliding + V_i + V_j along n + g D) along n + turn closing across n),
 /// with g the gravity along n that the two do not share.
 /// The lever arm of the impulse is off by the error of the contact point (a disc's only by rounding). That
-/// turns the body by m/I |jump| a unit of arm. V and P are kept by component, x and y: an error along a
-/// line of impacts does not turn their normals.
+/// changes the angular velocity by m/I |jump| per unit of arm. V and P are kept by component, x and y: an
+/// error along a line of impacts does not turn their normals.
 class Envelope {
  public:
   Envelope(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,

@@ -23,7 +23,7 @@ struct Survey {
   std::vector<int> free, running;
   std::map<std::string, std::vector<int>> failed;  ///< by the kind of the last failure; not done since
   std::map<int, std::string> damaged;              ///< in done/, but not complete
-  std::vector<int> noisy;                          ///< done while others used the machine
+  std::vector<int> noisy;                          ///< measured while other programs used the machine
   std::map<std::string, MachineUse> machines;      ///< by kind
   double seconds_done = 0;                         ///< wall time of all units that are done
   double seconds_left = 0;  ///< s, estimate, corrected by the durations of the units done and by calibrations
@@ -31,7 +31,7 @@ struct Survey {
   std::vector<int> missing() const;  ///< in order
 };
 
-/// `expiry`: age in s from which a claim counts as that of a dead process.
+/// `expiry`: age in s at which the process of a claim counts as dead.
 Survey survey(const std::string& folder, const Plan& plan, double expiry);
 
 struct Gathered {

@@ -29,7 +29,7 @@ Calibration calibrate(double seconds);
 double noise_of(const Calibration& before, const Calibration& after);
 
 /// Returns true if other processes disturbed the measurement: a median is a quarter above the fastest time,
-/// or the medians before and after differ by a quarter. A cost is called noisy from the same spread on.
+/// or the medians before and after differ by a quarter. A cost is called noisy at the same spread.
 bool is_noisy(const Calibration& before, const Calibration& after);
 
 std::string to_json(const Machine& machine);

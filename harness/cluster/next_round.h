@@ -21,8 +21,8 @@ struct NextRound {
 /// disturbed, on hosts that did not disturb them, at most `kAttempts` times in all.
 NextRound next_round(const std::string& folder, const Plan& plan, const Survey& survey);
 
-/// Returns, by number, the attempt whose results count, of each unit and its repetitions: the first
-/// undisturbed one, else the least disturbed. Leaves out units of which no attempt is done.
+/// Returns for each unit, by its number, the attempt whose results count (the unit itself or a repetition):
+/// the first undisturbed one, else the least disturbed. Leaves out units of which no attempt is done.
 std::map<int, const Done*> least_disturbed(const Plan& plan, const Survey& survey);
 
 }  // namespace plumb::harness::cluster

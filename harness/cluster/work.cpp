@@ -215,7 +215,7 @@ Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, co
   bool died = false;
   const std::unique_ptr<Claim> claim = Claim::take(folder, unit.number, options.expiry, force, died);
   if (!claim) return Worked::Elsewhere;
-  if (!options.again && fs::exists(there, code)) return Worked::Before;  // in between
+  if (!options.again && fs::exists(there, code)) return Worked::Before;  // finished meanwhile
   if (died) note_failure(folder, unit.number, "its worker died", "");
   try {
     return run(folder, plan, unit, options, *claim);
@@ -254,7 +254,7 @@ std::optional<int> Queue::next(Worked& worked) {
   std::vector<const Unit*> claimed;
   for (const Unit* unit : open_) {
     if (interrupted()) return {};
-    // While other processes work, leave a unit that another host should do to them.
+    // Leaves a unit that should run on another host to other processes, while there are any.
     const bool elsewhere = std::find(unit->avoid.begin(), unit->avoid.end(), host_) != unit->avoid.end();
     if (elsewhere && !claims.empty()) continue;
     if (claims.contains(unit->number)) {

@@ -98,7 +98,7 @@ std::string to_json(const Done& done);
 std::optional<Failure> read_failure(const std::string& folder, int number);
 std::string to_json(const Failure& failure);
 
-/// Writes numbers as ranges: "1-4,7", the form that sbatch and a shell's brace expansion are near to.
+/// Formats numbers as ranges, such as "1-4,7", the notation of sbatch.
 std::string ranges(const std::vector<int>& numbers);
 
 /// Returns the present time, UTC, ISO 8601.

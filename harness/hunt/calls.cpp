@@ -283,7 +283,7 @@ std::string Caller<Real, Target>::add_joint() {
   const Vec2d at = world_.centre(b);
   JointDefinition definition;
   const Vec2d on_a = world_.local_point(a, at), on_b = world_.local_point(b, at);
-  // Whole turns are no part of a pose.
+  // A pose does not include whole turns.
   const double full = world_.angle(b) - world_.angle(a),
                angle = random_.chance(0.5) ? full : std::remainder(full, 6.283185307179586);
   switch (random_.whole(0, 3)) {

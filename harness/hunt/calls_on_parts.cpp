@@ -99,7 +99,7 @@ std::string Caller<Real, Target>::change() {
         if constexpr (requires { kind.motor->speed; }) {
           if (kind.motor) kind.motor->speed = number(3);
         }
-        // Keeps its anchors, and the angle that it counts from.
+        // Keeps its anchors, and the angle from which it counts.
         if constexpr (!requires { kind.reference_angle; }) {
           if (random_.chance(0.15)) kind = usual;
         }

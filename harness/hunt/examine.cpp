@@ -10,7 +10,8 @@ namespace plumb::harness::hunt {
 
 namespace {
 
-// Judges that cost no more than the run itself, or that every scene which they apply to is drawn for.
+// Returns true for judges that run on every scene to which they apply, because they cost no more than the run
+// itself or because these scenes were drawn for them.
 bool is_always_due(const std::string& name) {
   static const std::set<std::string> cheap{"life",        "twins",   "collisions",  "integrated", "formulas",
                                            "wind",        "systems", "as_formulas", "damaged",    "loops",

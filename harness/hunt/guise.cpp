@@ -17,8 +17,8 @@
 namespace plumb::harness::hunt {
 namespace {
 
-/// Mixes words into a hash: FNV-1a, with the upper half folded into the lower one, which products alone do
-/// not carry down to.
+/// Mixes words into a hash by FNV-1a, and folds the upper half into the lower one, because products only
+/// carry bits upwards.
 class Mixer {
  public:
   void add(std::uint64_t word) {

@@ -22,7 +22,7 @@ constexpr double kPreciseShare = 1e-6, kGrown = 1000;
 // Largest change of a result when its step is halved, as a fraction of the bound.
 constexpr double kSteady = 0.25;
 constexpr double kShare = 0.05;  // tolerance of first-order methods, as a fraction of the smallest body
-// rad, largest rotation in a step of a body with a force beside its centre: beyond it, first-order methods
+// rad, largest rotation in a step of a body with an off-centre force: beyond it, first-order methods
 // misjudge the force's direction.
 constexpr double kMostTurn = 0.5;
 

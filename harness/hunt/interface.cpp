@@ -45,8 +45,8 @@ void sign_anew(std::vector<std::byte>& bytes) {
   std::memcpy(bytes.data() + kSumAt, &sum, 8);
 }
 
-/// Returns errors in the colours of joints and contacts. Constraints of one colour are solved side by side,
-/// so no two may share a dynamic body.
+/// Returns errors in the colours of joints and contacts. Constraints of one colour are solved in parallel, so
+/// no two may share a dynamic body.
 template <class Real>
 std::string shared_colours(const BasicWorld<Real>& world) {
   const WorldData<Real>& w = world.data();

@@ -24,7 +24,7 @@ struct Budget {
   double start = 0, kinetic = 0, fall = 0, fastest_turn = 0;
 };
 
-// Returns the energy due to position errors: half a step's displacement and a hundredth of the reach of each
+// Returns the energy due to position errors: half a step's displacement and a hundredth of the extent of each
 // body, in its gravity.
 double slack_of_places(const Case& one, const Sample& sample, const std::vector<double>& reach) {
   double sum = 0;
@@ -40,7 +40,7 @@ double slack_of_places(const Case& one, const Sample& sample, const std::vector<
 }
 
 // Returns the energy error due to a tolerance of 1e-9 for bodies at rest: each is displaced by 1e-6 of its
-// reach, at a speed of as much per second.
+// extent, and moves at 1e-6 extents per second.
 double slack_of_rounding(const Case& one, const std::vector<double>& reach) {
   double sum = 0;
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
@@ -149,8 +149,8 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
 namespace {
 
 // Returns true if force laws act that grow without bound where bodies meet, as attraction does, and with an
-// eighth of the step the gain is less than a quarter. The gain is then an error of order one or more in the
-// stepping through a close pass.
+// eighth of the step the gain is less than a quarter. The gain is then an integration error of a close pass,
+// which vanishes with the step.
 bool is_of_the_step(const Case& one, const Engine& engine, std::size_t sample, double gain, double rest) {
   if (std::none_of(one.scene.forces.begin(), one.scene.forces.end(),
                    [](const ForceLaw& law) { return std::holds_alternative<AttractionForce>(law); }))
@@ -269,8 +269,8 @@ Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion
     const double time = static_cast<double>(k) * one.dt;
     const double energy = first.kinetic + stored(one.scene, time);
     most = std::max(most, std::min(now.sum_of_angular_momenta, 4 * most));
-    // An impulse J on bodies that pass each other at v acts beside its line by at most a step's displacement
-    // v dt.
+    // The line of action of an impulse J between bodies that pass each other at v is off by at most a step's
+    // displacement v dt.
     impulse = std::max(impulse, 2 * energy * one.dt);
     const double off = std::abs(now.angular_momentum - first.angular_momentum);
     const double share = engine.kind == Engine::Kind::Precise ? 1e-6 : 0.05;

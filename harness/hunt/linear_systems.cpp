@@ -89,7 +89,8 @@ std::string dense(Random& random) {
   } else {
     for (std::size_t i = 0; i + 1 < n; ++i)
       for (std::size_t j = 0; j < n; ++j) matrix[i * n + j] = some_number(random);
-    // The others keep it far from the threshold: each is larger in a different column.
+    // The pivots of the other rows stay far from the threshold, because each row is largest in another
+    // column.
     for (std::size_t i = 0; i + 1 < n; ++i) matrix[i * n + i] += 2;
     for (std::size_t j = 0; j < n; ++j) matrix[(n - 1) * n + j] = matrix[j];
     matrix[n * n - 1] += some_share(random, 3 * kNothing);

@@ -13,8 +13,8 @@ struct Shown {
   Motion motion{};
 };
 
-/// Draws the motions side by side as SVG: the bodies' start (grey), the paths of their centres, and their
-/// end.
+/// Draws the motions beside each other as SVG: the bodies at the start (grey) and at the end, and the paths
+/// of their centres.
 std::string picture(const Case& one, const std::vector<Shown>& motions, const std::string& caption);
 
 }  // namespace plumb::harness::hunt

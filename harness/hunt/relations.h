@@ -33,7 +33,7 @@ bool has_laws_as_formulas(const Case& one, const Engine& engine);
 bool are_smooth_discs(const Case& one);
 
 /// Returns the distance of two motions at each sample, m: that of the dynamic body that is farthest off,
-/// including its rotation times its reach.
+/// including its rotation times its extent.
 std::vector<double> apart(const Case& one, const Motion& a, const Motion& b);
 
 /// Returns the effect of perturbations up to each sample, m: the largest of three (two of 1e-6 and one of

@@ -11,10 +11,10 @@ namespace plumb::harness::hunt {
 /// of the farthest anchor.
 std::vector<double> reaches(const Scene& scene);
 
-/// Returns the smallest reach of a dynamic body, m; 1 if there is none.
+/// Returns the smallest extent of a dynamic body, m; 1 if there is none.
 double typical_size(const Scene& scene);
 
-/// Returns the largest reach of a dynamic body, m; 1 if there is none.
+/// Returns the largest extent of a dynamic body, m; 1 if there is none.
 double largest_size(const Scene& scene);
 
 /// Returns true if a joint keeps two bodies from colliding.
@@ -33,7 +33,7 @@ bool driven(const Case& one);
 double stored(const Scene& scene, double time);
 
 /// Returns true if no two shapes that may touch penetrate at the start by more than a hundredth of the
-/// smaller reach.
+/// smaller extent.
 bool starts_apart(const Scene& scene);
 
 /// Returns true if all joints and limits are satisfied at the start, within 1 % of the smallest body and 0.01

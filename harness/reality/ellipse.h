@@ -58,7 +58,7 @@ struct EllipseEngine {
   std::string why_not{};  ///< reason if it was not run
   int failed = 0;         ///< impacts that it did not finish
   Quantiles numerical;    ///< against the same law solved to a tolerance
-  Quantiles of_the_law;   ///< that against the measurement
+  Quantiles of_the_law;   ///< exact motion under the law against the measurement
   Quantiles measured;     ///< against the measurement
   Quantiles share;        ///< numerical over the law's
 };

@@ -12,14 +12,15 @@ namespace {
 
 constexpr std::size_t kRefits = 200;
 
-/// Most steps of a refit. Each step solves the weighted least squares of the last one's errors.
+/// Largest number of steps of a refit. Each solves a least-squares problem, weighted by the errors of the
+/// step before.
 constexpr int kMostSteps = 60;
 /// Change of the loss at which a refit is done.
 constexpr double kDone = 1e-7;
 
 using Values = std::vector<double>;
 
-/// Places of the middle half of the errors.
+/// Returns the indices of the middle half of the errors.
 std::vector<std::size_t> middle_half(const Residuals& residuals) {
   std::vector<std::size_t> order(residuals.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

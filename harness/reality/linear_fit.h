@@ -22,8 +22,8 @@ struct Residual {
 using Residuals = std::vector<Residual>;
 
 /// Gradient of the loss, and an upper bound of its second derivatives. The loss is the mean over the times of
-/// the logarithm of the middle half's mean error: its length is weighted by 1 / error, the Gauss-Newton
-/// approximation for each.
+/// the logarithm of the middle half's mean error. Each length is weighted by 1 / error (Gauss-Newton
+/// approximation).
 struct Slope {
   std::vector<double> gradient, curvature;  // row after row
 };

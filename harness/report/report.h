@@ -7,10 +7,10 @@
 
 namespace plumb::harness::report {
 
-/// Writes the report to `out`, one HTML file, whole or not at all. It is of a folder's results.jsonl,
-/// stress.jsonl and thresholds.jsonl, as far as they exist, or of one file of results. Replays are run with
-/// `engines` and kept in the folder. Returns false, and writes nothing, after an interrupt. Throws `Error`
-/// (Io; Syntax; Value if there is no result).
+/// Writes the report to `out`, one HTML file, completely or not at all. Its data are a folder's
+/// results.jsonl, stress.jsonl and thresholds.jsonl, as far as they exist, or one file of results. Replays
+/// are run with `engines` and kept in the folder. Returns false, and writes nothing, after an interrupt.
+/// Throws `Error` (Io; Syntax; Value if there is no result).
 bool write_report(const std::string& folder_or_file, const std::string& out,
                   std::span<const reference::Backend* const> engines);
 

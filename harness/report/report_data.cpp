@@ -26,11 +26,12 @@ constexpr std::size_t kLargestMotion = 40000;  // poses per scene; scenes of man
 // Size limit of a page, so that browsers open it within three seconds and mail can carry it: 20 MB with the
 // charts' library. A run takes about 450 bytes; each kind of settings is stored once. Motions get the room
 // that runs leave.
-constexpr std::size_t kRoom = 18'000'000;    // bytes
-constexpr std::size_t kShown = 14'000;       // runs
-constexpr std::size_t kShownOfAnEngine = 4;  // runs, minimum a scene: default, best, two of the front
-constexpr std::size_t kExceptions = 3000;    // points of rivals that plumb does not dominate
-constexpr std::size_t kFailureKinds = 50;    // kinds of failures of a scene
+constexpr std::size_t kRoom = 18'000'000;  // bytes
+constexpr std::size_t kShown = 14'000;     // runs
+constexpr std::size_t kShownOfAnEngine =
+    4;  // least number of runs per engine and scene: default, best, two of the front
+constexpr std::size_t kExceptions = 3000;  // points of rivals that plumb does not dominate
+constexpr std::size_t kFailureKinds = 50;  // kinds of failures of a scene
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -217,7 +218,8 @@ std::size_t size_of(const Motions& motions) {
   return out;
 }
 
-// Keeps every `every`-th sample of a motion and the last; figures since the sample before are the largest.
+// Keeps every `every`-th sample of a motion and the last. The figures of a kept sample are the largest since
+// the one before.
 Json thinned(const Json& motion, std::size_t every) {
   if (every == 1 || !motion.is_object()) return motion;
   const std::size_t count = motion.at("times").size();
@@ -281,7 +283,7 @@ Json scene_json(std::span<const Result> rows, const std::map<std::string, std::s
 
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-// Adds the motions, of which all keep as many samples as there is room for.
+// Adds the motions, all with the largest number of samples for which there is room.
 void add_motions(Json& json, std::vector<Motions> motions) {
   const std::size_t others = dump(json).size();
   std::size_t wanted = 0;

@@ -50,8 +50,8 @@ bool is_finite(const BodyState& state) {
          std::isfinite(state.angular_velocity);
 }
 
-// Returns why the engine rejects the scene, or an empty finding. A limit that it has reached is Refused, a
-// feature that it lacks altogether is Skipped.
+// Returns why the engine rejects the scene, or an empty finding: Refused if it has reached a limit, Skipped
+// if it lacks a feature altogether.
 Finding turned_away(const Task& task, const Trial& trial, const reference::StepSettings& settings) {
   const std::string why = task.backend->unsupported(trial.scene, settings);
   if (why.empty()) return {};

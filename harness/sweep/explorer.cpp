@@ -12,7 +12,7 @@ namespace {
 // Width assigned to the ends of a front, in powers of two: that of about two halvings of a first-order
 // method's step.
 constexpr double kEnd = 3;
-// Tries without effect after which an axis that never had one is left alone.
+// Number of tries without any effect on the error after which an axis is not tried again.
 constexpr int kIdle = 2;
 // Factor on the best cost up to which settings are tried, because expected costs are uncertain.
 constexpr double kMargin = 1.1;
@@ -123,7 +123,7 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
   const std::span<const Point> before(known.data(), static_cast<std::size_t>(met - known.begin()));
   const std::span<const Point> lefts = before.last(std::min(before.size(), kLefts));
   if (known.empty()) {
-    // Nothing ran, but finer steps may.
+    // No setting ran to its end, but finer steps may.
     for (const Space::Place& seed : space_.seeds()) {
       if (points_.contains(seed)) continue;
       points_[seed] = {};
@@ -132,8 +132,8 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
     return {};
   }
   if (goal.error) {
-    // A finer point may exist beyond the most accurate one; any costlier than one that meets the goal is
-    // useless.
+    // If no point meets the goal, a finer one may. Otherwise settings that cost more than the one that meets
+    // it are useless.
     const double most = right != nullptr ? right->cost * kMargin : dearest;
     if (right != nullptr)
       if (auto place = step_from(*right, 0, most)) return place;

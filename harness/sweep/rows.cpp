@@ -39,7 +39,7 @@ std::map<std::string, Kinds> costs_by_machine(std::span<const Result> rows) {
   return out;
 }
 
-// Returns the kinds with the most costs first, of those with as many the first.
+// Returns the kinds, those with the most costs first; kinds with equal numbers keep their order.
 std::vector<std::string> most_first(Kinds kinds) {
   std::stable_sort(kinds.begin(), kinds.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });

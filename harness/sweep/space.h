@@ -36,7 +36,7 @@ class Space {
 
   /// Returns the engine's defaults at the rung nearest to 1/60 s.
   Place start() const;
-  /// Returns the places to begin from: the defaults at steps all over the ladder, `start` first.
+  /// Returns the starting points: the defaults at steps over the whole ladder, `start` first.
   std::vector<Place> seeds() const;
 
   struct Neighbour {

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 // Largest fraction of an instance's time for one run.
 constexpr double kDearest = 0.04;
-constexpr std::size_t kAtOnce = 2;  // runs from one look at the fronts to the next
+constexpr std::size_t kAtOnce = 2;  // runs between two evaluations of the fronts
 constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
 // Overhead of a repetition besides stepping: starting and ending a process, and its page faults.

@@ -18,7 +18,7 @@ struct EngineTrade {
   std::optional<Order> order{};  ///< in dt, of the series with the most pairs of steps
 };
 
-/// Trade-off in the rows of one scene. Points refer to the rows that it was made from.
+/// Trade-off in the rows of one scene. Points refer to the rows from which it was computed.
 struct SceneTrade {
   std::string label, truth;
   double duration = 0;  ///< s

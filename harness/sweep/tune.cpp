@@ -28,7 +28,7 @@ constexpr double kDearest = 0.06;
 // Number of settings whose costs are measured well: the rough costs of the best do not rank them reliably.
 constexpr std::size_t kFinalists = 3;
 constexpr int kRungs = 11;
-// Share of the time that the search may take; the rest is for measuring costs and for the last runs.
+// Fraction of the time that the search may take; the rest is for measuring costs and for the last runs.
 constexpr double kSearching = 0.6;
 // Minimum number of rounds of a cost's measurement: fewer cannot show the noise.
 constexpr int kFewestRounds = 3;

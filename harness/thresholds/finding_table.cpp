@@ -64,7 +64,7 @@ std::string row(const Finding& finding, const Style& style) {
                                   : pad_right(found_text(finding) + ' ', kFoundWidth) +
                                         pad_right(exact_text(finding), kExactWidth) +
                                         pad_right(difference_text(finding), kDifferenceWidth);
-  // The columns before the reason are added to its first word for wrapping.
+  // Prepends the width of the columns to the reason's first word, so that wrapping accounts for them.
   const std::string reason = wrap(std::string(static_cast<std::size_t>(before), '-') + finding.reason,
                                   std::max(before + 20, style.width), before)
                                  .substr(static_cast<std::size_t>(before));

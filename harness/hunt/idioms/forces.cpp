@@ -52,7 +52,7 @@ void build(Draft& draft) {
               {Quantity::VelocityY, -push / rate * (last.x - first.x), slack}};
       break;
     }
-    case 1: {  // a push beside the centre, or a torque, for a while
+    case 1: {  // an off-centre force, or a torque, for a limited time
       const double arm = random.within(-0.5, 0.5) * height, lasts = random.within(0.2, 1.2) * t;
       const double turn = -arm * mass * push;
       if (random.chance(0.5)) {
