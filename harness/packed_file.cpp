@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".zst";
-[[maybe_unused]] constexpr std::uintmax_t kBlock = 4096;  // bytes: a disk gives no file less
+// Size of a disk block, bytes: compressing a smaller file saves nothing.
+[[maybe_unused]] constexpr std::uintmax_t kBlock = 4096;
 
 [[noreturn, maybe_unused]] void fail(const std::string& path, Error::Kind kind, const std::string& problem) {
   throw Error(kind, fmt::format("file '{}'", path), "", "", problem);

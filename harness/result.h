@@ -46,7 +46,7 @@ struct Result {
   double sample = 0;                ///< s, interval between measured states: dt or a multiple
   double duration = 0;              ///< s
   std::string truth;                ///< source of the exact answer
-  reference::StepSettings asked{};  ///< requested settings: the same again gives the same run
+  reference::StepSettings asked{};  ///< requested settings, which reproduce the run
   reference::Settings settings;
   Status status = Status::Ok;
   std::string reason;  ///< why it is not ok

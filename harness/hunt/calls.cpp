@@ -39,7 +39,7 @@ std::string Caller<Real, Target>::make() {
   try {
     return (this->*call)();
   } catch (const Error&) {
-    return {};  // a handle out of range, or of no such body
+    return {};  // an invalid handle
   }
 }
 
@@ -315,7 +315,7 @@ std::string make_call(Random& random, const BasicWorld<Real>& world, Target& tar
   return Caller<Real, Target>(random, world, target).make();
 }
 
-// The members that are defined here; those of the other files are instantiated there.
+// Instantiates the members defined in this file; other files instantiate their own.
 template class Caller<float, BasicWorld<float>>;
 template class Caller<double, BasicWorld<double>>;
 template class Caller<float, RecordedWorld<float>>;

@@ -19,8 +19,8 @@ bool is_always_due(const std::string& name) {
   return cheap.contains(name);
 }
 
-// Checks two of the relations per scene, in turn, because each costs a run or more, and all relations that
-// are always checked; or only the one called `law`.
+// Checks the relations that are due in every scene, and two of the others in turn, because each costs a run
+// or more; if `law` names one, only that.
 void check_some(const std::vector<Relation>& relations, const Engine& engine, const Case& one,
                 const std::string& law, const Motion& motion, Examined& out) {
   std::vector<const Relation*> apply;

@@ -282,7 +282,7 @@ std::string bounded(Random& random) {
   const double before = energy();
   system.solve();
   const double after = energy();
-  // The compliance by which redundant rows share their load is some 1e-9 of the rows' own.
+  // Regularisation, by which redundant rows share their load, changes the diagonal by about 1e-9.
   if (!(after <= before * (1 + 1e-9)))
     return fmt::format("passive bounded rows raise the energy from {:.9g} to {:.9g} J", before, after);
   for (const BoundedRow& row : system.rows)

@@ -39,7 +39,7 @@ struct Motion {
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
   std::vector<double> costs{};               ///< s, processor time of each step of a World
   std::vector<Digest> digests{};             ///< of a World after each step, if asked for
-  std::string broken_promise{};              ///< first one of a World in a guise; empty if there is none
+  std::string broken_promise{};              ///< first promise that a World in a guise broke; empty if none
 };
 
 /// An engine with its kind and precision.

@@ -101,7 +101,7 @@ const std::vector<DropLaw>& drop_laws() {
     for (Body& body : scene.bodies) {
       for (Shape& shape : body.shapes) {
         shape.friction = values[4];
-        // Sets the coefficient of the square alone: the larger of two equal coefficients has no derivative by
+        // Sets only the coefficient of the square: the maximum of two equal coefficients has no derivative by
         // one of them.
         shape.restitution = body.type == BodyType::Dynamic ? values[5] : 0;
       }

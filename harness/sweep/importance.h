@@ -6,8 +6,8 @@
 
 namespace plumb::harness::sweep {
 
-/// Sorts one engine's points by the benefit of measuring them: its front, ends first and then spread over it.
-/// The front of the remaining points follows, and so on.
+/// Sorts one engine's points by the benefit of measuring them. Its front comes first: the ends, then points
+/// spread over it. Then comes the front of the remaining points, and so on.
 std::vector<Point> by_importance(std::vector<Point> points);
 
 }  // namespace plumb::harness::sweep

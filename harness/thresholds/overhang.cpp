@@ -5,8 +5,9 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// Blocks that overhang the edge of a table: n of them by half the harmonic number H_n of their length.
-// Source: the centre of mass above each edge; Paterson and Zwick, Overhang, Am. Math. Monthly 116 (2009).
+// Blocks that overhang the edge of a table: n blocks reach half the harmonic number H_n times their length
+// beyond it. Source: the centre of mass above each edge; Paterson and Zwick, Overhang, Am. Math. Monthly 116
+// (2009).
 namespace plumb::harness::thresholds {
 namespace {
 
