@@ -39,7 +39,7 @@ std::string compressed(const std::string& path, const std::string& text) {
   return out;
 }
 
-// Decompresses piece by piece, so that what comes before a cut is there.
+// Decompresses piece by piece, so that the part before a truncation is returned.
 std::string decompressed(const std::string& path, const std::string& packed) {
   const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
   std::string text;

@@ -44,7 +44,7 @@ std::string to_csv(const Findings& findings);
 std::string to_json(const Findings& findings);
 std::string to_text(const Findings& findings, const Style& style);
 
-/// Draws the share of the ellipse's impacts whose error is below a value, law by law.
+/// Draws the fraction of the ellipse's impacts whose error is below a value, law by law.
 std::string ellipse_picture(const Findings& findings);
 /// Draws numerical error and the law's error of every engine, 60 ms after the first impact.
 std::string engine_picture(const Findings& findings);

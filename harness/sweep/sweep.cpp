@@ -194,7 +194,7 @@ bool InstanceSweep::run(const std::vector<RunRequest>& requests) {
   return !interrupted;
 }
 
-// Returns the time for exploring, in s. Engines whose runs were taken over have had theirs.
+// Returns the time for exploring, in s. Engines whose runs were taken over from another sweep need none.
 double InstanceSweep::exploring_time() {
   if (options_.only_explore > 0)
     return options_.only_explore / static_cast<double>(options_.instances.size());
