@@ -8,9 +8,9 @@ const kOutcomes = {
   skipped: ["none", "\u2013"],
 };
 const outcomeOf = (outcome) => kOutcomes[outcome] ?? ["broken", outcome];
-const kLegend = [["all", "ok", "survived"], ["near", "inexact", "off by less than ten times its bound"],
-  ["wrong", "sinks \u2026", "runs on with wrong physics"], ["broken", "NaN \u2026", "not finite, crashed, exploded or out of time"],
-  ["refused", "refused", "said that it cannot"], ["none", "\u2013", "the engine lacks a feature that the family needs: not counted"]];
+const kLegend = [["all", "ok", "survived"], ["near", "inexact", "error up to ten times the bound"],
+  ["wrong", "sinks \u2026", "the run continues with wrong physics"], ["broken", "NaN \u2026", "not finite, crashed, exploded or out of time"],
+  ["refused", "refused", "the engine rejected the scene"], ["none", "\u2013", "the engine lacks a feature that the family needs: not counted"]];
 
 // Steps are shares of a second: 1/60.
 const axisText = (value) => (value > 1e-3 && value < 0.1 && figure4(value) !== String(value) ? stepText(value) : figure4(value).replace(/^1\u00b7/, ""));
@@ -116,7 +116,7 @@ function overview(families, rows) {
     const count = family ? row.families[family.name] ?? {survived: 0, total: 0} : row;
     const text = count.total ? `${count.survived}/${count.total}` : "\u2013";
     return {kind: shareClass(count), text, tip: `${rowName(row)}: ${family ? family.title : "all families"}\n` +
-      (count.total ? `${count.survived} of ${count.total} cells survived` : "the engine does not have what this needs")};
+      (count.total ? `${count.survived} of ${count.total} cells survived` : "the engine lacks a feature that the family needs")};
   });
   map.dataset.family = "all";
   return map;
@@ -168,7 +168,7 @@ function showThresholds(rows) {
   const title = (row) => row.title ?? words(row.name);
   section.querySelector("ul").append(...names.map((name) => {
     const row = rows.find((one) => one.name === name);
-    const rest = [row.quantity, row.source ? `exact: ${row.source}` : "", row.judged ? `it is past where ${row.judged}` : ""];
+    const rest = [row.quantity, row.source ? `exact: ${row.source}` : "", row.judged ? `failure: ${row.judged}` : ""];
     return make("li", {}, make("b", {text: title(row)}), `: ${rest.filter(Boolean).join("; ")}`);
   }));
   section.querySelector(".table").append(table([

@@ -15,9 +15,9 @@ function counted() {
     elsewhere += runs.left_out;
   }
   const all = data.scenes.reduce((sum, scene) => sum + scene.runs.all, 0), here = data.scenes.reduce((sum, scene) => sum + scene.rows.length, 0);
-  const sampled = here < all ? `Of these ${all}, ${here} are drawn and listed here: fronts, series and kinds of failure, evenly spread; ` +
-    "results.jsonl beside this page has all, and what is counted here counts all." : "";
-  const leftOut = elsewhere ? `The costs of ${elsewhere} are left out: measured on another kind of machine than the scene's others.` : "";
+  const sampled = here < all ? `Of these ${all}, ${here} are shown: fronts, series, each kind of failure, and an even selection of the others; ` +
+    "results.jsonl beside this page has all, and all counts include all." : "";
+  const leftOut = elsewhere ? `The costs of ${elsewhere} are left out, because they were measured on another kind of machine than the scene's others.` : "";
   const {endurances, thresholds} = data.extremes;
   const total = (key) => endurances.filter((row) => row.setting !== "any setting").reduce((sum, row) => sum + row[key], 0);
   const found = [endurances.length ? `${total("total")} cells of extremes, ${total("survived")} survived.` : "",

@@ -33,7 +33,7 @@ function workPrecision(scene, metric, unit, engines, look) {
     return {engine, points, line: frontOf(points)};
   });
   return chart({name: "work-precision", title: "Work and precision", logX: true, logY: true,
-    note: "left and low is better; lines: what no other setting of the same engine beats; errors below 10\u207b\u00b9\u00b2 count as that",
+    note: "left and low is better; lines: Pareto fronts; errors below 10\u207b\u00b9\u00b2 count as 10\u207b\u00b9\u00b2",
     x: "\u00b5s a simulated second", y: unit ? `${words(metric)}, ${unit}` : words(metric)}, series, look);
 }
 
