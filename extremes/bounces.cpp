@@ -58,8 +58,8 @@ Trial build(double bounces) {
   if (middle <= 0) trial.stretches = {{static_cast<int>(steps), 1}};
   if (middle > 0) trial.stretches = {{kWindow, 1}, {1, static_cast<int>(middle)}, {kWindow, 1}};
   trial.exact = [start = trial.scene.bodies](double t, std::span<BodyState> out) {
-    const double way = std::fmod(kSpeed * t + 0.5, 2), x = way < 1 ? way - 0.5 : 1.5 - way;
-    out[0] = {.position = {x, 0}, .velocity = {way < 1 ? kSpeed : -kSpeed, 0}};
+    const double path = std::fmod(kSpeed * t + 0.5, 2), x = path < 1 ? path - 0.5 : 1.5 - path;
+    out[0] = {.position = {x, 0}, .velocity = {path < 1 ? kSpeed : -kSpeed, 0}};
     for (const std::size_t i : {1, 2}) out[i] = initial_state(start[i]);
   };
   trial.judge = [](const Scene& scene) {

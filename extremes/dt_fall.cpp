@@ -14,7 +14,8 @@ Trial build(double dt) {
     out[0] = {.position = {0, -kGravity * t * t / 2}, .velocity = {0, -kGravity * t}};
   };
   trial.judge = [exact = trial.exact, fall](const Scene& scene) {
-    return judge_by({off_the_path(scene, exact, fall / 20, 10 * fall), way_not_made(scene, exact, fall / 4)});
+    return judge_by(
+        {off_the_path(scene, exact, fall / 20, 10 * fall), path_not_covered(scene, exact, fall / 4)});
   };
   return trial;
 }

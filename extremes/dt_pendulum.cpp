@@ -17,7 +17,7 @@ Trial build(double dt) {
   trial.judge = [exact = trial.exact](const Scene& scene) {
     const double energy = swing_energy(1, kAngle);
     return judge_by({sum_of_gaps(scene, 0.01, 10), energy_gained(scene, energy, 0.05),
-                     energy_lost(scene, energy, 0.05), way_not_made(scene, exact, 0.02)});
+                     energy_lost(scene, energy, 0.05), path_not_covered(scene, exact, 0.02)});
   };
   return trial;
 }

@@ -19,7 +19,7 @@ Trial build(double rate) {
     out[1] = initial_state(start[1]);
   };
   trial.judge = [=](const Scene& scene) {
-    return judge_by({turns_otherwise(0, rate, 1e-3), farthest_from_start(scene, 0.01, 10)});
+    return judge_by({wrong_angular_velocity(0, rate, 1e-3), farthest_from_start(scene, 0.01, 10)});
   };
   return trial;
 }

@@ -10,7 +10,7 @@ Trial build(double rate) {
     out[0] = {.angle = rate * t, .angular_velocity = rate};
   };
   trial.judge = [=](const Scene& scene) {
-    return judge_by({turns_otherwise(0, rate, 1e-3), farthest_from_start(scene, 0.01, 10)});
+    return judge_by({wrong_angular_velocity(0, rate, 1e-3), farthest_from_start(scene, 0.01, 10)});
   };
   return trial;
 }

@@ -58,7 +58,7 @@ struct Result {
   std::string machine{};       ///< kind of machine that the cost was measured on; empty if unknown
   bool cost_left_out = false;  ///< removed, because the scene's other costs are of another kind of machine
   bool foreign_cost = false;   ///< the cost is that of another platform, never ranked with native ones
-  std::string excused;         ///< why misses of this run are not failures; empty if they are
+  std::string excused;  ///< reason for which misses of this run are not failures; empty if there is none
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;

@@ -31,7 +31,7 @@ double relative_angle(Rotation<Real> a, Rotation<Real> b) {
 /// Returns the initial angle of a joint placed at `angle`, rad, up to whole turns. It is the one nearest to 0
 /// or, if limits exclude that, the one that violates them least. A pose does not contain the number of turns,
 /// so every driver starts counting here.
-inline double angle_at_birth(double angle, double lower, double upper) {
+inline double angle_at_creation(double angle, double lower, double upper) {
   constexpr double kSlack = 0.01;  // rad: a joint placed at a limit may exceed it by rounding
   const double near = nearest_turn(angle, 0);
   if (near >= lower - kSlack && near <= upper + kSlack) return near;
@@ -46,7 +46,7 @@ inline double angle_at_birth(double angle, double lower, double upper) {
 
 /// State of a joint's count of turns.
 enum class TurnCount : int {
-  Born,     ///< not counted: the turn is that of `angle_at_birth`
+  New,      ///< not counted: the turn is that of `angle_at_creation`
   Counted,  ///< the joint's angle is near the last one
   Limited,  ///< the same, with new limits: the turn nearest to the allowed range
 };
@@ -56,7 +56,7 @@ struct JointAngle {
   double a = 0, b = 0;  ///< rad, last evaluated: of b relative to a in `b`; of geared joints, each body's own
   double start_a = 0, start_b = 0;  ///< the same at the start of the step
   double start = 0;                 ///< rad, the joint's own (minus its reference) at the start of the step
-  TurnCount count = TurnCount::Born;
+  TurnCount count = TurnCount::New;
 };
 
 /// State of a joint besides impulses: the tooth that a ratchet holds, a pulley's length (m).

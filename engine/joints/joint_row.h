@@ -93,7 +93,7 @@ struct JointRows {
 /// Meaning of a pose's angle for a kind.
 enum class AngleUse {
   None,
-  Counted,  ///< of b relative to a: whole turns count from the angle at creation (`angle_at_birth`)
+  Counted,  ///< of b relative to a: whole turns count from the angle at creation (`angle_at_creation`)
   Geared,   ///< whole turns of each body count
 };
 

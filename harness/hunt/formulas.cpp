@@ -290,14 +290,14 @@ Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion
   if (!other || !motion.failure.empty()) return {};
   const Motion by_formulas = run(engine, *other);
   const std::vector<double> off = apart(one, motion, by_formulas);
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   double fastest = 0, hardest = 0;
   for (std::size_t k = 1; k < off.size(); ++k) {
     for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
       const BodyState &now = motion.samples[k].states[i], &before = motion.samples[k - 1].states[i];
-      fastest = std::max(fastest, length(now.velocity) + reach[i] * std::abs(now.angular_velocity));
+      fastest = std::max(fastest, length(now.velocity) + extent[i] * std::abs(now.angular_velocity));
       hardest = std::max(hardest, (length(now.velocity - before.velocity) +
-                                   reach[i] * std::abs(now.angular_velocity - before.angular_velocity)) /
+                                   extent[i] * std::abs(now.angular_velocity - before.angular_velocity)) /
                                       one.dt);
     }
     const double time = static_cast<double>(k) * one.dt;

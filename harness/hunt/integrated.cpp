@@ -186,15 +186,15 @@ class Free {
 
 /// Returns true if shapes that may touch are so near to each other that they might touch within a sample.
 bool may_meet(const Case& one, const std::vector<BodyState>& states) {
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   for (std::size_t i = 0; i < states.size(); ++i)
     for (std::size_t j = i + 1; j < states.size(); ++j) {
       const Body &a = one.scene.bodies[i], &b = one.scene.bodies[j];
       if (a.type != BodyType::Dynamic && b.type != BodyType::Dynamic) continue;
       const double spin =
-          reach[i] * std::abs(states[i].angular_velocity) + reach[j] * std::abs(states[j].angular_velocity);
+          extent[i] * std::abs(states[i].angular_velocity) + extent[j] * std::abs(states[j].angular_velocity);
       const double way = 3 * one.dt * (length(states[i].velocity - states[j].velocity) + spin) +
-                         0.01 * (reach[i] + reach[j]);
+                         0.01 * (extent[i] + extent[j]);
       for (const Shape& s : a.shapes)
         for (const Shape& t : b.shapes) {
           if (!may_touch(s.filter, t.filter)) continue;
@@ -248,13 +248,13 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
   if (!motion.failure.empty() || !are_free(one)) return {};
   const Free free(one);
   std::vector<BodyState> coarse = free.start(), fine = coarse;
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   const auto distance = [&](const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
       if (one.scene.bodies[i].type == BodyType::Dynamic)
-        most = std::max(most,
-                        length(a[i].position - b[i].position) + reach[i] * std::abs(a[i].angle - b[i].angle));
+        most = std::max(
+            most, length(a[i].position - b[i].position) + extent[i] * std::abs(a[i].angle - b[i].angle));
     return most;
   };
   const std::vector<bool> beside = pulled_beside_centre(one.scene);
@@ -268,10 +268,10 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
       if (beside[i] && engine.kind != Engine::Kind::Precise &&
           std::abs(fine[i].angle - before[i].angle) > kMostTurn)
         return {};
-      fastest = std::max(fastest, length(fine[i].velocity) + reach[i] * std::abs(fine[i].angular_velocity));
+      fastest = std::max(fastest, length(fine[i].velocity) + extent[i] * std::abs(fine[i].angular_velocity));
       hardest = std::max(
           hardest, length(fine[i].velocity - before[i].velocity) / one.dt +
-                       reach[i] * std::abs(fine[i].angular_velocity - before[i].angular_velocity) / one.dt);
+                       extent[i] * std::abs(fine[i].angular_velocity - before[i].angular_velocity) / one.dt);
     }
     const double bound = bound_of(one, engine, fastest, hardest, to);
     if (!(distance(coarse, fine) <= kKnown * bound)) return {};

@@ -26,26 +26,27 @@ struct Budget {
 
 // Returns the energy due to position errors: half a step's displacement and a hundredth of the extent of each
 // body, in its gravity.
-double slack_of_places(const Case& one, const Sample& sample, const std::vector<double>& reach) {
+double slack_of_places(const Case& one, const Sample& sample, const std::vector<double>& extent) {
   double sum = 0;
   const double g = length(one.scene.gravity);
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
     const Body& body = one.scene.bodies[i];
     if (body.type != BodyType::Dynamic) continue;
-    const double way = std::min(length(sample.states[i].velocity) * one.dt, reach[i]);
-    sum += body.mass * std::abs(body.gravity_scale) * g * (0.5 * way + 0.01 * reach[i] + g * one.dt * one.dt);
-    sum += body.mass * 1e-6 * reach[i] * reach[i];
+    const double way = std::min(length(sample.states[i].velocity) * one.dt, extent[i]);
+    sum +=
+        body.mass * std::abs(body.gravity_scale) * g * (0.5 * way + 0.01 * extent[i] + g * one.dt * one.dt);
+    sum += body.mass * 1e-6 * extent[i] * extent[i];
   }
   return sum;
 }
 
 // Returns the energy error due to a tolerance of 1e-9 for bodies at rest: each is displaced by 1e-6 of its
 // extent, and moves at 1e-6 extents per second.
-double slack_of_rounding(const Case& one, const std::vector<double>& reach) {
+double slack_of_rounding(const Case& one, const std::vector<double>& extent) {
   double sum = 0;
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
     const Body& body = one.scene.bodies[i];
-    const double off = 1e-6 * reach[i];
+    const double off = 1e-6 * extent[i];
     if (body.type == BodyType::Dynamic)
       sum += body.mass * (std::abs(body.gravity_scale) * length(one.scene.gravity) * off + off * off);
   }
@@ -74,18 +75,18 @@ bool left_alone(const Case& one) {
 }
 
 struct Sizes {
-  double mass = 0, mass_times_reach = 0, mass_times_reach_squared = 0;
+  double mass = 0, mass_times_extent = 0, mass_times_extent_squared = 0;
 };
 
 Sizes sizes_of(const Scene& scene) {
   Sizes out;
-  const std::vector<double> reach = reaches(scene);
+  const std::vector<double> extent = extents(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.type != BodyType::Dynamic) continue;
     out.mass += body.mass;
-    out.mass_times_reach += body.mass * reach[i];
-    out.mass_times_reach_squared += body.mass * reach[i] * reach[i];
+    out.mass_times_extent += body.mass * extent[i];
+    out.mass_times_extent_squared += body.mass * extent[i] * extent[i];
   }
   return out;
 }
@@ -167,7 +168,7 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
   if (driven(one) || motion.samples.empty() || !starts_closed(one.scene) || !starts_apart(one.scene))
     return {};
   const bool precise = engine.kind == Engine::Kind::Precise;
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   const Mechanics first = mechanics(one.scene, motion.samples.front().states);
   Budget budget{.start = first.kinetic + first.potential, .kinetic = first.kinetic};
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
@@ -178,7 +179,7 @@ Verdict energy_law(const Case& one, const Engine& engine, const Motion& motion) 
         precise ? kPreciseShare
                 : std::min(kMostShare, kEnergyShare + 0.5 * budget.fastest_turn * one.dt / one.substeps);
     double bound = share * (budget.kinetic + budget.fall + given);
-    bound += precise ? slack_of_rounding(one, reach) : slack_of_places(one, motion.samples[k], reach);
+    bound += precise ? slack_of_rounding(one, extent) : slack_of_places(one, motion.samples[k], extent);
     const double gain = now.kinetic + now.potential - budget.start - given;
     if (gain > bound) {
       if (engine.is_world() && is_of_the_step(one, engine, k, gain, budget.start + given)) return {};
@@ -207,11 +208,11 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     if (body.type == BodyType::Dynamic) weight += body.mass * body.gravity_scale * one.scene.gravity;
   const Sizes sizes = sizes_of(one.scene);
   const double duration = one.steps * one.dt;
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   // kg m/s: momentum that bodies lost when they fell asleep.
   double slept = 0;
   // Rounding moves bodies even at rest: tolerate a displacement of their extent over the whole run.
-  double most = std::max(first.sum_of_momenta, sizes.mass_times_reach / duration);
+  double most = std::max(first.sum_of_momenta, sizes.mass_times_extent / duration);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const double time = static_cast<double>(k) * one.dt;
     const Mechanics now = mechanics(one.scene, motion.samples[k].states);
@@ -220,7 +221,7 @@ Verdict momentum_law(const Case& one, const Engine& engine, const Motion& motion
     most = std::max(most, std::min(now.sum_of_momenta, allowed + length(weight) * time));
     for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
       if (motion.samples[k].asleep[i] && !motion.samples[k - 1].asleep[i])
-        slept += kSleepShare * 2 * reach[i] * one.scene.bodies[i].mass;
+        slept += kSleepShare * 2 * extent[i] * one.scene.bodies[i].mass;
     const double off = length(now.momentum - first.momentum - time * weight);
     const double roundings = 8.0 * static_cast<double>(k) * one.substeps + 100;
     const double tolerance = engine.kind == Engine::Kind::Precise ? 1e-6 : 0;
@@ -275,7 +276,7 @@ Verdict angular_momentum_law(const Case& one, const Engine& engine, const Motion
     const double off = std::abs(now.angular_momentum - first.angular_momentum);
     const double share = engine.kind == Engine::Kind::Precise ? 1e-6 : 0.05;
     const double rounding = engine.epsilon() * (8.0 * static_cast<double>(k) * one.substeps + 100) *
-                            sizes.mass_times_reach_squared / (one.steps * one.dt);
+                            sizes.mass_times_extent_squared / (one.steps * one.dt);
     const double bound = share * most + rounding + (engine.kind == Engine::Kind::Precise ? 0 : 4 * impulse);
     if (off > bound && off > 0) {
       return Objection{.judge = "angular_momentum",

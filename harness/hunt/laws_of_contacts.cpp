@@ -20,7 +20,7 @@ struct Part {
   std::size_t body;
   const Shape* shape;
   Outline outline;
-  double width, reach;
+  double width, extent;
   bool line;
 };
 
@@ -33,9 +33,9 @@ std::vector<Part> parts_of(const Case& one) {
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
     for (const Shape& shape : one.scene.bodies[i].shapes)
       for (Outline& outline : outlines_of(shape)) {
-        const double width = width_of(outline), reach = reach_of(outline);
+        const double width = width_of(outline), extent = reach_of(outline);
         const bool line = outline.core.size() == 2 && outline.radius == 0;
-        out.push_back({i, &shape, std::move(outline), width, reach, line});
+        out.push_back({i, &shape, std::move(outline), width, extent, line});
       }
   return out;
 }
@@ -111,10 +111,10 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
   std::vector<double> depths(pairs.size(), 0), bounds;
   for (const auto& [i, j] : pairs) {
     const Part &a = parts[i], &b = parts[j];
-    const double least_reach = std::min(a.reach, b.reach);
+    const double least_extent = std::min(a.extent, b.extent);
     bounds.push_back(engine.kind == Engine::Kind::Precise
-                         ? 1e-5 * least_reach
-                         : std::max({kWidthShare * std::min(a.width, b.width), kReachShare * least_reach,
+                         ? 1e-5 * least_extent
+                         : std::max({kWidthShare * std::min(a.width, b.width), kReachShare * least_extent,
                                      2 * length(one.scene.gravity) * one.dt * one.dt}));
   }
   bool overlapped = false;  // some shapes overlap from the start
@@ -230,7 +230,7 @@ Verdict event_law(const Case&, const Engine&, const Motion& motion) {
 Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
   if (!engine.is_world() || length(one.scene.gravity) == 0 || !one.scene.forces.empty()) return {};
   const std::vector<Part> parts = parts_of(one);
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   std::vector<int> hanging(one.scene.bodies.size(), 0);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const Sample& sample = motion.samples[k];
@@ -251,7 +251,7 @@ Verdict sleep_law(const Case& one, const Engine& engine, const Motion& motion) {
           least = std::min(least, separation(placed(a.outline, sample.states[i]),
                                              placed(b.outline, sample.states[b.body])));
         }
-      const double bound = 0.05 * reach[i];
+      const double bound = 0.05 * extent[i];
       if (least <= bound) continue;
       return Objection{.judge = "sleep",
                        .what = fmt::format("{} sleeps without support, {:.3g} m away from the nearest shape",

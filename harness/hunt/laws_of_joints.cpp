@@ -80,7 +80,7 @@ std::optional<Hold> hold_of(const Scene& scene, const Joint& joint, const std::v
 Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motion) {
   if (!judged(one)) return {};
   const JointGaps gaps(one.scene);
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   std::vector<int> open(one.scene.joints.size(), 0);
   std::vector<bool> over(one.scene.joints.size(), false);
   const double step = engine.kind == Engine::Kind::Precise ? 0 : one.dt / one.substeps;
@@ -94,7 +94,7 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
         if (!end.body || one.scene.bodies[*end.body].type != BodyType::Dynamic) continue;
         const BodyState& s = states[*end.body];
         const double arm = length(end.anchor);
-        size += std::max(arm, reach[*end.body]);
+        size += std::max(arm, extent[*end.body]);
         // Displacement error of a tangent step along a curved path, per substep.
         speed += std::abs(s.angular_velocity) * arm * std::min(1.0, std::abs(s.angular_velocity) * step);
       }

@@ -25,10 +25,10 @@ using Wide = long double;
 constexpr int kDraws = 12;  // number of systems of each kind per scene
 // Distance of a pivot from a threshold, as a fraction of it, below which rounding the matrix to double may
 // move the pivot to the other side.
-constexpr double kBeside = 0.01;
+constexpr double kNearThreshold = 0.01;
 // Pivot below which it counts as rounding in systems of doubles, as a fraction of the largest entry or of the
 // diagonal.
-constexpr double kNothing = 1e-12;
+constexpr double kDependent = 1e-12;
 
 /// Pivots of complete pivoting in long double, in their order. Also tells if two were so near each other that
 /// rounding may have chosen between them.
@@ -93,7 +93,7 @@ std::string dense(Random& random) {
     // column.
     for (std::size_t i = 0; i + 1 < n; ++i) matrix[i * n + i] += 2;
     for (std::size_t j = 0; j < n; ++j) matrix[(n - 1) * n + j] = matrix[j];
-    matrix[n * n - 1] += some_share(random, 3 * kNothing);
+    matrix[n * n - 1] += some_share(random, 3 * kDependent);
   }
   double largest = 0;
   for (const double each : matrix) largest = std::max(largest, std::abs(each));
@@ -102,8 +102,8 @@ std::string dense(Random& random) {
   if (!sparse) {
     std::size_t surely = 0, perhaps = 0;
     for (const Wide pivot : pivots_of(n, matrix)) {
-      surely += pivot > (1 + kBeside) * kNothing * largest ? 1 : 0;
-      perhaps += pivot > (1 - kBeside) * kNothing * largest ? 1 : 0;
+      surely += pivot > (1 + kNearThreshold) * kDependent * largest ? 1 : 0;
+      perhaps += pivot > (1 - kNearThreshold) * kDependent * largest ? 1 : 0;
     }
     if (rank < surely || rank > perhaps)
       return fmt::format("a dense system of rank {} is solved with rank {}", surely, rank);
@@ -124,7 +124,7 @@ std::string envelope(Random& random) {
   for (int i = 0; i < n; ++i) first[static_cast<std::size_t>(i)] = std::max(0, i - random.whole(1, 5));
   std::vector<Wide> lower(static_cast<std::size_t>(n * n), 0), d(static_cast<std::size_t>(n));
   const auto at = [n](int i, int j) { return static_cast<std::size_t>(i * n + j); };
-  const double share = some_share(random, kNothing);
+  const double share = some_share(random, kDependent);
   for (int i = 0; i < n; ++i) {
     lower[at(i, i)] = 1, d[static_cast<std::size_t>(i)] = 0.5 + random.unit();
     for (int j = first[static_cast<std::size_t>(i)]; j < i; ++j) lower[at(i, j)] = some_number(random);
@@ -163,9 +163,9 @@ std::string envelope(Random& random) {
   matrix.solve(x.data());
   const bool counted = x[static_cast<std::size_t>(near)] != 0;
   // The engine's own rounding of the sums is some 1e-15 of the diagonal.
-  if (left > (1 + 3 * kBeside) * kNothing && !counted)
+  if (left > (1 + 3 * kNearThreshold) * kDependent && !counted)
     return fmt::format("an envelope system drops a row whose independent part is {:.4g}", left);
-  if (left < (1 - 3 * kBeside) * kNothing && counted)
+  if (left < (1 - 3 * kNearThreshold) * kDependent && counted)
     return fmt::format("an envelope system keeps a row whose independent part is {:.4g}", left);
   if (left < 1e-3) return {};
   std::vector<double> right(static_cast<std::size_t>(n));

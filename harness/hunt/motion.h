@@ -6,7 +6,7 @@
 
 #include "engine/scene/scene.h"
 #include "harness/hunt/case.h"
-#include "harness/hunt/guise.h"
+#include "harness/hunt/run_mode.h"
 #include "reference/backend.h"
 
 namespace plumb::harness::hunt {
@@ -39,7 +39,7 @@ struct Motion {
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
   std::vector<double> costs{};               ///< s, processor time of each step of a World
   std::vector<Digest> digests{};             ///< of a World after each step, if asked for
-  std::string broken_promise{};              ///< first promise that a World in a guise broke; empty if none
+  std::string broken_promise{};  ///< first promise that a World in a run mode broke; empty if none
 };
 
 /// An engine with its kind and precision.
@@ -56,7 +56,7 @@ struct Engine {
 struct RunOptions {
   int refine = 1;                     ///< steps per step of the case
   bool flip_sleep = false;            ///< turns sleep on if it is off, and off if it is on
-  Guise guise = Guise::Plain;         ///< of a World
+  RunMode mode = RunMode::Plain;      ///< of a World
   bool digests = false;               ///< fills `Motion::digests`
   std::optional<double> tolerance{};  ///< of an engine that chooses its steps; none: its own
   double seconds = 2;                 ///< limit of processor time

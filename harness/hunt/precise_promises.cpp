@@ -46,13 +46,13 @@ std::vector<BodyState> states_of(const Simulation& run) {
   return out;
 }
 
-double distance(const Scene& scene, const std::vector<double>& reach, const std::vector<BodyState>& a,
+double distance(const Scene& scene, const std::vector<double>& extent, const std::vector<BodyState>& a,
                 const std::vector<BodyState>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (scene.bodies[i].type == BodyType::Dynamic)
       most = std::max(most,
-                      length(a[i].position - b[i].position) + reach[i] * std::abs(a[i].angle - b[i].angle));
+                      length(a[i].position - b[i].position) + extent[i] * std::abs(a[i].angle - b[i].angle));
   return most;
 }
 
@@ -292,12 +292,12 @@ std::string alike_by_methods(const Case& one, const Motion& motion, const Engine
     return compile(one.scene, Precise{.tolerance = 1e-10, .max_dt = one.dt, .method = method});
   };
   Simulation first = by(MotionMethod::Explicit), second = by(MotionMethod::Implicit);
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   const double size = largest_size(one.scene);
   std::vector<double> calm;
   for (int k = 0; k < steps; ++k) {
     first.step(), second.step();
-    const double off = distance(one.scene, reach, states_of(first), states_of(second));
+    const double off = distance(one.scene, extent, states_of(first), states_of(second));
     if (off <= 1e-7 * size) continue;
     if (calm.empty()) calm = growth(one, engine, motion);
     const auto at = static_cast<std::size_t>(k) + 1;

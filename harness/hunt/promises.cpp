@@ -13,9 +13,9 @@ namespace {
 // Number of steps that are compared: later steps cost as much and seldom find more.
 constexpr int kMostSteps = 150;
 
-/// Compares a World in a guise with one without it, by all of its bits or by the visible ones.
+/// Compares a World in a run mode with one in the plain mode, by all of its bits or by the visible ones.
 Verdict compare(const Case& one, const Engine& engine, const char* name, const char* right,
-                const std::vector<Guise>& guises, bool whole = true) {
+                const std::vector<RunMode>& modes, bool whole = true) {
   Case part = one;
   part.steps = std::min(one.steps, kMostSteps);
   const Motion plain = run(engine, part, {.digests = true});
@@ -29,8 +29,8 @@ Verdict compare(const Case& one, const Engine& engine, const char* name, const c
                      .unit = "m",
                      .time = static_cast<double>(k) * one.dt};
   };
-  for (const Guise guise : guises) {
-    const Motion other = run(engine, part, {.guise = guise, .digests = true});
+  for (const RunMode mode : modes) {
+    const Motion other = run(engine, part, {.mode = mode, .digests = true});
     if (!other.failure.empty()) return objection(other.samples.size(), 0, other.failure);
     if (!other.broken_promise.empty()) return objection(other.samples.size() - 1, 0, other.broken_promise);
     const std::vector<double> off = apart(part, plain, other);
@@ -49,38 +49,38 @@ Verdict compare(const Case& one, const Engine& engine, const char* name, const c
 
 Verdict restored(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "restore", "a world that is saved and restored continues with the same bits",
-                 {Guise::Restored});
+                 {RunMode::Restored});
 }
 Verdict rolled_back(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "rollback", "a world that is rolled back continues with the same bits",
-                 {Guise::RolledBack});
+                 {RunMode::RolledBack});
 }
 Verdict threaded(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "threads", "each number of threads gives the same bits", {Guise::Threaded});
+  return compare(one, engine, "threads", "each number of threads gives the same bits", {RunMode::Threaded});
 }
 Verdict widths(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "widths", "each vector width gives the same bits",
-                 {Guise::Scalar, Guise::Narrow});
+                 {RunMode::Scalar, RunMode::Narrow});
 }
 Verdict observed(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "observed", "observing a world changes no bits", {Guise::Observed});
+  return compare(one, engine, "observed", "observing a world changes no bits", {RunMode::Observed});
 }
 Verdict asked(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "queries",
-                 "rays, casts, overlaps and distances agree with the shapes' outlines", {Guise::Asked});
+                 "rays, casts, overlaps and distances agree with the shapes' outlines", {RunMode::Asked});
 }
 Verdict refused(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "refused", "calls with numbers out of range are rejected and change nothing",
-                 {Guise::Refused});
+                 {RunMode::Refused});
 }
 Verdict labelled(const Case& one, const Engine& engine, const Motion&) {
-  return compare(one, engine, "labels", "names, user data and hit events change nothing", {Guise::Labelled},
+  return compare(one, engine, "labels", "names, user data and hit events change nothing", {RunMode::Labelled},
                  false);
 }
 Verdict overrun(const Case& one, const Engine& engine, const Motion&) {
   return compare(one, engine, "overrun",
                  "a body beyond the world's limits is quarantined and reported, and the others continue",
-                 {Guise::Overrun});
+                 {RunMode::Overrun});
 }
 
 bool is_world(const Case&, const Engine& engine) { return engine.is_world(); }

@@ -8,7 +8,7 @@
 
 namespace plumb::harness::hunt {
 
-/// Returns the promises of the engine's interface that hold for any scene: runs in a guise that must keep
+/// Returns the promises of the engine's interface that hold for any scene: runs in a mode that must keep
 /// every bit. Judged like relations.
 const std::vector<Relation>& promises();
 
@@ -50,7 +50,7 @@ Verdict methods(const Case& one, const Engine& engine, const Motion& motion);
 Verdict blows(const Case& one, const Engine& engine, const Motion& motion);
 Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 
-// The promises of Simulations; those of Worlds are guises.
+// The promises of Simulations; those of Worlds are run modes.
 Verdict simulation_restored(const Case& one, const Engine& engine, const Motion& motion);
 Verdict simulation_stages(const Case& one, const Engine& engine, const Motion& motion);
 Verdict simulation_stops(const Case& one, const Engine& engine, const Motion& motion);

@@ -200,14 +200,14 @@ bool law_free(const Case& one, const Engine& engine) {
 }  // namespace
 
 std::vector<double> apart(const Case& one, const Motion& a, const Motion& b) {
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   std::vector<double> out;
   for (std::size_t k = 0; k < std::min(a.samples.size(), b.samples.size()); ++k) {
     double most = 0;
     for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
       if (one.scene.bodies[i].type != BodyType::Dynamic || !a.samples[k].present[i]) continue;
       const BodyState &s = a.samples[k].states[i], &t = b.samples[k].states[i];
-      most = std::max(most, length(s.position - t.position) + reach[i] * std::abs(s.angle - t.angle));
+      most = std::max(most, length(s.position - t.position) + extent[i] * std::abs(s.angle - t.angle));
     }
     out.push_back(most);
   }

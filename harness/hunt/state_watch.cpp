@@ -285,8 +285,8 @@ std::string StateWatch<Real>::sensors() const {
 
 template <class Real>
 std::string StateWatch<Real>::joints() const {
-  std::map<Key, JointLoadEvent> told;
-  for (const JointLoadEvent& event : world_.events().loaded) told[key_of(event.joint)] = event;
+  std::map<Key, JointLoadEvent> reported;
+  for (const JointLoadEvent& event : world_.events().loaded) reported[key_of(event.joint)] = event;
   for (const BodyId body : world_.bodies())
     for (const JointId joint : world_.joints(body)) {
       const auto [a, b] = world_.bodies(joint);
@@ -306,13 +306,13 @@ std::string StateWatch<Real>::joints() const {
                           beyond(reading.torque, definition.report_torque, 1e-5);
       const bool perhaps = beyond(reading.force, definition.report_force, -1e-5) ||
                            beyond(reading.torque, definition.report_torque, -1e-5);
-      const bool is_told = told.contains(key_of(joint));
-      if (awake && (is_told ? !perhaps : surely))
+      const bool is_reported = reported.contains(key_of(joint));
+      if (awake && (is_reported ? !perhaps : surely))
         return fmt::format(
             "a joint of '{}' bears {:.6g} N and {:.6g} N m; its limits for reports are {:.6g} and {:.6g}; "
             "its load is {}",
             world_.name(b), reading.force, reading.torque, definition.report_force, definition.report_torque,
-            is_told ? "reported" : "not reported");
+            is_reported ? "reported" : "not reported");
       if (beyond(reading.force, definition.break_force, 1e-3) && awake)
         return fmt::format("a joint of '{}' bears {:.6g} N without breaking; its limit is {:.6g} N",
                            world_.name(b), reading.force, definition.break_force);

@@ -200,7 +200,7 @@ std::string StateWatch<Real>::impulses(double dt) const {
     const double deepest = std::min(contact.separations[0], contact.separations[contact.count - 1]);
     const Aabb<double> box = world_.box(body);
     if (deepest < -0.05 * length(box.upper - box.lower)) continue;
-    if (const auto told =
+    if (const auto reported =
             [&](const auto& list) {
               return std::any_of(list.begin(), list.end(), [&](const TouchEvent& event) {
                 for (const ShapeId shape : {event.shape_a, event.shape_b})
@@ -210,7 +210,7 @@ std::string StateWatch<Real>::impulses(double dt) const {
                 return false;
               });
             };
-        told(world_.events().begin) || told(world_.events().end))
+        reported(world_.events().begin) || reported(world_.events().end))
       continue;
     if (before->second.only != Pair{key_of(contact.shape_a), key_of(contact.shape_b)}) continue;
     const bool is_a = world_.body(contact.shape_a) == body;
@@ -256,11 +256,11 @@ template <class Real>
 std::string StateWatch<Real>::moved() const {
   std::vector<BodyId> list(world_.bodies().size());
   list.resize(std::min(list.size(), world_.moved(list)));
-  std::set<Key> told;
-  for (const BodyId body : list) told.insert(key_of(body));
+  std::set<Key> reported;
+  for (const BodyId body : list) reported.insert(key_of(body));
   for (const BodyId body : world_.bodies()) {
     const auto before = before_.find(key_of(body));
-    if (before == before_.end() || told.contains(key_of(body))) continue;
+    if (before == before_.end() || reported.contains(key_of(body))) continue;
     if (world_.centre(body) != before->second.position || world_.angle(body) != before->second.angle)
       return fmt::format("'{}' moved, but there is no move event", world_.name(body));
   }

@@ -147,7 +147,7 @@ struct Closed {
 
 }  // namespace
 
-std::vector<double> reaches(const Scene& scene) {
+std::vector<double> extents(const Scene& scene) {
   std::vector<double> out(scene.bodies.size(), 0);
   for (std::size_t i = 0; i < out.size(); ++i)
     for (const Shape& shape : scene.bodies[i].shapes)
@@ -168,7 +168,7 @@ std::vector<double> reaches(const Scene& scene) {
 }
 
 double typical_size(const Scene& scene) {
-  const std::vector<double> all = reaches(scene);
+  const std::vector<double> all = extents(scene);
   double least = INFINITY;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (scene.bodies[i].type == BodyType::Dynamic && all[i] > 0) least = std::min(least, all[i]);
@@ -176,7 +176,7 @@ double typical_size(const Scene& scene) {
 }
 
 double largest_size(const Scene& scene) {
-  const std::vector<double> all = reaches(scene);
+  const std::vector<double> all = extents(scene);
   double most = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (scene.bodies[i].type == BodyType::Dynamic) most = std::max(most, all[i]);
@@ -241,7 +241,7 @@ bool starts_apart(const Scene& scene) {
     std::size_t body;
     const Shape* shape;
     Outline outline;
-    double reach;
+    double extent;
   };
   std::vector<Part> parts;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
@@ -258,7 +258,7 @@ bool starts_apart(const Scene& scene) {
           b.outline.low.y > a.outline.high.y || !may_touch(a.shape->filter, b.shape->filter) ||
           joined(scene, a.body, b.body))
         continue;
-      if (separation(a.outline, b.outline) < -0.01 * std::min(a.reach, b.reach)) return false;
+      if (separation(a.outline, b.outline) < -0.01 * std::min(a.extent, b.extent)) return false;
     }
   return true;
 }

@@ -9,7 +9,7 @@ namespace plumb::harness::hunt {
 
 /// Returns the largest distance of each body's points from its centre of mass, m; for one without shapes that
 /// of the farthest anchor.
-std::vector<double> reaches(const Scene& scene);
+std::vector<double> extents(const Scene& scene);
 
 /// Returns the smallest extent of a dynamic body, m; 1 if there is none.
 double typical_size(const Scene& scene);
@@ -20,8 +20,8 @@ double largest_size(const Scene& scene);
 /// Returns true if a joint keeps two bodies from colliding.
 bool joined(const Scene& scene, std::size_t a, std::size_t b);
 
-/// Returns for each body the first of the bodies that joints connect it with, through dynamic bodies: its own
-/// index if there is none, and for static and kinematic bodies.
+/// Groups bodies that joints connect, directly or through other dynamic bodies: returns for each the lowest
+/// index of its group. Static and kinematic bodies, and bodies without joints, have their own index.
 std::vector<std::size_t> joint_groups(const Scene& scene);
 
 /// Returns true if the scene does not bound the work on its bodies: it has moving kinematic bodies, surface

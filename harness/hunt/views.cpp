@@ -222,12 +222,12 @@ Case rescaled(Case one, double length, double time, double mass) {
 
 Case perturbed(Case one, double by, std::uint64_t seed) {
   Random random(seed, one.index);
-  const std::vector<double> reach = reaches(one.scene);
+  const std::vector<double> extent = extents(one.scene);
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
     Body& body = one.scene.bodies[i];
     if (body.type != BodyType::Dynamic) continue;
     const auto off = [&] { return by * (2 * random.unit() - 1); };
-    const double size = reach[i] > 0 ? reach[i] : 1;
+    const double size = extent[i] > 0 ? extent[i] : 1;
     body.position.x += size * off(), body.position.y += size * off();
     body.angle += off();
     body.velocity.x += size * off(), body.velocity.y += size * off();

@@ -20,8 +20,8 @@
 #include "engine/world/snapshot.h"
 #include "engine/world/world_data.h"
 #include "harness/hunt/answers.h"
-#include "harness/hunt/guise.h"
 #include "harness/hunt/processor_time.h"
+#include "harness/hunt/run_mode.h"
 
 namespace plumb::harness::hunt {
 namespace {
@@ -65,7 +65,7 @@ class EventBook {
   template <class Real>
   void look(const BasicWorld<Real>& world, double time, std::vector<Motion::EventFault>& faults) {
     const auto gone = [&](Key key) { return !world.valid(ShapeId{key.first, key.second}); };
-    const auto look_at = [&](const char* what, std::set<std::pair<Key, Key>>& pairs) {
+    const auto report_destroyed = [&](const char* what, std::set<std::pair<Key, Key>>& pairs) {
       for (auto at = pairs.begin(); at != pairs.end();) {
         if (!gone(at->first) && !gone(at->second)) {
           ++at;
@@ -75,8 +75,8 @@ class EventBook {
         at = pairs.erase(at);
       }
     };
-    look_at("touch", touches_);
-    look_at("visit to a sensor", visits_);
+    report_destroyed("touch", touches_);
+    report_destroyed("visit to a sensor", visits_);
   }
 
   std::vector<Visit> visits() const {
@@ -131,9 +131,9 @@ bool is_driven_by_joints(const Scene& scene) {
 /// Sets the width of vector registers for as long as it lives.
 class WithWidth {
  public:
-  explicit WithWidth(Guise guise) {
-    if (guise == Guise::Scalar) set_vector_width(VectorWidth::None);
-    if (guise == Guise::Narrow) set_vector_width(std::min(before_, VectorWidth::Bytes16));
+  explicit WithWidth(RunMode mode) {
+    if (mode == RunMode::Scalar) set_vector_width(VectorWidth::None);
+    if (mode == RunMode::Narrow) set_vector_width(std::min(before_, VectorWidth::Bytes16));
   }
   ~WithWidth() { set_vector_width(before_); }
   WithWidth(const WithWidth&) = delete;
@@ -149,7 +149,7 @@ constexpr int kBetweenShort = 3;
 constexpr int kAhead = 3, kBetween = 4;
 // Intervals, in steps, of restores, of reading everything, and of refused calls. Each costs as much as a
 // step or more.
-constexpr int kBetweenRestores = 9, kBetweenLooks = 5, kBetweenRefusals = 40;
+constexpr int kBetweenRestores = 9, kBetweenReads = 5, kBetweenRefusals = 40;
 
 template <class Real>
 class Run {
@@ -214,7 +214,7 @@ class Run {
   WorldDefinition definition() const {
     WorldDefinition out = world_definition(case_.scene);
     out.sleeping = case_.sleeping != options_.flip_sleep;
-    if (options_.guise == Guise::Threaded) out.threads = 2;
+    if (options_.mode == RunMode::Threaded) out.threads = 2;
     return out;
   }
 
@@ -224,25 +224,25 @@ class Run {
     return options_.digests && step % kBetweenShort == kBetweenShort - 1 ? 0.25 * case_.dt : case_.dt;
   }
 
-  // Applies the parts of a guise that are there from the start.
+  // Applies the parts of a run mode that are there from the start.
   void prepare() {
-    if (options_.guise == Guise::Threaded) world_.data().crew.set_eager(true);
-    if (options_.guise == Guise::Observed) monitor_.emplace(world_), world_.set_profiling(true);
-    if (options_.guise == Guise::RolledBack) states_.emplace(world_, 2);
-    if (options_.guise == Guise::Labelled) label(world_);
+    if (options_.mode == RunMode::Threaded) world_.data().crew.set_eager(true);
+    if (options_.mode == RunMode::Observed) monitor_.emplace(world_), world_.set_profiling(true);
+    if (options_.mode == RunMode::RolledBack) states_.emplace(world_, 2);
+    if (options_.mode == RunMode::Labelled) label(world_);
   }
 
-  // Applies the parts of a guise that follow a step.
+  // Applies the parts of a run mode that follow a step.
   void after(int step, Motion& out) {
-    if (options_.guise == Guise::Restored && step % kBetweenRestores == kBetweenRestores - 1) {
+    if (options_.mode == RunMode::Restored && step % kBetweenRestores == kBetweenRestores - 1) {
       BasicWorld<Real> other(contrary(definition()));
-      litter(other);
+      populate(other);
       restore(other, save(world_));
       if (digest_of(other).whole != digest_of(world_).whole)
         out.broken_promise = "a restored world differs from the saved one";
       world_ = std::move(other);
     }
-    if (options_.guise == Guise::RolledBack && step % kBetween == kBetween - 1) {
+    if (options_.mode == RunMode::RolledBack && step % kBetween == kBetween - 1) {
       // Events of the last step are not part of a state.
       const std::int64_t now = world_.step_count();
       const std::uint64_t before = digest_of(world_).whole;
@@ -252,14 +252,14 @@ class Run {
       if (digest_of(world_).whole != before)
         out.broken_promise = "a world that was rolled back differs from the saved one";
     }
-    if (options_.guise == Guise::Observed && step % kBetweenLooks == 0) look_at(world_);
-    if (options_.guise == Guise::Overrun && step == case_.steps / 2) {
+    if (options_.mode == RunMode::Observed && step % kBetweenReads == 0) read_everything(world_);
+    if (options_.mode == RunMode::Overrun && step == case_.steps / 2) {
       out.broken_promise = overrun(world_, case_.dt, case_.substeps);
       over_ = true;
     }
-    if (options_.guise == Guise::Asked && step % kBetweenLooks == 0)
+    if (options_.mode == RunMode::Asked && step % kBetweenReads == 0)
       out.broken_promise = wrong_answer(world_, case_.index + static_cast<std::uint64_t>(step));
-    if (options_.guise == Guise::Refused && step % kBetweenRefusals == 0)
+    if (options_.mode == RunMode::Refused && step % kBetweenRefusals == 0)
       out.broken_promise = not_refused(world_);
   }
 
@@ -410,7 +410,7 @@ class Run {
 
 template <class Real>
 Motion run_world(const Case& one, const RunOptions& options) {
-  const WithWidth width(options.guise);
+  const WithWidth width(options.mode);
   std::optional<Run<Real>> run;
   try {
     run.emplace(one, options);

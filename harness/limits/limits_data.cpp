@@ -47,8 +47,8 @@ FamilyRow row_from(const FamilyRow& head, std::vector<CellFacts> cells) {
   // Keep the reasons beside the surviving range; if nothing survives, only the first.
   const auto [first, last] = row.survived_range();
   for (std::size_t i = 0; i < row.reasons.size(); ++i) {
-    const bool told = first == last ? i == 0 : i + 1 == first || i == last;
-    if (!told) row.reasons[i].clear();
+    const bool is_shown = first == last ? i == 0 : i + 1 == first || i == last;
+    if (!is_shown) row.reasons[i].clear();
   }
   return row;
 }

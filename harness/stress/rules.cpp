@@ -141,28 +141,28 @@ Rule off_the_path(const Scene& scene, const Motion& exact, double bound, double 
   return rule;
 }
 
-Rule way_not_made(const Scene& scene, const Motion& exact, double least) {
-  struct Way {
+Rule path_not_covered(const Scene& scene, const Motion& exact, double least) {
+  struct Path {
     std::vector<BodyState> right;
     Vec2d last_right, last;
     double made = 0, exact = 0;
   };
-  Way way{start_of(scene), {}, {}};
-  way.last_right = way.last = way.right.front().position;
+  Path path{start_of(scene), {}, {}};
+  path.last_right = path.last = path.right.front().position;
   Rule rule{
       .measure = "fraction of the path not covered", .bound = 0.5, .beyond = Verdict::Freezes, .sane = 0.5};
-  rule.figure = [exact, least, way](double time, std::span<const BodyState> states) mutable {
-    exact(time, way.right);
-    way.made += norm(states.front().position - way.last);
-    way.exact += norm(way.right.front().position - way.last_right);
-    way.last = states.front().position;
-    way.last_right = way.right.front().position;
-    return way.exact < least ? 0 : 1 - way.made / way.exact;
+  rule.figure = [exact, least, path](double time, std::span<const BodyState> states) mutable {
+    exact(time, path.right);
+    path.made += norm(states.front().position - path.last);
+    path.exact += norm(path.right.front().position - path.last_right);
+    path.last = states.front().position;
+    path.last_right = path.right.front().position;
+    return path.exact < least ? 0 : 1 - path.made / path.exact;
   };
   return rule;
 }
 
-Rule turns_otherwise(std::size_t body, double rate, double bound) {
+Rule wrong_angular_velocity(std::size_t body, double rate, double bound) {
   Rule rule{.measure = "relative error of the angular velocity",
             .bound = bound,
             .beyond = Verdict::Freezes,

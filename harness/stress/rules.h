@@ -52,9 +52,9 @@ Rule off_the_path(const Scene& scene, const Motion& exact, double bound, double 
 
 /// Limits to one half the fraction of the first body's path length that is missing, once its exact path is
 /// `least` long, m.
-Rule way_not_made(const Scene& scene, const Motion& exact, double least);
+Rule path_not_covered(const Scene& scene, const Motion& exact, double least);
 
 /// Limits the relative error of body `body`'s angular velocity against `rate`, rad/s.
-Rule turns_otherwise(std::size_t body, double rate, double bound);
+Rule wrong_angular_velocity(std::size_t body, double rate, double bound);
 
 }  // namespace plumb::harness::stress

@@ -155,10 +155,10 @@ class Run {
 
   // Reports finished families in their order.
   void tell_finished() {
-    for (; told_ < parts_.size() && parts_[told_].missing == 0; ++told_) {
+    for (; reported_ < parts_.size() && parts_[reported_].missing == 0; ++reported_) {
       std::vector<Cell> cells;
-      for (const Task& task : parts_[told_].tasks) cells.push_back(*record_.find(key_of(task)));
-      if (events_.finished) events_.finished(*parts_[told_].family, cells);
+      for (const Task& task : parts_[reported_].tasks) cells.push_back(*record_.find(key_of(task)));
+      if (events_.finished) events_.finished(*parts_[reported_].family, cells);
     }
   }
 
@@ -168,7 +168,7 @@ class Run {
   std::vector<Part> parts_;
   std::vector<Task> missing_;
   std::vector<std::size_t> part_of_;  // of each missing task
-  std::size_t told_ = 0;              // number of parts reported so far
+  std::size_t reported_ = 0;          // number of parts reported so far
   Progress progress_;
 };
 

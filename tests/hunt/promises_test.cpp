@@ -9,8 +9,8 @@
 
 #include "engine/world/world.h"
 #include "harness/hunt/examine.h"
-#include "harness/hunt/guise.h"
 #include "harness/hunt/idiom.h"
+#include "harness/hunt/run_mode.h"
 
 namespace plumb::harness::hunt {
 namespace {

@@ -23,11 +23,11 @@ HangingTree::HangingTree(const Scene& scene, const Parts& parts, EquationsOfMoti
 /// Adds hinge by hinge from the static bodies, each with one known body and one unknown. Returns false if the
 /// hinges do not form a tree of all bodies.
 bool HangingTree::find_links(const Scene& scene, const Parts& parts) {
-  constexpr int kUnknown = -2, kStands = -1;
+  constexpr int kUnknown = -2, kStatic = -1;
   std::vector<int> link_of(scene.bodies.size(), kUnknown);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.bodies[i].type == BodyType::Static) link_of[i] = kStands;
-  const auto known = [&](int body) { return body == kFixedFrame ? kStands : link_of[body]; };
+    if (scene.bodies[i].type == BodyType::Static) link_of[i] = kStatic;
+  const auto known = [&](int body) { return body == kFixedFrame ? kStatic : link_of[body]; };
   std::vector<Revolute> left = equations_.joints().revolute;
   if (left.size() != parts.integrated.size()) return false;
   while (!left.empty()) {

@@ -117,7 +117,7 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
           if constexpr (Rows::kAngle != AngleUse::None) {
             const double angle = angle_b - e.ratio * angle_a;
             const Range range = limits_of(e.rules.turn);
-            e.angle_offset = angle_at_birth(angle - kind.reference, range.lower, range.upper) - angle;
+            e.angle_offset = angle_at_creation(angle - kind.reference, range.lower, range.upper) - angle;
           }
           if constexpr (kPulley<Rows>) {
             JointRows<Dual> rows;

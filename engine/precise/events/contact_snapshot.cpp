@@ -71,10 +71,10 @@ bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) 
     default:
       return false;
   }
-  if (guard.watched == static_cast<int>(Quantity::Stop)) return guard.stop < stops_.count();
+  if (guard.monitored == static_cast<int>(Quantity::Stop)) return guard.stop < stops_.count();
   if (guard.patch >= patches.size() || guard.point < 0) return false;
   const int points = patches[guard.patch].count;
-  switch (static_cast<Quantity>(guard.watched)) {
+  switch (static_cast<Quantity>(guard.monitored)) {
     case Quantity::Force:
       return guard.point < points;
     case Quantity::Cone:

@@ -38,7 +38,7 @@ void Contacts::stop() {
   std::optional<Event> event;
   if (!finder_.outlines().empty()) event = first_toi_event(until);
   if (event) until = event->time;
-  if (const auto met = stops_.first_met(paths_, smooth_, until)) {
+  if (const auto met = stops_.first_reached(paths_, smooth_, until)) {
     until = met->time;
     event = Event{until, Quantity::Stop, std::nullopt, std::nullopt, met->limit, {}};
   }
@@ -102,13 +102,13 @@ std::optional<Contacts::Event> Contacts::first_toi_event(double until) {
   return first;
 }
 
-void Contacts::list_watched() {
-  watched_.clear();
+void Contacts::list_monitored() {
+  monitored_.clear();
   tolerance_.clear();
   watch_contacts();
   for (std::size_t k = 0; k < stops_.count(); ++k) {
     if (stops_.is_free_limit(k)) continue;
-    watched_.push_back({.quantity = Quantity::Stop, .stop = k});
+    monitored_.push_back({.quantity = Quantity::Stop, .stop = k});
     tolerance_.push_back(stops_.tolerance(k));
   }
 }
@@ -117,7 +117,7 @@ void Contacts::watch_contacts() {
   const double acceleration = finder_.scale_of_speed() * finder_.scale_of_speed() / finder_.scale_of_length();
   const auto watch = [&](Quantity quantity, std::size_t patch, int point, double tolerance,
                          Feature feature = {}) {
-    watched_.push_back({quantity, patch, point, feature, 0});
+    monitored_.push_back({quantity, patch, point, feature, 0});
     tolerance_.push_back(tolerance);
   };
   for (std::size_t p = 0; p < equations_.held().size(); ++p) {
@@ -159,12 +159,12 @@ void Contacts::evaluate(double time, std::span<double> values) {
   std::vector<std::size_t> first_point(held.size() + 1, 0);
   for (std::size_t p = 0; p < held.size(); ++p)
     first_point[p + 1] = first_point[p] + static_cast<std::size_t>(held[p].count);
-  for (std::size_t w = 0; w < watched_.size(); ++w) {
-    const Watched& watched = watched_[w];
-    if (watched.quantity == Quantity::Stop) {
-      values[w] = stop_values_[watched.stop];
+  for (std::size_t w = 0; w < monitored_.size(); ++w) {
+    const Monitored& monitored = monitored_[w];
+    if (monitored.quantity == Quantity::Stop) {
+      values[w] = stop_values_[monitored.stop];
     } else {
-      values[w] = contact_value(watched, forces, first_point[watched.patch],
+      values[w] = contact_value(monitored, forces, first_point[monitored.patch],
                                 [&](const FeatureShape& o) { return paths_.at(o.body, time); });
     }
   }
@@ -172,18 +172,18 @@ void Contacts::evaluate(double time, std::span<double> values) {
 
 /// Returns a monitored quantity of a held contact; `placed` gives the pose and the twist of a shape's body.
 template <class Placed>
-double Contacts::contact_value(const Watched& watched, const ContactForces& forces, std::size_t first,
+double Contacts::contact_value(const Monitored& monitored, const ContactForces& forces, std::size_t first,
                                const Placed& placed) const {
-  const ActiveContact& patch = equations_.held()[watched.patch];
-  switch (watched.quantity) {
+  const ActiveContact& patch = equations_.held()[monitored.patch];
+  switch (monitored.quantity) {
     case Quantity::Force:
-      return forces.normal[first + static_cast<std::size_t>(watched.point)];
+      return forces.normal[first + static_cast<std::size_t>(monitored.point)];
     case Quantity::Cone: {
       double normal = 0;
       for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
       // At the tip of the cone the contact opens, which is not a slip. Without a tangential force the cone is
       // never left.
-      return patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[watched.patch]);
+      return patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[monitored.patch]);
     }
     case Quantity::Slip: {
       const StepMotionBounds::Placed a = placed(*patch.a), b = placed(*patch.b);
@@ -193,10 +193,10 @@ double Contacts::contact_value(const Watched& watched, const ContactForces& forc
     }
     case Quantity::Range:
     case Quantity::Height: {
-      const int index = watched.quantity == Quantity::Height ? 0 : watched.point / 4;
+      const int index = monitored.quantity == Quantity::Height ? 0 : monitored.point / 4;
       const Limits limits =
           limits_of(patch.features[index], *patch.a, placed(*patch.a).pose, *patch.b, placed(*patch.b).pose);
-      return limits.value[watched.point % 4];
+      return limits.value[monitored.point % 4];
     }
     case Quantity::Stop:
       break;
@@ -215,10 +215,10 @@ void Contacts::note(const Event& event) {
         Guard{.kind = Guard::Kind::Gap, .pair = held_[event.down->first], .feature = event.down->second};
   } else {
     record_.guard = Guard{.kind = Guard::Kind::Quantity,
-                          .stop = event.watched.stop,
-                          .patch = event.watched.patch,
-                          .watched = static_cast<int>(event.watched.quantity),
-                          .point = event.watched.point};
+                          .stop = event.monitored.stop,
+                          .patch = event.monitored.patch,
+                          .monitored = static_cast<int>(event.monitored.quantity),
+                          .point = event.monitored.point};
   }
 }
 
@@ -239,7 +239,7 @@ double Contacts::guard_value(const Guard& guard, double time, std::span<const do
     const ContactRows rows = rows_of(guard.feature, a, at_a.pose, at_a.twist, b, at_b.pose, at_b.twist);
     return speed_along(rows.normal, at_a.twist, at_b.twist);
   }
-  const auto quantity = static_cast<Quantity>(guard.watched);
+  const auto quantity = static_cast<Quantity>(guard.monitored);
   if (quantity == Quantity::Stop) {
     stop_values_.resize(stops_.count());
     stops_.evaluate(time, y, stop_values_);
@@ -260,7 +260,7 @@ std::vector<Contacts::Guard> Contacts::guards_of_modes() const {
     guards.push_back({.kind = Guard::Kind::Quantity,
                       .stop = stop,
                       .patch = patch,
-                      .watched = static_cast<int>(quantity),
+                      .monitored = static_cast<int>(quantity),
                       .point = point});
   };
   for (std::size_t p = 0; p < equations_.held().size(); ++p) {
@@ -308,14 +308,14 @@ void Contacts::impacts_at(double time, std::vector<ContactCandidate> touches, Co
 
 std::optional<Contacts::Event> Contacts::first_change(double until) {
   if (held_.empty() && stops_.empty()) return std::nullopt;
-  list_watched();
+  list_monitored();
   const auto fall =
       first_zero_crossing([this](double time, std::span<double> values) { evaluate(time, values); },
                           tolerance_, smooth_.start(), until, samples_until(until));
   if (!fall) return std::nullopt;
-  const Watched& watched = watched_[fall->index];
-  Event event{fall->time, watched.quantity, std::nullopt, std::nullopt, std::nullopt, watched};
-  if (watched.quantity == Quantity::Height) event.down = {watched.patch, watched.feature};
+  const Monitored& monitored = monitored_[fall->index];
+  Event event{fall->time, monitored.quantity, std::nullopt, std::nullopt, std::nullopt, monitored};
+  if (monitored.quantity == Quantity::Height) event.down = {monitored.patch, monitored.feature};
   return event;
 }
 

@@ -61,7 +61,7 @@ class Contacts {
     Feature feature{};
     std::uint64_t stop = 0;
     std::uint64_t patch = 0;
-    int watched = 0;  // `Quantity` of a contact
+    int monitored = 0;  // `Quantity` of a contact
     int point = 0;
     bool operator==(const Guard&) const = default;
   };
@@ -99,7 +99,7 @@ class Contacts {
  private:
   /// Quantities of persistent contacts that are monitored for events.
   enum class Quantity { Force, Cone, Slip, Range, Height, Stop };
-  struct Watched {
+  struct Monitored {
     Quantity quantity{};
     std::size_t patch = 0;
     int point = 0;
@@ -112,7 +112,7 @@ class Contacts {
     std::optional<OutlinePair> meet;                      // shapes that come into contact
     std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
     std::optional<std::size_t> limit;                     // of a joint, when reached
-    Watched watched{};                                    // if a monitored quantity changed sign
+    Monitored monitored{};                                // if a monitored quantity changed sign
   };
 
   void look_at_states() { look_at_states(smooth_.time(), smooth_.state().value()); }
@@ -143,13 +143,13 @@ class Contacts {
   std::optional<Event> first_toi_event(double until);
   std::optional<Event> first_change(double until);
   int samples_until(double until) const;
-  void list_watched();
+  void list_monitored();
   void evaluate(double time, std::span<double> values);
   void refine(const Event& event);
   void refine_limit(std::size_t limit);
   void watch_contacts();
   template <class Placed>
-  double contact_value(const Watched& watched, const ContactForces& forces, std::size_t first,
+  double contact_value(const Monitored& monitored, const ContactForces& forces, std::size_t first,
                        const Placed& placed) const;
 
   const Flight& flight_;
@@ -168,7 +168,7 @@ class Contacts {
   std::vector<OutlinePair> held_;      // the pairs of equations_.held(), in the same order
   std::vector<OutlinePair> touching_;  // touching but not held; ascending
   std::vector<OutlinePair> passing_;   // touching where a chain does not push; ascending
-  std::vector<Watched> watched_;
+  std::vector<Monitored> monitored_;
   std::vector<double> tolerance_;
   double force_scale_ = 0;
   Compensated sample_;

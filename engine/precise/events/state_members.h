@@ -19,6 +19,6 @@ PLUMB_MEMBERS(precise::Motion, state, acceleration, angular_acceleration)
 PLUMB_MEMBERS(precise::Flight::Arc, start, motion)
 PLUMB_MEMBERS(precise::OutlinePair, a, b)
 PLUMB_MEMBERS(precise::Feature, kind, a, b)
-PLUMB_MEMBERS(precise::Contacts::Guard, kind, pair, feature, stop, patch, watched, point)
+PLUMB_MEMBERS(precise::Contacts::Guard, kind, pair, feature, stop, patch, monitored, point)
 
 }  // namespace plumb

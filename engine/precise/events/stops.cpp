@@ -175,15 +175,15 @@ std::optional<double> Stops::first_time(std::size_t k, const StepMotionBounds& p
   return now.gap + tolerance(k) <= there ? std::optional(until) : std::nullopt;
 }
 
-std::optional<Stops::Met> Stops::first_met(const StepMotionBounds& paths, EventFreeIntegrator& smooth,
-                                           double until) {
-  std::optional<Met> first;
+std::optional<Stops::ReachedLimit> Stops::first_reached(const StepMotionBounds& paths,
+                                                        EventFreeIntegrator& smooth, double until) {
+  std::optional<ReachedLimit> first;
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     if (!is_free_limit(k)) continue;
     const auto time = first_time(k, paths, smooth, until);
     if (!time) continue;
     until = *time;
-    first = Met{until, k};
+    first = ReachedLimit{until, k};
   }
   return first;
 }

@@ -58,11 +58,12 @@ class Stops {
   ///   C(t + s) >= C + C' s - A s^2 / 2,
   /// A a bound on C'' from the step's polynomials. Only limits that are passed and left again within 1/4096
   /// of a step may be missed.
-  struct Met {
+  struct ReachedLimit {
     double time = 0;
     std::size_t limit = 0;
   };
-  std::optional<Met> first_met(const StepMotionBounds& paths, EventFreeIntegrator& smooth, double until);
+  std::optional<ReachedLimit> first_reached(const StepMotionBounds& paths, EventFreeIntegrator& smooth,
+                                            double until);
 
   /// The gap of a limit at a state, and its rate.
   struct Approach {

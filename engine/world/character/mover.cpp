@@ -98,10 +98,10 @@ void Move<Real>::push_out() {
     if (!deepest) return;
     const double least = dot(deepest->normal, position_ - start) + senses_.skin() - deepest->gap;
     all.add({deepest->normal, least});
-    const MoverWay way = senses_.squeeze(position_, start + all.nearest({}) - position_);
-    position_ = way.position;
+    const MoverPath path = senses_.squeeze(position_, start + all.nearest({}) - position_);
+    position_ = path.position;
     // No further into the obstacle.
-    if (way.stop) all.add({way.stop->normal, dot(way.stop->normal, position_ - start)});
+    if (path.stop) all.add({path.stop->normal, dot(path.stop->normal, position_ - start)});
   }
   const std::optional<MoverContact> left = senses_.deepest(position_, velocity_);
   if (!left || left->gap >= 0) return;
@@ -185,17 +185,17 @@ bool Move<Real>::fly() {
   if (held_.count > 0) going = held_.nearest(going);
   const double whole = remaining_ * length(going);
   if (!(whole > 1e-9 * senses_.skin())) return false;
-  const MoverWay way = senses_.go(position_, remaining_ * going);
-  position_ = way.position;
-  if (!way.stop) return false;
-  remaining_ *= 1 - way.travelled / whole;
-  if (way.travelled > senses_.skin()) touched_.count = 0;
+  const MoverPath path = senses_.go(position_, remaining_ * going);
+  position_ = path.position;
+  if (!path.stop) return false;
+  remaining_ *= 1 - path.travelled / whole;
+  if (path.travelled > senses_.skin()) touched_.count = 0;
   const bool rises = dot(going, senses_.up()) > 0;
-  const std::optional<MoverGround> ground = rises ? std::nullopt : senses_.ground_at(position_, *way.stop);
+  const std::optional<MoverGround> ground = rises ? std::nullopt : senses_.ground_at(position_, *path.stop);
   if (ground) {
     land(*ground);
   } else {
-    block(*way.stop, going);
+    block(*path.stop, going);
   }
   return true;
 }
@@ -211,26 +211,26 @@ bool Move<Real>::walk() {
     velocity_ = {};
     return false;
   }
-  const MoverWay way = senses_.go(position_, whole * direction);
-  position_ = way.position;
-  remaining_ *= 1 - way.travelled / whole;
-  if (!way.stop) return false;
-  const std::optional<MoverGround> ground = senses_.ground_at(position_, *way.stop);
-  const bool slope = senses_.is_walkable(way.stop->normal);
+  const MoverPath path = senses_.go(position_, whole * direction);
+  position_ = path.position;
+  remaining_ *= 1 - path.travelled / whole;
+  if (!path.stop) return false;
+  const std::optional<MoverGround> ground = senses_.ground_at(position_, *path.stop);
+  const bool slope = senses_.is_walkable(path.stop->normal);
   if (ground && !ground->edge) {
     change_ground(*ground);
     return true;
   }
   if (step_up(speed)) return true;
   if (slope) {
-    change_ground({*way.stop, way.stop->normal, false});
+    change_ground({*path.stop, path.stop->normal, false});
     return true;
   }
   // The mover follows a receding surface at that speed.
   const Vec2d ground_velocity = velocity_of(ground_->contact);
-  const double surface = note_hit(*way.stop, std::abs(speed) * direction + ground_velocity);
-  const double receding = std::max(0.0, dot(way.stop->normal, ground_velocity) - surface);
-  const double allowed = receding / std::max(-dot(way.stop->normal, direction), 1e-3);
+  const double surface = note_hit(*path.stop, std::abs(speed) * direction + ground_velocity);
+  const double receding = std::max(0.0, dot(path.stop->normal, ground_velocity) - surface);
+  const double allowed = receding / std::max(-dot(path.stop->normal, direction), 1e-3);
   if (allowed < std::abs(speed)) velocity_ = (speed < 0 ? -allowed : allowed) * senses_.right();
   return false;
 }
@@ -241,8 +241,8 @@ template <class Real>
 bool Move<Real>::step_up(double speed) {
   const double whole = remaining_ * std::abs(speed), height = senses_.step_height();
   if (!(height > 0) || !(whole > 0)) return false;
-  const MoverWay rise = senses_.go(position_, height * senses_.up());
-  const MoverWay ahead = senses_.go(rise.position, remaining_ * speed * senses_.right());
+  const MoverPath rise = senses_.go(position_, height * senses_.up());
+  const MoverPath ahead = senses_.go(rise.position, remaining_ * speed * senses_.right());
   if (!(ahead.travelled > 1e-3 * senses_.skin())) return false;
   Vec2d standing = ahead.position;
   const std::optional<MoverGround> ground =

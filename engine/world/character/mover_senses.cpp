@@ -59,19 +59,20 @@ MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& cap
 }
 
 template <class Real>
-MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, BodyId except) const {
+MoverPath MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d displacement,
+                                BodyId except) const {
   constexpr double kSliding = 1e-9;  // sine of the angle up to which a motion is along a surface, not into it
-  const double whole = length(way);
+  const double whole = length(displacement);
   if (!(whole > 0)) return {from, 0, {}};
-  const Vec2d direction = (1 / whole) * way;
+  const Vec2d direction = (1 / whole) * displacement;
   double fraction = 1;
   std::optional<MoverContact> first;
-  cast_shape(world_, shape, from, 0, way, filter_, [&](const CastShapeResult& hit) {
+  cast_shape(world_, shape, from, 0, displacement, filter_, [&](const CastShapeResult& hit) {
     if (hit.body == except) return 1.0;
     MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
     if (hit.overlapped) {
       // The mover is already within the skin: it may move away from the shape or along it.
-      const std::optional<MoverContact> near = contact_with(hit.shape, from, way);
+      const std::optional<MoverContact> near = contact_with(hit.shape, from, displacement);
       if (!near || near->gap < 0) return 1.0;
       contact = *near;
     }
@@ -81,15 +82,15 @@ MoverWay MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d way, B
     if (sooner) first = contact, fraction = hit.fraction;
     return std::max(fraction, std::numeric_limits<double>::min());
   });
-  return {from + fraction * way, fraction * whole, first};
+  return {from + fraction * displacement, fraction * whole, first};
 }
 
 template <class Real>
 std::optional<MoverGround> MoverSenses<Real>::find_ground(Vec2d& position, double most) const {
-  const MoverWay way = go(position, -most * up_);
-  if (!way.stop) return {};
-  const std::optional<MoverGround> ground = ground_at(way.position, *way.stop);
-  if (ground) position = way.position;
+  const MoverPath path = go(position, -most * up_);
+  if (!path.stop) return {};
+  const std::optional<MoverGround> ground = ground_at(path.position, *path.stop);
+  if (ground) position = path.position;
   return ground;
 }
 

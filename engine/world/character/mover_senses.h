@@ -17,7 +17,7 @@ struct MoverContact {
 };
 
 /// Result of a shape cast: the position reached, and the contact that stopped it.
-struct MoverWay {
+struct MoverPath {
   Vec2d position{};
   double travelled = 0;  ///< m
   std::optional<MoverContact> stop{};
@@ -43,11 +43,15 @@ class MoverSenses {
   double radius() const { return radius_; }
   bool is_walkable(Vec2d normal) const { return dot(normal, up_) >= walkable_; }
 
-  /// Moves from `from` by `way`, and stops a skin before an obstacle. Ignores the body `except` and shapes
-  /// that the mover overlaps already.
-  MoverWay go(Vec2d from, Vec2d way, BodyId except = {}) const { return go(with_skin_, from, way, except); }
+  /// Moves from `from` by `displacement`, and stops a skin before an obstacle. Ignores the body `except` and
+  /// shapes that the mover overlaps already.
+  MoverPath go(Vec2d from, Vec2d displacement, BodyId except = {}) const {
+    return go(with_skin_, from, displacement, except);
+  }
   /// Does the same, but stops only a quarter of a skin before an obstacle: to leave overlaps.
-  MoverWay squeeze(Vec2d from, Vec2d way) const { return go(with_quarter_, from, way, {}); }
+  MoverPath squeeze(Vec2d from, Vec2d displacement) const {
+    return go(with_quarter_, from, displacement, {});
+  }
   /// Moves `position` down onto ground, by at most `most` m. Returns nullopt and does not move if there is no
   /// ground to stand on.
   std::optional<MoverGround> find_ground(Vec2d& position, double most) const;
@@ -63,7 +67,7 @@ class MoverSenses {
   }
 
  private:
-  MoverWay go(const QueryShape& shape, Vec2d from, Vec2d way, BodyId except) const;
+  MoverPath go(const QueryShape& shape, Vec2d from, Vec2d displacement, BodyId except) const;
   std::optional<MoverContact> contact_with(ShapeId shape, Vec2d position, Vec2d velocity) const;
 
   const BasicWorld<Real>& world_;

@@ -17,7 +17,7 @@ class SweptBound {
   SweptBound(const WorldData<Real>& w, int shape, int other, Real enough)
       : a_(w, shape), b_(w, other), enough_(enough) {
     between_ = (w.position[a_.body] - w.position[b_.body]).template as<Real>();
-    way_ = w.motion[a_.body].moved - w.motion[b_.body].moved;
+    displacement_ = w.motion[a_.body].moved - w.motion[b_.body].moved;
     // Rotation to first order.
     const auto bend = [](const Side& side) { return Real(0.5) * side.turned * side.turned * side.reach; };
     rest_ = a_.convex.radius + b_.convex.radius + bend(a_) + bend(b_);
@@ -25,7 +25,7 @@ class SweptBound {
 
   /// Tests a unit vector from `other` to `shape`. Returns true if the bound is reached.
   bool try_along(Vec2<Real> normal) {
-    const Real here = dot(normal, between_), before = here - dot(normal, way_);
+    const Real here = dot(normal, between_), before = here - dot(normal, displacement_);
     const Span of_a = span(a_, -normal), of_b = span(b_, normal);
     const Real least = std::min(here - of_a.here - of_b.here, before - of_a.before - of_b.before) - rest_;
     if (least > least_) least_ = least;
@@ -75,7 +75,7 @@ class SweptBound {
     for (int i = 0; i < side.convex.count; ++i) {
       const Vec2<Real> normal = sign * (side.rotation * side.convex.corners[i].normal);
       // Other edges face away.
-      if (dot(normal, line_) < 0 && dot(normal, line_ - way_) < 0) continue;
+      if (dot(normal, line_) < 0 && dot(normal, line_ - displacement_) < 0) continue;
       if (try_along(normal)) return true;
     }
     return false;
@@ -83,8 +83,9 @@ class SweptBound {
 
   Side a_, b_;
   Real enough_, least_ = -std::numeric_limits<Real>::max();
-  Vec2<Real> between_{}, way_{};  // m, from b's centre of mass to a's at the end of the step, and its change
-  Vec2<Real> line_{};             // m, the same between the centres of the shapes, for `try_edges`
+  Vec2<Real> between_{};       // m, from b's centre of mass to a's at the end of the step
+  Vec2<Real> displacement_{};  // m, its change in the step
+  Vec2<Real> line_{};          // m, `between_` from centre to centre of the shapes, for `try_edges`
   Real rest_ = 0;
 };
 

@@ -38,16 +38,16 @@ Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, 
 
 // A shape relative to the point of its body that moves along a straight line.
 template <class Real>
-class Seen {
+class RelativeShape {
  public:
-  Seen(const Convex<Real>& shape, Vec2d arm) : convex_(shape) {
+  RelativeShape(const Convex<Real>& shape, Vec2d arm) : convex_(shape) {
     if (arm == Vec2d{}) return;
     for (int i = 0; i < shape.count; ++i)
       corners_[i] = {shape.corners[i].point - arm.as<Real>(), shape.corners[i].normal};
     convex_.corners = corners_.data();
   }
-  Seen(const Seen&) = delete;
-  Seen& operator=(const Seen&) = delete;
+  RelativeShape(const RelativeShape&) = delete;
+  RelativeShape& operator=(const RelativeShape&) = delete;
   const Convex<Real>& convex() const { return convex_; }
 
  private:
@@ -157,7 +157,7 @@ class Encountering {
   const Way& way_;
   const SweptPair<Real>& pair_;
   Motion of_other_;
-  Seen<Real> whole_, obstacle_;
+  RelativeShape<Real> whole_, obstacle_;
   Real tolerance_;
 };
 

@@ -78,7 +78,7 @@ struct JointConstraint {
     if constexpr (Rows::kTurn) turn.load(rules.turn);
     if constexpr (kAngle != AngleUse::None) {
       if (kind.reference != last.reference) {
-        angle.count = TurnCount::Born;
+        angle.count = TurnCount::New;
       } else if (angle.count == TurnCount::Counted && !(limits() == last_limits)) {
         angle.count = TurnCount::Limited;
       }
@@ -397,7 +397,7 @@ struct JointConstraint {
   /// Sets the bodies' own angles, rad, with their turns, for gears that are not counted yet.
   void meet(double angle_a, double angle_b) {
     if constexpr (kAngle == AngleUse::Geared)
-      if (angle.count == TurnCount::Born) angle.a = angle_a, angle.b = angle_b;
+      if (angle.count == TurnCount::New) angle.a = angle_a, angle.b = angle_b;
   }
 
   /// Calls visit(x, y) for each number that is read after a step: x of this joint (or block of joints), y of
@@ -468,17 +468,17 @@ struct JointConstraint {
     const Real w_a = bodies.motion[a].angular_velocity, w_b = bodies.motion[b].angular_velocity;
     if constexpr (kAngle == AngleUse::Geared) {
       // Gears are assembled with matching teeth: initially, b gets the matching turn.
-      const bool born = angle.count == TurnCount::Born;
-      angle.a = nearest_turn(angle_of(q_a), angle.a + (born ? 0 : h * w_a));
+      const bool is_new = angle.count == TurnCount::New;
+      angle.a = nearest_turn(angle_of(q_a), angle.a + (is_new ? 0 : h * w_a));
       const double fits = kind.exact_ratio * angle.a + kind.reference;
-      angle.b = nearest_turn(angle_of(q_b), born ? fits : angle.b + h * w_b);
+      angle.b = nearest_turn(angle_of(q_b), is_new ? fits : angle.b + h * w_b);
       angle.start = angle.b - fits;
       angle.start_a = angle.a;
     } else {
       const double now = relative_angle(q_a, q_b) - kind.reference;
       const Range range = limits();
-      if (angle.count == TurnCount::Born) {
-        angle.start = angle_at_birth(now, range.lower, range.upper);
+      if (angle.count == TurnCount::New) {
+        angle.start = angle_at_creation(now, range.lower, range.upper);
       } else {
         double last = angle.b - kind.reference + h * (w_b - w_a);
         if (angle.count == TurnCount::Limited) last = std::min(std::max(last, range.lower), range.upper);

@@ -97,9 +97,9 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
 // Returns the speculative contact at a fraction of the step.
 template <class Real>
 SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const ContactRecord& contact,
-                                                const Sweep<double>& way_a, const Sweep<double>& way_b,
+                                                const Sweep<double>& sweep_a, const Sweep<double>& sweep_b,
                                                 double fraction, Real smaller, double dt) {
-  const Pose<double> at_a = pose_at(way_a, fraction), at_b = pose_at(way_b, fraction);
+  const Pose<double> at_a = pose_at(sweep_a, fraction), at_b = pose_at(sweep_b, fraction);
   const Rotation<double> to_a = at_a.rotation.inverse(), q = at_b.rotation;
   const Vec2d between = at_b.position - at_a.position;
   const auto rounded = [](const Rotation<double>& r) {
@@ -108,11 +108,12 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
   const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
                           rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
   SpeculativeContact<Real> at;
-  const auto moved = [](const Sweep<double>& way) {
-    return std::abs(way.motion.x) + std::abs(way.motion.y) + std::abs(way.curve.x) + std::abs(way.curve.y);
+  const auto moved = [](const Sweep<double>& sweep) {
+    return std::abs(sweep.motion.x) + std::abs(sweep.motion.y) + std::abs(sweep.curve.x) +
+           std::abs(sweep.curve.y);
   };
   at.manifold = collide_shapes(w, contact, b_in_a, Real(tuning::kSpeculativeMargin) * smaller,
-                               static_cast<Real>(moved(way_a) + moved(way_b)));
+                               static_cast<Real>(moved(sweep_a) + moved(sweep_b)));
   if (at.manifold.count == 0) return at;
   // Shapes that only just touch have no overlaps: points with overlaps belong to a surface that other shapes
   // continue.
@@ -121,11 +122,13 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
   at.outlook = Outlook::Meets;
   at.rotation = rounded(at_a.rotation);
   at.between = between.template as<Real>();
-  at.closed = (between - (way_b.start - way_a.start)).template as<Real>();
-  at.turned_a = static_cast<Real>(fraction * way_a.turn),
-  at.turned_b = static_cast<Real>(fraction * way_b.turn);
-  const auto velocity = [&](const Sweep<double>& way) { return way.motion + (2 * fraction) * way.curve; };
-  at.velocity = ((1 / dt) * (velocity(way_b) - velocity(way_a))).template as<Real>();
+  at.closed = (between - (sweep_b.start - sweep_a.start)).template as<Real>();
+  at.turned_a = static_cast<Real>(fraction * sweep_a.turn),
+  at.turned_b = static_cast<Real>(fraction * sweep_b.turn);
+  const auto velocity = [&](const Sweep<double>& sweep) {
+    return sweep.motion + (2 * fraction) * sweep.curve;
+  };
+  at.velocity = ((1 / dt) * (velocity(sweep_b) - velocity(sweep_a))).template as<Real>();
   return at;
 }
 
@@ -144,22 +147,24 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
   // the time of impact would follow.
   if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
   const double time = static_cast<double>(dt);
-  const Sweep<double> way_a = sweep_of(w, a, w.position[a], time),
-                      way_b = sweep_of(w, b, w.position[a], time);
+  const Sweep<double> sweep_a = sweep_of(w, a, w.position[a], time),
+                      sweep_b = sweep_of(w, b, w.position[a], time);
   if (closest.count > 0) {
     const double ahead = 1 + static_cast<double>(substep) / time;
-    const auto way = [&](const Sweep<double>& sweep) { return ahead * (sweep.motion + ahead * sweep.curve); };
-    if (!crosses(w, contact, closest, (way(way_b) - way(way_a)).template as<Real>(),
-                 static_cast<Real>(ahead * way_a.turn), static_cast<Real>(ahead * way_b.turn), smaller))
+    const auto displacement = [&](const Sweep<double>& sweep) {
+      return ahead * (sweep.motion + ahead * sweep.curve);
+    };
+    if (!crosses(w, contact, closest, (displacement(sweep_b) - displacement(sweep_a)).template as<Real>(),
+                 static_cast<Real>(ahead * sweep_a.turn), static_cast<Real>(ahead * sweep_b.turn), smaller))
       return {};
   }
   // Search to rounding: with a coarser tolerance, a shape that passes at a smaller distance would count as
   // hit.
-  const ImpactResult<Real> impact =
-      time_of_impact(w.convex(contact.shape_a), way_a, w.convex(contact.shape_b), way_b, Real(0), Real(0));
+  const ImpactResult<Real> impact = time_of_impact(w.convex(contact.shape_a), sweep_a,
+                                                   w.convex(contact.shape_b), sweep_b, Real(0), Real(0));
   if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};
   if (impact.state != ImpactResult<Real>::State::Hit) return {};
-  return speculative_contact_at(w, contact, way_a, way_b, impact.exact_fraction, smaller, time);
+  return speculative_contact_at(w, contact, sweep_a, sweep_b, impact.exact_fraction, smaller, time);
 }
 
 template <class Real>

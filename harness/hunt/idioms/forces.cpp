@@ -7,7 +7,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-struct Owed {
+struct Expected {
   Quantity quantity;
   double right, slack;
 };
@@ -40,7 +40,7 @@ void build(Draft& draft) {
   const int steps = out.steps = std::max(10, static_cast<int>(random.within(0.3, 2) / dt));
   const double t = steps * dt, speed = random.within(0.5, 10) * s;
   const double push = random.within(1, 20) * s;  // m/s^2
-  std::vector<Owed> owed;
+  std::vector<Expected> expected;
   switch (random.whole(0, 6)) {
     case 0: {  // a thrust along a spinning body
       const double rate = body.angular_velocity = random.pick({-1.0, 1.0}) * random.within(0.5, 6);
@@ -48,8 +48,8 @@ void build(Draft& draft) {
           PointForce{.body = body.name, .force = {mass * push, 0}, .frame = Frame::Body});
       const Vec2d first = direction(from), last = direction(from + rate * t);
       const double slack = push / std::abs(rate) * (0.02 + std::abs(rate) * dt);
-      owed = {{Quantity::VelocityX, push / rate * (last.y - first.y), slack},
-              {Quantity::VelocityY, -push / rate * (last.x - first.x), slack}};
+      expected = {{Quantity::VelocityX, push / rate * (last.y - first.y), slack},
+                  {Quantity::VelocityY, -push / rate * (last.x - first.x), slack}};
       break;
     }
     case 1: {  // an off-centre force, or a torque, for a limited time
@@ -65,29 +65,31 @@ void build(Draft& draft) {
         out.scene.forces.push_back(Torque{.body = body.name, .torque = turn, .duration = lasts});
       }
       const double right = turn / inertia * std::min(t, lasts);
-      owed = {{Quantity::AngularVelocity, right, 0.01 * std::abs(right) + 2 * dt * std::abs(turn) / inertia}};
+      expected = {
+          {Quantity::AngularVelocity, right, 0.01 * std::abs(right) + 2 * dt * std::abs(turn) / inertia}};
       break;
     }
     case 2: {                                      // a parachute
       const double share = random.within(0.2, 2);  // 1/s
       body.velocity = {speed, 0};
       out.scene.forces.push_back(LinearDrag{.body = body.name, .coefficient = share * mass});
-      owed = {{Quantity::VelocityX, speed * decay(share * t), speed * (0.01 + share * dt)}};
+      expected = {{Quantity::VelocityX, speed * decay(share * t), speed * (0.01 + share * dt)}};
       break;
     }
     case 3: {
       const double share = random.within(0.2, 2) / speed;  // 1/m
       body.velocity = {0, speed};
       out.scene.forces.push_back(QuadraticDrag{.body = body.name, .coefficient = share * mass});
-      owed = {{Quantity::VelocityY, speed / (1 + share * speed * t), speed * (0.01 + share * speed * dt)}};
+      expected = {
+          {Quantity::VelocityY, speed / (1 + share * speed * t), speed * (0.01 + share * speed * dt)}};
       break;
     }
     case 4: {  // a sinusoidal force
       const double rate = random.within(1, 6), phase = random.within(0, 6);
       out.scene.forces.push_back(SinusoidalForce{
           .body = body.name, .amplitude = {0, mass * push}, .angular_frequency = rate, .phase = phase});
-      owed = {{Quantity::VelocityY, push / rate * (direction(phase).x - direction(rate * t + phase).x),
-               push / rate * (0.02 + rate * dt)}};
+      expected = {{Quantity::VelocityY, push / rate * (direction(phase).x - direction(rate * t + phase).x),
+                   push / rate * (0.02 + rate * dt)}};
       break;
     }
     case 5: {  // a planet on a circle
@@ -101,7 +103,7 @@ void build(Draft& draft) {
           AttractionForce{.body = body.name, .strength = strength, .exponent = exponent});
       const Vec2d last = direction(rate * t);
       const double slack = radius * (0.02 + rate * dt * (1 + rate * t));
-      owed = {{Quantity::X, radius * last.x, slack}, {Quantity::Y, radius * last.y, slack}};
+      expected = {{Quantity::X, radius * last.x, slack}, {Quantity::Y, radius * last.y, slack}};
       break;
     }
     default: {  // a load on a spring
@@ -111,10 +113,11 @@ void build(Draft& draft) {
                                              .body_b = body.name,
                                              .rest_length = rest,
                                              .stiffness = rate * rate * mass});
-      owed = {{Quantity::X, rest + away * direction(rate * t).x, away * (0.02 + rate * dt * (1 + rate * t))}};
+      expected = {
+          {Quantity::X, rest + away * direction(rate * t).x, away * (0.02 + rate * dt * (1 + rate * t))}};
     }
   }
-  for (const Owed& each : owed) {
+  for (const Expected& each : expected) {
     Expectation& moves = draft.expect("follows_its_force", made, each.quantity);
     moves.lower = each.right - each.slack, moves.upper = each.right + each.slack;
     moves.from = moves.to = t;

@@ -34,17 +34,17 @@ void build(Draft& draft) {
   }
   const int steps = draft.out.steps = std::max(20, static_cast<int>(0.6 / draft.out.dt));
   const double y = draft.body(made).position.y, time = steps * draft.out.dt;
-  Expectation& owed = draft.expect(holds ? "holds" : "lets_go", made, Quantity::Y);
+  Expectation& expected = draft.expect(holds ? "holds" : "lets_go", made, Quantity::Y);
   if (holds) {
-    owed.lower = y - 0.1 * length, owed.upper = y + 0.1 * length;
-    owed.why = "a joint bears loads below its limit";
+    expected.lower = y - 0.1 * length, expected.upper = y + 0.1 * length;
+    expected.why = "a joint bears loads below its limit";
   } else {
-    owed.upper = y - 0.25 * g * time * time;  // half of the free fall, because breaking may take a while
-    owed.from = owed.to = time;
-    owed.why = "a joint breaks under a load above its limit";
+    expected.upper = y - 0.25 * g * time * time;  // half of the free fall, because breaking may take a while
+    expected.from = expected.to = time;
+    expected.why = "a joint breaks under a load above its limit";
   }
-  owed.needs = {std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back()),
-                std::string(kMasses)};
+  expected.needs = {std::visit([](const auto& j) { return j.name; }, draft.out.scene.joints.back()),
+                    std::string(kMasses)};
 }
 
 const Register r{{.name = "fuse",

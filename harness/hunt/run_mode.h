@@ -9,7 +9,7 @@
 /// Ways to run a world that must not change its motion, and the digests by which runs are compared.
 namespace plumb::harness::hunt {
 
-enum class Guise : std::uint8_t {
+enum class RunMode : std::uint8_t {
   Plain,
   Restored,    ///< saved, and restored into a world of other settings with other bodies in it
   RolledBack,  ///< steps ahead and rolls back, again and again
@@ -39,11 +39,11 @@ WorldDefinition contrary(const WorldDefinition& definition);
 
 /// Puts bodies, a joint and a force into a world and steps it, so that restoring has something to replace.
 template <class Real>
-void litter(BasicWorld<Real>& world);
+void populate(BasicWorld<Real>& world);
 
 /// Makes the calls that only read a world: queries, readings, definitions, snapshots.
 template <class Real>
-void look_at(const BasicWorld<Real>& world);
+void read_everything(const BasicWorld<Real>& world);
 
 /// Gives bodies and shapes other names and user data, and switches on their hit events.
 template <class Real>

@@ -1,4 +1,4 @@
-#include "harness/hunt/guise.h"
+#include "harness/hunt/run_mode.h"
 
 #include <algorithm>
 #include <bit>
@@ -210,7 +210,7 @@ WorldDefinition contrary(const WorldDefinition& of) {
 }
 
 template <class Real>
-void litter(BasicWorld<Real>& world) {
+void populate(BasicWorld<Real>& world) {
   world.create_body({.type = BodyType::Static}, {.geometry = Box{10, 1}});
   const BodyId a = world.create_body({.position = {0, 1}, .velocity = {3, 0}}, {.geometry = Box{1, 1}});
   const BodyId b = world.create_body({.position = {0.4, 1.9}}, {.geometry = Circle{0.4}});
@@ -223,7 +223,7 @@ void litter(BasicWorld<Real>& world) {
 }
 
 template <class Real>
-void look_at(const BasicWorld<Real>& world) {
+void read_everything(const BasicWorld<Real>& world) {
   const std::vector<BodyId> bodies = world.bodies();
   std::vector<ContactReading> contacts(64);
   world.contacts(contacts);
@@ -301,12 +301,12 @@ std::string overrun(BasicWorld<Real>& world, double dt, int substeps) {
   return {};
 }
 
-#define PLUMB_INSTANTIATE(Real)                        \
-  template Digest digest_of(const BasicWorld<Real>&);  \
-  template void litter(BasicWorld<Real>&);             \
-  template void look_at(const BasicWorld<Real>&);      \
-  template void label(BasicWorld<Real>&);              \
-  template std::string not_refused(BasicWorld<Real>&); \
+#define PLUMB_INSTANTIATE(Real)                           \
+  template Digest digest_of(const BasicWorld<Real>&);     \
+  template void populate(BasicWorld<Real>&);              \
+  template void read_everything(const BasicWorld<Real>&); \
+  template void label(BasicWorld<Real>&);                 \
+  template std::string not_refused(BasicWorld<Real>&);    \
   template std::string overrun(BasicWorld<Real>&, double, int);
 PLUMB_INSTANTIATE(float)
 PLUMB_INSTANTIATE(double)
