@@ -57,11 +57,11 @@ def every_command_can_be_planned(tmp):
         if name == "sweep":
             # The costs of all engines take turns in a unit that goes on from the search of each.
             assert not rows_of_nothing(tmp / name), "no result before costs are measured"
-            assert "1 units go on" in plumb("plan", tmp / name, "--next").stdout
+            assert "1 units continue" in plumb("plan", tmp / name, "--next").stdout
             assert not [unit for unit in units_of(tmp / name)[:-1] if unit["cost"]] and units_of(tmp / name)[-1]["cost"]
             plumb("work", tmp / name, "--all", *QUICK)
             # On a busy machine it may be measured again, but the search is not gone on from twice.
-            assert "go on" not in plumb("plan", tmp / name, "--next", code=None).stdout.replace("0 units go on", "")
+            assert "units continue" not in plumb("plan", tmp / name, "--next", code=None).stdout.replace("0 units continue", "")
             plumb("work", tmp / name, "--all", *QUICK)
         plumb("gather", tmp / name, "--out", tmp / f"{name}-out", code=0)
         assert rows_of(tmp / f"{name}-out", file), name
@@ -138,7 +138,7 @@ def disturbed_units_are_measured_again(tmp):
     for number, factor in ((1, 1.5), (2, 1.0)):
         disturb(work, number, factor)
     text = plumb("status", work).stdout
-    assert "others used the machine during: 1; " in text, text
+    assert "disturbed by other programs: 1; " in text, text
     assert "1 are measured again" in plumb("plan", work, "--next").stdout
     again = units_of(work)[-1]
     host = json.loads((work / "done/00001/unit.json").read_text())["machine"]["host"]

@@ -188,7 +188,7 @@ def damaged_units_are_said_and_done_again(tmp):
     whole = path.read_bytes()
     path.write_bytes(whole[:-40])
     run = plumb("gather", work, "--out", tmp / "out", "--no-report", code=1)
-    assert "1 last line cut short, left out" in run.stdout and "damaged: 1 (" in run.stdout, run.stdout
+    assert "1 last line incomplete, left out" in run.stdout and "damaged: 1 (" in run.stdout, run.stdout
     assert len(rows_of(tmp / "out")) == len(local(tmp / "local", *SMALL)) - 1
     plumb("work", work, "--unit", 1, "--again", *QUICK)
     plumb("gather", work, "--out", tmp / "out", "--no-report")

@@ -3,8 +3,8 @@
 #include <type_traits>
 
 #include "engine/encoding/encoding.h"
-#include "engine/joints/joint_check.h"
 #include "engine/joints/definition_members.h"
+#include "engine/joints/joint_check.h"
 #include "engine/world/joint_solver/joint_parts.h"
 
 /// Saves and restores a set of joints.

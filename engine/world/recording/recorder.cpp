@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "engine/encoding/encoding.h"
 #include "engine/scene/error.h"
 #include "engine/world/recording/definition_members.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/snapshot/body_hash.h"
-#include "engine/encoding/encoding.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/validate.h"
 

@@ -1,10 +1,10 @@
 #include "engine/world/recording/recording_file.h"
 
 #include "engine/core/text.h"
+#include "engine/encoding/encoding.h"
 #include "engine/scene/error.h"
 #include "engine/world/checksum.h"
 #include "engine/world/recording/recorded_calls.h"
-#include "engine/encoding/encoding.h"
 
 namespace plumb {
 namespace {

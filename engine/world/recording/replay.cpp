@@ -1,11 +1,11 @@
 #include "engine/world/replay.h"
 
+#include "engine/encoding/encoding.h"
 #include "engine/scene/error.h"
 #include "engine/world/recording/definition_members.h"
 #include "engine/world/recording/recorded_calls.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/snapshot/body_hash.h"
-#include "engine/encoding/encoding.h"
 
 namespace plumb {
 namespace {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/encoding/encoding.h"
 #include "engine/scene/error.h"
 #include "engine/world/checksum.h"
 #include "engine/world/recording/definition_members.h"
@@ -20,7 +21,6 @@
 #include "engine/world/recording/recording_file.h"
 #include "engine/world/replay.h"
 #include "engine/world/snapshot.h"
-#include "engine/encoding/encoding.h"
 #include "tests/fuzz/support/patches.h"
 #include "tests/fuzz/support/require.h"
 #include "tests/fuzz/support/world_parts.h"

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/math/trigonometry.h"
 #include "engine/encoding/encoding.h"
+#include "engine/math/trigonometry.h"
 #include "engine/world/joint_solver/joint_set.h"
 
 namespace plumb {
