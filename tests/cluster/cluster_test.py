@@ -30,7 +30,7 @@ def units_give_what_the_command_gives(tmp):
     plumb("gather", work, "--out", tmp / "none", code=1)
     assert "not started" in plumb("status", work).stdout
     plumb("work", work, "--unit", 2, *QUICK)
-    assert "before" in plumb("work", work, "--unit", 2, *QUICK).stdout, "a unit that is done is not done again"
+    assert "already done" in plumb("work", work, "--unit", 2, *QUICK).stdout, "a unit that is done is not done again"
     plumb("work", work, "--next", *QUICK)
     plumb("work", work, "--all", *QUICK)
     plumb("work", work, "--next", *QUICK, code=3)

@@ -40,7 +40,7 @@ TEST(PlainWords, ATruthThatAllEnginesContradictAlikeIsSuspect) {
                                     run("right", "plumb", true, true), run("right", "box2d", false, false)};
   EXPECT_THAT(suspect_truths(results), ElementsAre("wrong"));
   EXPECT_THAT(conclusion(results, {}),
-              HasSubstr("wrong: all engines agree with each other and none with the"));
+              HasSubstr("wrong: all engines agree with each other, and none with the"));
 }
 
 TEST(PlainWords, OneMakersEnginesSayNothingOfTheTruth) {

@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"body 'a' is kinematic", [](Scene& s) { s.bodies[3].type = BodyType::Kinematic; }},
         Refusal{"body 'b' has a fixed rotation", [](Scene& s) { s.bodies[1].fixed_rotation = true; }},
         Refusal{"the hinge of body 'b' is open", [](Scene& s) { s.bodies[1].position.y += 1e-3; }},
-        Refusal{"the velocity of body 'c' tears", [](Scene& s) { s.bodies[0].velocity.x = 1; }},
+        Refusal{"the velocity of body 'c' violates its hinge", [](Scene& s) { s.bodies[0].velocity.x = 1; }},
         Refusal{"bodies 'c' and 'b' may touch",
                 [](Scene& s) {
                   s.bodies[0].shapes.push_back({.geometry = Circle{0.1}});

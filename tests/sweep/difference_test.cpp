@@ -79,7 +79,7 @@ TEST(Difference, CostsAreBetterWorseOrNotToBeTold) {
   EXPECT_FALSE(any_worse(std::span(rows).subspan(2)));
   const std::string text = difference_table(rows, {});
   for (const char* part :
-       {"1 better, 1 worse, 1 cannot be told", "1 have fewer than 9", "errors of 4 the same"})
+       {"1 better, 1 worse, 1 cannot be told", "1 have fewer than 9", "errors of 4 identical"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_LT(text.find("worse"), text.find("better")) << "what is worse comes first";
 }

@@ -178,7 +178,7 @@ TEST(Measure, GivesUpWhatTakesTooLong) {
       plan, [](const Progress&) {}, [&](std::vector<Measurement>& done) { row = done; },
       [] { return false; });
   for (const Measurement& m : row) {
-    EXPECT_EQ(m.failure.rfind("given up after 1 steps", 0), 0u) << m.failure;
+    EXPECT_EQ(m.failure.rfind("stopped after 1 steps", 0), 0u) << m.failure;
     EXPECT_TRUE(m.step_seconds.empty());
   }
 }
