@@ -275,7 +275,7 @@ void land(WorldData<Real>& w, const SweptBody& flight) {
   motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
   // Recompute the sleep timer, which was updated with the velocity before the impact.
   BodyRecord<Real>& record = w.bodies[flight.body];
-  if (!is_still(w, record, motion, w.extents[flight.body])) record.sleep_time = 0;
+  if (!is_still(w, record, motion, w.extents[flight.body], Real(0))) record.sleep_time = 0;
 }
 
 #define PLUMB_FOR(Real)                                                                            \

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/trigonometry.h"
+#include "engine/world/joint_solver/hinge_tree_energy.h"
 
 namespace plumb {
 namespace {
@@ -16,6 +17,9 @@ constexpr int kMostParts = 64;
 // Tolerance of closing hinges, as a fraction of the arms, and the maximum number of Newton steps for it.
 constexpr double kClosed = 1e-11;
 constexpr int kMostNewtonSteps = 16;
+// Gap, as a fraction of the arms, above which the Newton steps have failed. Where they converge, they leave
+// less than a thousandth of it; where they fail, more than a hundred times as much.
+constexpr double kOpen = 1e-6;
 // Maximum closing speed of a gap that existed before, in arms per second. A scene that starts with its joints
 // open is pulled together without a burst.
 constexpr double kGapSpeed = 4;
@@ -26,14 +30,21 @@ constexpr double kDiverges = 2;
 
 // ---- Motion
 
+// Returns `keep` to the power of `share`, a power of two up to 1.
+double kept(double keep, double share) {
+  for (; share < 1 && keep != 1; share *= 2) keep = std::sqrt(keep);
+  return keep;
+}
+
+// Applies a share of the forces and the damping of a substep.
 void kick(std::span<TreeLink> tree, double share) {
+  if (share == 0) return;
   for (TreeLink& link : tree) {
     if (!link.moves) continue;
     link.velocity += share * link.kick;
     link.spin += share * link.spin_kick;
-    if (link.keep == 1 && link.keep_spin == 1) continue;
-    link.velocity *= share == 1 ? link.keep : std::sqrt(link.keep);
-    link.spin *= share == 1 ? link.keep_spin : std::sqrt(link.keep_spin);
+    link.velocity *= kept(link.keep, share);
+    link.spin *= kept(link.keep_spin, share);
   }
 }
 
@@ -216,20 +227,25 @@ void damp(std::span<TreeLink> tree) {
 
 // ---- A substep
 
-// Solves for velocities that close the hinges at the end of the motion. `share` of a substep's forces act
-// before. Returns true if the impulses raised the inertia of links.
-bool hold(std::span<TreeLink> tree, double h, double share) {
-  constexpr double kEnough = kClosed * kClosed;
+struct Held {
+  bool heavier = false;  // the impulses raised the inertia of links
+  bool closed = false;
+};
+
+// Solves for velocities that close the hinges at the end of the motion. `share` of the motion's forces act
+// before.
+Held hold(std::span<TreeLink> tree, double h, double share) {
+  constexpr double kEnough = kClosed * kClosed, kFails = kOpen * kOpen;
   bool heavier = false;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kMostNewtonSteps; ++i) {
     const double gap = predict(tree, h);
-    if (gap <= kEnough || i == kMostNewtonSteps) return heavier;
+    if (gap <= kEnough || i == kMostNewtonSteps) return {heavier, gap <= kFails};
     if (i > 0 && !(gap < before)) {
-      if (gap <= kDiverges * before) return heavier;
+      if (gap <= kDiverges * before) return {heavier, gap <= kFails};
       undo(tree);
       predict(tree, h);
-      return heavier;
+      return {heavier, before <= kFails};
     }
     for (TreeLink& link : tree) link.rate = (1 / h) * (link.open - link.next_gap);
     solve(tree);
@@ -241,7 +257,7 @@ bool hold(std::span<TreeLink> tree, double h, double share) {
     }
     before = gap;
   }
-  return heavier;
+  return {heavier, false};
 }
 
 // Solves for velocities that keep the hinges closed.
@@ -282,39 +298,90 @@ int parts_of(std::span<const TreeLink> tree, double h) {
   return parts;
 }
 
+// A tree on its way through a step.
+class Passage {
+ public:
+  Passage(std::span<TreeLink> tree, double h)
+      : tree_(tree),
+        h_(h),
+        frame_(velocity_of_hold(tree)),
+        most_(energy_of(tree, frame_)),
+        driven_(!tree[0].moves && (tree[0].velocity != Vec2d{} || tree[0].spin != 0)) {
+    double widest = 0, momentum = 0;
+    for (const TreeLink& link : tree) {
+      widest = std::max(widest, length_squared(link.gap));
+      momentum += mass_of(link) * std::sqrt(length_squared(link.kick));
+      spare_ += 0.5 * (mass_of(link) * length_squared(link.kick) +
+                       inertia_of(link) * link.spin_kick * link.spin_kick);
+    }
+    // Closing a hinge that was open may lift bodies.
+    spare_ += momentum / h * std::sqrt(widest);
+  }
+
+  // Moves the tree through a share of a substep, a power of two. If its hinges cannot be closed at the end,
+  // as light links would have to rotate too far, or only where the tree has not the energy to go, moves it
+  // through the halves instead. Leaves out the smallest part that it has not the energy for.
+  void move_by(double share) {
+    for (TreeLink& link : tree_) link.velocity_before = link.velocity, link.spin_before = link.spin;
+    const double acts = due_ + 0.5 * share, t = share * h_;
+    find_demands(tree_, t, 1 / share, &TreeLink::impulse);
+    bool loaded = assemble(tree_);
+    due_ == 0.5 * share ? kick(tree_, share) : (kick(tree_, due_), kick(tree_, 0.5 * share));
+    begin(tree_, t);
+    const Held held = hold(tree_, t, acts / share);
+    const double work = share * work_of(tree_, frame_);
+    const bool lacks = !driven_ && most_ + work < -spare_, last = share * kMostParts <= 1;
+    if (lacks || (!held.closed && !last)) {
+      for (TreeLink& link : tree_) link.velocity = link.velocity_before, link.spin = link.spin_before;
+      finish();
+      if (!last) move_by(0.5 * share), move_by(0.5 * share);
+      return;
+    }
+    loaded = loaded || held.heavier;
+    move(tree_, t);
+    strained_ = strained_ || loaded, loaded_ = loaded;
+    for (TreeLink& link : tree_) link.impulse = (1 / acts) * link.found;
+    // A hold that turns drives the tree.
+    most_ += work + share * dot(tree_[1].impulse, velocity_of_hold(tree_) - frame_);
+    due_ = 0.5 * share;
+    if (loaded) finish();
+  }
+
+  // Brings the velocities to the time of the poses.
+  void finish() {
+    if (due_ == 0) return;
+    kick(tree_, due_);
+    assemble(tree_);
+    if (loaded_) damp(tree_);
+    for (TreeLink& link : tree_) link.found = {};
+    fit(tree_);
+    if (strained_) limit_energy(tree_, frame_, most_), most_ = energy_of(tree_, frame_);
+    // Half of the impulse acts before the motion, half after.
+    for (TreeLink& link : tree_) link.impulse = 0.5 * link.impulse + (0.5 / due_) * link.found;
+    due_ = 0, strained_ = loaded_ = false;
+  }
+
+ private:
+  const std::span<TreeLink> tree_;
+  const double h_;     // s, a substep
+  const Vec2d frame_;  // m/s, in which energy is measured
+  double most_;        // J, the energy that forces permit
+  const bool driven_;  // its hold moves, and may lift it
+  double spare_ = 0;   // J, error of that: the energy that forces give to a body at rest in a substep
+  double due_ = 0;     // share of a substep by which the velocities lag behind
+  bool loaded_ = false, strained_ = false;  // inertia was raised in the last motion, since the last check
+};
+
 }  // namespace
 
 void move_tree(std::span<TreeLink> tree, double h, int substeps) {
   const int parts = parts_of(tree, h);
-  const double part = 1.0 / parts, t = part * h;
-  for (TreeLink& link : tree) {
-    link.moved = {}, link.turned = 0;
-    link.kick *= part, link.spin_kick *= part, link.impulse *= part;
-    for (int i = 1; i < parts; i *= 2)
-      link.keep = std::sqrt(link.keep), link.keep_spin = std::sqrt(link.keep_spin);
-  }
+  const double share = 1.0 / parts;
+  for (TreeLink& link : tree) link.moved = {}, link.turned = 0;
   place(tree);
-  bool fits = true;  // velocities and poses are those of the same time
-  for (int left = parts * substeps; left > 0; --left) {
-    const double share = fits ? 0.5 : 1;
-    find_demands(tree, t, 1, &TreeLink::impulse);
-    bool loaded = assemble(tree);
-    kick(tree, share);
-    begin(tree, t);
-    loaded = hold(tree, t, share) || loaded;
-    move(tree, t);
-    fits = left == 1 || loaded;
-    for (TreeLink& link : tree) link.impulse = (1 / share) * link.found;
-    if (!fits) continue;
-    kick(tree, 0.5);
-    assemble(tree);
-    if (loaded) damp(tree);
-    for (TreeLink& link : tree) link.found = {};
-    fit(tree);
-    // Half of a substep's impulse acts before the motion, half after.
-    for (TreeLink& link : tree) link.impulse = 0.5 * link.impulse + link.found;
-  }
-  for (TreeLink& link : tree) link.impulse *= parts;
+  Passage passage(tree, h);
+  for (int left = parts * substeps; left > 0; --left) passage.move_by(share);
+  passage.finish();
 }
 
 }  // namespace plumb

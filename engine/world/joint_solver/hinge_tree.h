@@ -45,6 +45,8 @@ struct TreeLink {
   double turned = 0;  ///< rad
 
   // Intermediate values.
+  Vec2d velocity_before{};           ///< m/s, to undo a motion that failed
+  double spin_before = 0;            ///< rad/s
   double inertia = 0;                ///< kg m^2, including the load's addition
   double demand = 0;                 ///< kg m^2, demanded by the load
   double excess = 0;                 ///< fraction of the inertia about the hinge that the load added

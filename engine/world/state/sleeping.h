@@ -11,15 +11,23 @@ namespace plumb {
 
 /// Returns true if a body of this motion counts as at rest, so that its sleep timer runs: up to the speed
 /// `thresholds.sleep`, by default 0.05 extents a second. `extent` is the farthest distance of its shapes from
-/// the centre of mass, m.
+/// the centre of mass, m; for a body without shapes its radius of gyration counts. A body that is moved
+/// without a velocity, as where an open joint closes, moves by its displacement in `dt`, s (0: by its
+/// velocity alone).
 template <class Real>
 bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const BodyMotion<Real>& motion,
-              Real extent) {
+              Real extent, Real dt) {
+  if (record.type == BodyType::Kinematic && (motion.velocity != Vec2<Real>{} || motion.angular_velocity != 0))
+    return false;
+  if (extent == 0 && motion.inverse_inertia > 0)
+    extent = std::sqrt(motion.inverse_mass / motion.inverse_inertia);
   const double set = w.settings.thresholds.sleep;
   const Real slow = set >= 0 ? static_cast<Real>(set) : Real(tuning::kSleepSpeed) * extent;
-  const Real speed = std::sqrt(length_squared(motion.velocity)) + std::abs(motion.angular_velocity) * extent;
-  const bool moves_as_told = record.type == BodyType::Kinematic && speed > 0;
-  return record.may_sleep && !moves_as_told && speed <= slow;
+  const auto moves = [extent](Vec2<Real> way, Real turn) {
+    return std::sqrt(length_squared(way)) + std::abs(turn) * extent;
+  };
+  return record.may_sleep && moves(motion.velocity, motion.angular_velocity) <= slow &&
+         (dt == 0 || moves(motion.moved, motion.turned) <= slow * dt);
 }
 
 /// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic body wakes alone.

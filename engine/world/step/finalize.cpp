@@ -97,7 +97,7 @@ template <class Real, class Found>
   move_body(w, body, record, motion, position_compensation);
   if (loads != nullptr) loads[body] = {};
   if (w.settings.sleeping) {
-    record.sleep_time = is_still(w, record, motion, extent) ? record.sleep_time + dt : Real(0);
+    record.sleep_time = is_still(w, record, motion, extent, dt) ? record.sleep_time + dt : Real(0);
   } else if (record.sleep_time != 0) {
     record.sleep_time = 0;
   }
