@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "engine/math/small_turn.h"
 #include "engine/world/world_data.h"
@@ -48,6 +49,20 @@ void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
   for (const ContactConstraint<Real>* c : island.contacts) add(c->body_a, c->body_b);
 }
 
+/// Returns the length of the link to which a row's gap is relative, as joint_opening.h defines it, m; 1 for
+/// an angle. `length`: of a joint that is a link itself, m.
+template <class Real>
+double link_length(const JointedIsland<Real>& island, const BoundedRow& row, double length) {
+  const auto radius = [](const BoundedBody& body, Vec2d linear, double angular) {
+    if (!(body.inverse_inertia > 0)) return std::numeric_limits<double>::infinity();
+    const double mobility = std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear);
+    return std::sqrt(mobility / body.inverse_inertia + angular * angular);
+  };
+  const double shorter = std::min(radius(island.system.bodies[row.a], row.linear_a, row.angular_a),
+                                  radius(island.system.bodies[row.b], row.linear_b, row.angular_b));
+  return std::max(shorter, length);
+}
+
 /// Moves and turns a body within a substep.
 template <class Real>
 void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
@@ -68,9 +83,9 @@ void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
 }
 
 /// Moves the bodies of an island by the `shifts` of its system, all by the same fraction, such that none
-/// turns by more than `most`, rad, or moves by more than that share of its extent.
+/// turns by more than `most`, rad, or moves by more than that share of its extent. Returns the fraction.
 template <class Real>
-void shift_links(WorldData<Real>& w, const JointedIsland<Real>& island, double most) {
+double shift_links(WorldData<Real>& w, const JointedIsland<Real>& island, double most) {
   double share = 1;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     const BoundedRows::Shift& s = island.system.shifts[i];
@@ -84,6 +99,7 @@ void shift_links(WorldData<Real>& w, const JointedIsland<Real>& island, double m
     const BoundedRows::Shift& s = island.system.shifts[i];
     shift(w, island.links[i].body, share * s.way, share * s.turn);
   }
+  return share;
 }
 
 }  // namespace plumb

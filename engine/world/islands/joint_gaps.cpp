@@ -145,7 +145,7 @@ class Mechanism {
         row.linear_b = from.row.linear_b.template as<double>();
         row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
         row.block = block;
-        island_.allowed.push_back(allowed_gap(row, from.length));
+        island_.allowed.push_back(opening_ * link_length(island_, row, from.length));
         const double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
         from.role == RowRole::Limit ? add_one_sided(row, gap, of) : add_rigid(row, gap, of);
       }
@@ -202,18 +202,6 @@ class Mechanism {
     return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
   }
 
-  // Returns the gap that a row may have: `opening_` of its link, as joint_opening.h defines it. `length`: of
-  // a joint that is a link itself, m.
-  double allowed_gap(const BoundedRow& row, double length) const {
-    const auto radius = [](const BoundedBody& body, Vec2d linear, double angular) {
-      if (!(body.inverse_inertia > 0)) return kUnbounded;
-      const double mobility = std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear);
-      return std::sqrt(mobility / body.inverse_inertia + angular * angular);
-    };
-    const double shorter = std::min(radius(island_.system.bodies[row.a], row.linear_a, row.angular_a),
-                                    radius(island_.system.bodies[row.b], row.linear_b, row.angular_b));
-    return opening_ * std::max(shorter, length);
-  }
   // Returns true if a joint's row is open by more than it may. Limits of angles have a pass of their own.
   bool is_open(std::size_t i) const {
     const BoundedRow& row = island_.system.rows[i];

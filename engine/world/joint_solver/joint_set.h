@@ -165,6 +165,9 @@ class JointSet {
   /// Appends the rows of a joint at the present poses.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
 
+  /// Sets a joint's springs and bounds for substeps of h, s, until the next step.
+  void set_substep(int joint, Real h);
+
   /// Sets the fraction of a joint's impulses that iterations start from if they take the joint over.
   void set_carry(int joint, double fraction);
   /// Scales the impulses of a joint that iterations take over by that fraction, and returns the fraction.

@@ -96,6 +96,16 @@ void JointSet<Real>::solver_rows(int joint, const SolverBodies<Real>& bodies,
 }
 
 template <class Real>
+void JointSet<Real>::set_substep(int joint, Real h) {
+  parts_->at(joint, [&]<template <class> class Kind>(JointConstraint<Real, Kind>& constraint) {
+    using Constraint = JointConstraint<Real, Kind>;
+    using Definition = typename Constraint::Definition;
+    if (Constraint::kHasRules && constraint.known_h != h)
+      constraint.set_substep(std::get<Definition>(parts_->slot(joint).definition), h);
+  });
+}
+
+template <class Real>
 int JointSet<Real>::bounded_rows(int joint) const {
   const auto is_bounded = [](const SolverRule<Real>& rule) {
     return rule.role == RowRole::Limit || rule.role == RowRole::Motor;
@@ -113,6 +123,8 @@ int JointSet<Real>::bounded_rows(int joint) const {
   });
 }
 
+template void JointSet<float>::set_substep(int, float);
+template void JointSet<double>::set_substep(int, double);
 template int JointSet<float>::bounded_rows(int) const;
 template int JointSet<double>::bounded_rows(int) const;
 template void JointSet<float>::solver_rows(int, const SolverBodies<float>&,

@@ -1,0 +1,237 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "engine/linear_algebra/row_coupling.h"
+#include "engine/world/contact_solver/contact_pair.h"
+#include "engine/world/contact_solver/contact_step.h"
+#include "engine/world/islands/friction_cones.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/world_data.h"
+
+/// The rows of an island with joints. See docs/decisions/jointed-islands.md. For jointed_islands.cpp alone.
+namespace plumb {
+
+enum class Stage { Hold, Close, Relax };
+
+inline BoundedRow::State state_of(double impulse, double lower, double upper) {
+  if (impulse <= lower) return BoundedRow::kLower;
+  return impulse >= upper ? BoundedRow::kUpper : BoundedRow::kFree;
+}
+
+/// Computes the rows of an island at the current positions, for one stage of a substep.
+template <class Real>
+class RowMaker {
+ public:
+  RowMaker(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, Stage stage)
+      : w_(w), island_(island), h_(step.h), hold_(stage == Stage::Hold), close_(stage == Stage::Close) {}
+
+  void make() {
+    island_.system.rows.clear(), island_.ties.clear(), island_.cones.clear();
+    // Friction holds loads as it came to do so. Joints alone share redundant loads evenly.
+    remembers_ = hold_ && std::any_of(island_.contacts.begin(), island_.contacts.end(),
+                                      [](const ContactConstraint<Real>* c) { return c->friction > 0; });
+    for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_)
+      add_joint(island_.joints[block_]);
+    island_.contact_row = static_cast<int>(island_.ties.size());
+    for (std::size_t i = 0; i < island_.contacts.size(); ++i, ++block_)
+      add_contact(*island_.contacts[i], island_.last[i]);
+  }
+
+ private:
+  double velocity_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.before) + row.angular_a * a.spin_before + dot(row.linear_b, b.before) +
+           row.angular_b * b.spin_before;
+  }
+
+  // Returns the rate of a row's coordinate after the first solve.
+  double held_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
+           row.angular_b * b.spin;
+  }
+
+  // `applied` is the impulse of the first solve; the second one adds to it. `last` is the impulse that the
+  // row had before the step.
+  void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper, double last) {
+    const std::size_t place = island_.ties.size();
+    if (close_) {
+      const bool unilateral = lower == 0 && tie.first < 0;
+      const bool pressed = unilateral && island_.impulses[place] > 0;
+      add_closing(row, tie, unilateral ? row.gap < 0 || pressed : row.gap != 0 || rigid_, pressed,
+                  unilateral ? upper : 0);
+      return;
+    }
+    if (place >= island_.impulses.size()) island_.impulses.push_back(last);
+    const double guess = island_.impulses[place], applied = hold_ ? 0 : guess;
+    row.lower = lower - applied, row.upper = upper - applied;
+    row.state = state_of(guess, lower, upper);
+    row.impulse = remembers_ ? guess : 0;
+    row.wanted -= row.compliance * applied;
+    island_.system.rows.push_back(row);
+    island_.ties.push_back(tie);
+  }
+
+  // Springs, motors and friction correct no positions. Unilateral rows that are open and have no impulse may
+  // stay so, or close.
+  void add_closing(BoundedRow row, const RowTie<Real>& tie, bool holds, bool pressed, double upper) {
+    row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
+    if (pressed) row.gap = std::min(row.gap, 0.0);
+    row.upper = upper;
+    row.compliance = row.coupled_compliance = 0;
+    island_.system.rows.push_back(row);
+    island_.ties.push_back(tie);
+  }
+
+  // Returns the target rate of a unilateral row with `gap`: as the mean of the displacement, or as the
+  // velocity at its end. The latter closes no faster than it does already: impulses that are taken back until
+  // a gap closes would gain energy.
+  double closing(double gap, const BoundedRow& row) const {
+    const double rate = -std::max(gap, 0.0) / h_;
+    return hold_ ? 2 * rate - velocity_along(row) : std::max(rate, std::min(held_along(row), 0.0));
+  }
+
+  void add_joint(int joint) {
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    rows.clear();
+    w_.joint_set.solver_rows(joint, w_.solver_bodies(), rows);
+    const auto [link_a, link_b] = island_.blocks[block_];
+    for (const JointSolverRow<Real>& from : rows) {
+      BoundedRow row{.a = link_a, .b = link_b};
+      row.linear_a = from.row.linear_a.template as<double>(),
+      row.linear_b = from.row.linear_b.template as<double>();
+      row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+      row.block = block_;
+      const double most = from.most, gap = from.row.residual;
+      // Gap at the substep's start, from which springs pull and limits are measured.
+      const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
+      double lower = -most;
+      rigid_ = from.role == RowRole::Rigid;
+      switch (from.role) {
+        case RowRole::Rigid:
+          row.wanted = hold_ ? -velocity_along(row) : 0;
+          row.gap = gap;
+          break;
+        case RowRole::Spring:
+          row.compliance = from.compliance, row.coupled_compliance = from.coupled_compliance;
+          row.wanted = -double(from.rate) * (hold_ ? start : start - h_ * moved_along(row));
+          break;
+        case RowRole::Limit:
+          lower = 0;
+          row.wanted = closing(start, row);
+          row.gap = gap;
+          break;
+        case RowRole::Motor:
+          row.wanted = from.speed;
+          row.softening = kDriven;
+          break;
+      }
+      add(row, {.impulse = from.impulse, .most = from.most, .pair = from.pair}, lower, most, *from.impulse);
+      if (!hold_ && from.coupled_compliance != 0) {
+        const std::size_t last = island_.ties.size() - 1;
+        std::pmr::vector<BoundedRow>& all = island_.system.rows;
+        all[last].wanted -= from.coupled_compliance * island_.impulses[last - 1];
+        all[last - 1].wanted -= from.coupled_compliance * island_.impulses[last];
+      }
+    }
+  }
+
+  // Returns the rate at which a row's coordinate has changed in the substep, m/s.
+  double moved_along(const BoundedRow& row) const {
+    const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
+    return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
+           row.angular_b * b.turn;
+  }
+
+  void add_contact(ContactConstraint<Real>& c, const LastImpulses& last) {
+    const auto [link_a, link_b] = island_.blocks[block_];
+    const BodyMotion<Real>&a = w_.motion[c.body_a], &b = w_.motion[c.body_b];
+    const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x};
+    const auto along = [&](Vec2d d, Real arm_a, Real arm_b) {
+      BoundedRow row{.a = link_a, .b = link_b};
+      row.block = block_;
+      row.linear_a = -d, row.linear_b = d, row.angular_a = -double(arm_a), row.angular_b = arm_b;
+      return row;
+    };
+    const double closed = dot(n, (b.moved - a.moved).template as<double>());
+    const int first = static_cast<int>(island_.system.rows.size());
+    const double friction = std::min(double(c.friction), kSteepest);
+    const bool rubs = friction > 0;
+    BoundedRow tangent = along(t, c.arm_tangent_a, c.arm_tangent_b);
+    const double sliding = hold_ ? velocity_along(tangent) : held_along(tangent);
+    tangent.wanted = hold_ ? 2 * double(c.surface_speed) - sliding : double(c.surface_speed);
+    const double slip = std::abs(sliding - double(c.surface_speed));
+    const FrictionRays rays = rays_of(last, friction);
+    double pressure = 0;
+    rigid_ = false;
+    for (int i = 0; i < c.count; ++i) {
+      BoundedRow row = along(n, c.arm_a[i], c.arm_b[i]);
+      const double gap =
+          double(c.separation[i]) + closed + double(c.arm_b[i]) * b.turned - double(c.arm_a[i]) * a.turned;
+      const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
+      row.wanted = closing(start, row);
+      row.gap = std::max(gap, -double(c.push_speed) * h_ / tuning::kPushShare);
+      // A contact that bounces is disabled until its time of impact, and a gap that nothing pressed on brakes
+      // nothing at the substep's end.
+      const std::size_t place = island_.ties.size();
+      const bool pressed =
+          !hold_ && (island_.impulses[place] > 0 || (rubs && island_.impulses[place + 1] > 0));
+      const bool open = !hold_ && !close_ && gap > 0 && !pressed;
+      const bool passes = open || !(c.mass[i] > 0);
+      const double most = passes ? 0 : std::numeric_limits<double>::infinity();
+      for (int k = 0; k < (rubs ? 2 : 1); ++k) {
+        const double slope = k == 0 ? friction : -friction;
+        BoundedRow ray = row;
+        if (close_) {
+          // One of the two closes the gap.
+          const bool holds = k == 0 && (row.gap < 0 || pressed);
+          add_closing(ray, {.impulse = &c.normal_impulse[i]}, holds, holds && pressed, k == 0 ? most : 0);
+          continue;
+        }
+        ray.linear_a += slope * tangent.linear_a, ray.linear_b += slope * tangent.linear_b;
+        ray.angular_a += slope * tangent.angular_a, ray.angular_b += slope * tangent.angular_b;
+        ray.wanted += slope * tangent.wanted - friction * slip * (hold_ ? 2 : 1);
+        add(ray,
+            {.impulse = &c.normal_impulse[i], .tangent = rubs ? &c.tangent_impulse : nullptr, .slope = slope},
+            0, most, rubs ? rays.impulse[i][k] : last.normal[i]);
+        if (passes) island_.impulses[island_.ties.size() - 1] = 0;
+        pressure += island_.impulses[island_.ties.size() - 1];
+      }
+    }
+    const int count = static_cast<int>(island_.system.rows.size()) - first;
+    if (rubs) {
+      const std::span<const BoundedBody> bodies = island_.system.bodies;
+      const BoundedRow normal = along(n, c.arm_a[0], c.arm_b[0]);
+      const double across = coupling(bodies, tangent, tangent), through = coupling(bodies, normal, normal);
+      const double gain = through > 0 ? 1 + friction * friction * across / through : 1;
+      island_.cones.push_back({&c, block_, first, count, friction, slip, gain, 0});
+    }
+    if (c.rolling_arm > 0) {
+      BoundedRow row = along({}, 1, 1);
+      row.wanted = hold_ ? -velocity_along(row) : 0;
+      const double most = c.rolling_arm * pressure;
+      add(row, {.impulse = &c.rolling_impulse, .first = first, .count = count, .factor = c.rolling_arm},
+          -most, most, last.rolling);
+    }
+  }
+
+  // Largest coefficient of friction that counts, an angle of 89.4 degrees. The steeper the rays of a cone,
+  // the more they depend on each other: at 1,000 normals err by 0.1 of their impulse.
+  static constexpr double kSteepest = 100;
+  // Compliance of motors relative to their mobility: limits and rigid rows prevail over them.
+  static constexpr double kDriven = 1e-6;
+
+  WorldData<Real>& w_;
+  JointedIsland<Real>& island_;
+  const double h_;
+  const bool hold_, close_;
+  int block_ = 0;
+  bool rigid_ = false, remembers_ = false;
+};
+
+}  // namespace plumb
