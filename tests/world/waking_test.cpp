@@ -121,6 +121,36 @@ std::set<std::string> calls_that_change() {
   return all;
 }
 
+// A body teleported away from its joint is drawn back by corrections of positions, which give it no velocity.
+TYPED_TEST(Waking, NothingFallsAsleepWhileItsJointCloses) {
+  for (const JointKind& kind :
+       {JointKind(RevoluteDefinition{.anchor_b = {0, 1}}), JointKind(DistanceDefinition{.length = 1}),
+        JointKind(WeldDefinition{.anchor_b = {0, 1}}), JointKind(PrismaticDefinition{.anchor_b = {0, 1}})}) {
+    BasicWorld<TypeParam> world;
+    const BodyId ground = world.create_body({.type = BodyType::Static});
+    const BodyId body = world.create_body({.position = {0, -1}}, {.geometry = Box{0.5, 0.5}});
+    const JointId joint = world.create_joint(ground, body, {.kind = kind});
+    run(world, 60);
+    world.set_position(body, {0, -21}, 0);
+    run(world, 1200);
+    EXPECT_LT(world.read(joint).linear_error, 1e-3) << kind.index();
+  }
+}
+
+// Without shapes a body's extent is 0, but it spins.
+TYPED_TEST(Waking, AFlywheelWithoutShapesSpinsOn) {
+  BasicWorld<TypeParam> world;
+  const BodyId wheel = world.create_body({.angular_velocity = 9, .mass = MassProperties{1, {}, 1}});
+  const BodyId driven = world.create_body({.mass = MassProperties{1, {}, 1}});
+  const BodyId axle = world.create_body({.type = BodyType::Static});
+  world.set_gravity({});
+  world.create_joint(axle, driven,
+                     {.kind = RevoluteDefinition{.motor = Motor{.speed = 5, .max_force = 100}}});
+  run(world, 240);
+  EXPECT_NEAR(world.angular_velocity(wheel), 9, 1e-6);
+  EXPECT_NEAR(world.angular_velocity(driven), 5, 1e-3);
+}
+
 TEST(WakingRows, NameEveryCallThatChangesAWorld) {
   std::set<std::string> named;
   for (const auto& row : rows_of_world<float>()) named.insert(row.call);
