@@ -117,15 +117,16 @@ void raise_masses(JointedIsland<Real>& island) {
   }
 }
 
-// Takes the work that forces of `acceleration` times `push` lose by a shift from the velocities against it,
-// as far as there are any. Otherwise what closing lifts would fall ever faster, and stay where it is.
+// Takes the work that forces lose by the shifts that closed joints from the velocities against them, as far
+// as there are any. `per_push` times what forces `push` in a substep is their acceleration. Otherwise what
+// closing lifts would fall ever faster, and stay where it is.
 template <class Real>
 void pay_for_shift(JointedIsland<Real>& island, double share, double per_push) {
   double work = 0, along = 0, size = 0;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     const JointedLink& link = island.links[i];
     const BoundedBody& body = island.system.bodies[i];
-    const BoundedRows::Shift& s = island.system.shifts[i];
+    const BoundedRows::Shift& s = island.lifts[i];
     const auto add = [&](double inverse, double way, double velocity, double push) {
       if (!(inverse > 0)) return;
       work += share * way * per_push * push / inverse;
@@ -140,14 +141,14 @@ void pay_for_shift(JointedIsland<Real>& island, double share, double per_push) {
   const double less = std::sqrt(std::max(rate * rate + 2 * work / size, 0.0)) + rate;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     JointedLink& link = island.links[i];
-    const BoundedRows::Shift& s = island.system.shifts[i];
+    const BoundedRows::Shift& s = island.lifts[i];
     link.velocity -= (less * share) * s.way, link.spin -= less * share * s.turn;
   }
 }
 
-// Moves bodies to close a fraction of the gaps. `h`: of the substep in which forces `push` them, s.
+// Moves bodies to close a fraction of the gaps. Returns the fraction of the shifts that were made.
 template <class Real>
-void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double h) {
+double close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   RowMaker<Real>(w, island, step, Stage::Close).make();
   BoundedRows& system = island.system;
   const bool direct = w.settings.solver == Solver::Direct;
@@ -161,8 +162,9 @@ void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
   own.assign(system.bodies.begin(), system.bodies.end());
   raise_masses(island);
   system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
+  system.find_shifts(island.contact_row, island.lifts);
   std::copy(own.begin(), own.end(), system.bodies.begin());
-  pay_for_shift(island, shift_links(w, island, tuning::kLinkTurn), 1 / h);
+  return shift_links(w, island, tuning::kLinkTurn);
 }
 
 // ---- Motion
@@ -281,7 +283,7 @@ void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
     }
     hold(w, island, part);
     shift_all(w, island, part.h);
-    close_gaps(w, island, part, step.h);
+    pay_for_shift(island, close_gaps(w, island, part), 1 / double(step.h));
     relax(w, island, part);
     for (std::size_t k = 0; k < island.links.size(); ++k) {
       const JointedLink& link = island.links[k];
@@ -408,7 +410,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
     // These impulses replace those of the pass over all contacts.
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->watched != Watch::Off) c->step_impulse -= normal_sum(*c);
-    if (close) close_gaps(w, island, step, step.h);
+    if (close) pay_for_shift(island, close_gaps(w, island, step), 1 / double(step.h));
     relax(w, island, step);
     for (const JointedLink& link : island.links) put_velocity(w.motion[link.body], link.velocity, link.spin);
     for (ContactConstraint<Real>* c : island.contacts)
