@@ -328,9 +328,19 @@ Finding restitution(const Lab& lab) {
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -1}, .width = 20, .height = 1, .restitution = wall}));
   // The gap is not a whole number of steps, so the ball is detected well inside the floor.
+  const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -v}, .restitution = e});
   const auto after = [&](double speed) {
-    const Body ball = make(Ball{.position = {0, 1.003}, .velocity = {0, -speed}, .restitution = e});
-    return lab.run(scene_of("restitution", {}, {ball, floor}), 1);
+    Body quick = ball;
+    quick.velocity.y = -speed;
+    return lab.run(scene_of("restitution", {}, {quick, floor}), 1);
+  };
+  // The larger of the two counts, whoever has it and whoever comes first.
+  const double lively = 0.5, dull = 0.3;
+  Body dull_ball = ball, lively_floor = floor;
+  dull_ball.shapes.front().restitution = dull;
+  lively_floor.shapes.front().restitution = lively;
+  const auto vy_after = [&](std::vector<Body> bodies, std::size_t of) {
+    return lab.run(scene_of("restitution of two", {}, std::move(bodies)), 1).last(of).velocity.y;
   };
   const Trace trace = after(v);
   const double end = trace.last(0).velocity.y;
@@ -338,6 +348,10 @@ Finding restitution(const Lab& lab) {
   const bool bounces_fast = stops && std::abs(after(5 * v).last(0).velocity.y - 5 * e * v) < 0.05 * v;
   return Judgement()
       .read("vy after the bounce", "m/s", end, e * v, 0.002 * v)
+      .read("vy after a bounce on a floor of 0.5, with a ball of 0.3", "m/s", vy_after({dull_ball, lively_floor}, 0),
+            lively * v, 0.002 * v)
+      .read("vy after a bounce on a floor of 0.2 that comes first in the scene", "m/s", vy_after({floor, ball}, 1),
+            e * v, 0.002 * v)
       .proven_if(bounces_fast, "threshold_too_high", kThreshold)
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(trembles(trace) || loses_what_it_got(trace), "turned_every_step", kTurnedEveryStep)

@@ -233,16 +233,19 @@ Finding heavy_hits_light(const Lab& lab) {
 
 Finding restitution(const Lab& lab) {
   const double u = 2, w = -1, closing = u - w, mean = (u + w) / 2, e = 0.5;
-  const auto after = [&](double restitution) {
-    return head_on(lab, {.position = {-2, 0}, .velocity = {u, 0}, .restitution = restitution},
-                   {.position = {1, 0}, .velocity = {w, 0}, .restitution = restitution}, 2);
+  const auto after = [&](double first, double second) {
+    return head_on(lab, {.position = {-2, 0}, .velocity = {u, 0}, .restitution = first},
+                   {.position = {1, 0}, .velocity = {w, 0}, .restitution = second}, 2);
   };
-  const Trace dead = after(0), half = after(e);
+  const double less = 0.2;
+  const Trace dead = after(0, 0), half = after(e, e), mixed = after(e, less), other = after(less, e);
   const auto apart = [](const Trace& trace) { return parting(trace.states.back()); };
   return Judgement()
       .read("vx of the first at e = 0", "m/s", dead.last(0).velocity.x, mean, kShare * closing)
       .read("speed apart at e = 0", "m/s", apart(dead), 0, kShare * closing)
       .read("speed apart at e = 0.5", "m/s", apart(half), e * closing, kShare * closing)
+      .read("speed apart at e = 0.5 and 0.2", "m/s", apart(mixed), e * closing, kShare * closing)
+      .read("speed apart at e = 0.2 and 0.5", "m/s", apart(other), e * closing, kShare * closing)
       .mistake("always_elastic", {w, closing, closing},
                "Every collision is elastic: restitution is not used.")
       .mistake("restitution_ignored", {mean, 0, 0}, "No collision bounces: restitution is not used.")

@@ -87,6 +87,16 @@ double Judgement::miss(const Mistake& mistake) const {
   return explains ? worst : std::numeric_limits<double>::infinity();
 }
 
+// Returns true if a mistake gives every wrong reading, each as exactly as a right one has to be.
+bool Judgement::certain(const Mistake& mistake) const {
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    const Reading& reading = readings_[i];
+    const double gives = i < mistake.gives.size() ? mistake.gives[i] : kAny;
+    if (std::isnan(gives) ? !reading.good() : std::abs(reading.measured - gives) > reading.tolerance) return false;
+  }
+  return true;
+}
+
 bool Judgement::good() const {
   return std::all_of(readings_.begin(), readings_.end(), [](const Reading& r) { return r.good(); });
 }
@@ -114,6 +124,7 @@ Finding Judgement::finding() const {
   out.says = nearest->says;
   out.observed = nearest->gives.empty();
   out.proven = nearest->proven;
+  out.certain = certain(*nearest);
   return out;
 }
 

@@ -30,6 +30,7 @@ struct Finding {
   std::string symptom;    ///< a sign of several possible causes, seen besides; may be empty
   bool observed = false;  ///< `mistake` describes an observation other than the figures that it would give
   bool proven = false;    ///< an experiment or a direct measurement excludes every other cause
+  bool certain = false;   ///< `mistake` gives every wrong figure, within the tolerance of the right one
   bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
   bool computed = false;  ///< the motion of `mistake` was computed, and equals the engine's
   std::string follows;    ///< name of a mistake found in an earlier check that may also explain this failure
@@ -80,6 +81,7 @@ class Judgement {
   };
 
   double miss(const Mistake& mistake) const;
+  bool certain(const Mistake& mistake) const;
 
   std::vector<Reading> readings_;
   std::vector<Mistake> mistakes_;

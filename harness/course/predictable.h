@@ -9,9 +9,13 @@ namespace plumb::course {
 
 std::vector<Predictable> mistakes_of_motion();
 std::vector<Predictable> mistakes_of_contacts();
+std::vector<Predictable> mistakes_of_boxes();
 std::vector<Predictable> mistakes_of_joints();
 
 /// Returns every way to mix up the x and y of a vector, for every vector of an engine.
 std::vector<Predictable> mistakes_of_axes();
+
+/// Returns every edit of a formula: a quantity of a body that another one stands for, or that is left out.
+std::vector<Predictable> mistakes_of_edits();
 
 }  // namespace plumb::course

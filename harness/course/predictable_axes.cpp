@@ -27,6 +27,7 @@ constexpr Vector kVectors[] = {
     {"impulse on the second", "34", "the impulse on the second body"},
     {"push out of an overlap", "134", "the correction of an overlap"},
     {"tangent", "4", "the tangent (-ny, nx)"},
+    {"direction of friction", "4", "the tangent (-ny, nx) of friction's speed and impulse"},
     {"w x r", "45", "w x r = (-w ry, w rx), a point's velocity by its spin"},
     {"velocity in a joint", "5", "the velocity in a joint's dC/dt"},
     {"impulse of a joint", "5", "the impulse of a joint"},

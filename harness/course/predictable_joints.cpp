@@ -16,6 +16,7 @@ constexpr const char* kOneAnchor =
 constexpr const char* kOneTurnsBackwards =
     "Correcting the hinge's positions turns one of the bodies the wrong way: the angle of a changes by (ra x "
     "push)/Ia, that of b by minus (rb x push)/Ib.";
+constexpr const char* kJointsLeftOut = "Not all joints act: go over all of them, the first and the last included.";
 constexpr const char* kOneEnd =
     "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
 
@@ -24,6 +25,10 @@ constexpr const char* kOneEnd =
 std::vector<Predictable> mistakes_of_joints() {
   return {
       {"joint_ignored", "joint_ignored", "5", "The joint does nothing: nothing holds the two together."},
+      {"last_joint_left_out", "joints_left_out", "5", kJointsLeftOut},
+      {"first_joint_left_out", "joints_left_out", "5", kJointsLeftOut},
+      {"first_joint_only", "joints_left_out", "5", kJointsLeftOut},
+      {"last_joint_only", "joints_left_out", "5", kJointsLeftOut},
       {"impulse of a joint*0.5", "joint_impulse_halved", "5",
        "Half of the joint's impulse acts: it is -dC/dt/(1/ma + 1/mb)."},
       {"impulse of a joint*2", "joint_impulse_twice", "5",

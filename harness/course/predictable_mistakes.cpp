@@ -4,7 +4,7 @@ namespace plumb::course {
 
 std::vector<Predictable> predictable_mistakes() {
   std::vector<Predictable> out = mistakes_of_motion();
-  for (const auto& more : {mistakes_of_contacts(), mistakes_of_joints(), mistakes_of_axes()})
+  for (const auto& more : {mistakes_of_contacts(), mistakes_of_boxes(), mistakes_of_joints(), mistakes_of_axes(), mistakes_of_edits()})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
@@ -52,6 +52,27 @@ std::vector<Scaled> scaled_quantities() {
       {"impulse of a joint", "joint_impulse_wrong", "5",
        "The impulse of a joint is {} times what it should be: it is -dC/dt over the effective mass."},
       {"length of a stick", "length_wrong", "5", "A stick is held at {} times its length."},
+      {"correction of an overlap", "correction_wrong", "134",
+       "Corrections of overlaps move bodies by {} of what they should."},
+      {"correction of a joint", "joint_correction_wrong", "5",
+       "Corrections of a joint's positions move bodies by {} of what they should."},
+      {"stiffness of a spring", "stiffness_wrong", "2",
+       "Springs are {} times as stiff as the scene says: the force is stiffness (length - rest_length)."},
+      {"damping of a spring", "damping_wrong", "2",
+       "A spring's damping is {} times what the scene says: it is damping times the speed at which the ends part."},
+      {"rest length of a spring", "rest_length_wrong", "2",
+       "A spring is at rest at {} times its rest length: the force is stiffness (length - rest_length)."},
+      {"impulse of friction", "friction_impulse_wrong", "4",
+       "The impulse of friction is {} times what stops the sliding, before it is limited."},
+      {"rotation in an effective mass", "effective_mass_wrong", "45",
+       "The effective mass has (r x n)^2/I {} times: it is 1/(1/ma + 1/mb + (ra x n)^2/Ia + (rb x n)^2/Ib)."},
+      {"w x r", "point_velocity_wrong", "45",
+       "The velocity of a point has w x r {} times: it is v + w x r, with w in radians a second."},
+      {"angle of a point", "turned_wrong", "45",
+       "Points turn with {} times the body's angle: cos and sin take the angle in radians."},
+      {"width of a face", "clipped_wrong", "4",
+       "The side that touches is clipped at {} times the half width of the face: it reaches half of the width to "
+       "each side of the box's centre."},
       {"share of a joint's error without dt", "bias_without_dt", "5",
        "Velocities close a joint as if {} of its error were a speed: a share s of the error C is closed in a "
        "step by the speed s C/h."},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <string>
 #include <tuple>
@@ -97,12 +98,13 @@ bool moves(const std::vector<Recorded>& runs) {
   });
 }
 
-// Adds each variant of a mistake that fits.
+// Adds each variant of a mistake that fits; `exactly`: only those that give the engine's paths.
 void add_fits(const Predictable& mistake, Predictions& predictions, const Outcome& outcome, std::size_t check,
-              std::vector<Fit>& out) {
-  for (std::size_t manner = 0; manner < predictions.manners(); ++manner) {
+              bool exactly, std::vector<Fit>& out) {
+  for (const std::size_t manner : predictions.likely()) {
     const Planted planted{mistake.planted, manner};
-    const auto& wrong = predictions.nearby(planted, check);
+    const auto& wrong = predictions.nearby(planted, check, exactly);
+    if (exactly && wrong && !predictions.exactly(check, manner, wrong->runs)) continue;
     if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
     if (changes_nothing(predictions, manner, check, *wrong)) continue;
     if (!same_readings(outcome.finding, wrong->finding)) continue;
@@ -111,6 +113,7 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
     const double share = predictions.off(check, manner, wrong->runs);
     if (!std::isfinite(share) || !predictions.near(check, manner, *wrong)) continue;
     out.push_back({.name = mistake.name, .says = mistake.says, .planted = planted, .off = share});
+    if (getenv("PLUMB_DEBUG")) fprintf(stderr, "FIT %s: %s [%s] manner %zu off %g exactly %d\n", outcome.check->name.c_str(), mistake.name.c_str(), mistake.planted.c_str(), manner, share, exactly);
     out.back().generated = mistake.generated;
     predictions.refute(planted, check, out.back());
     // A mistake that is made only in some cases may pass a check that it would otherwise fail.
@@ -124,7 +127,8 @@ bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 
 
 // Returns the mistakes that fit, the best first, one for each name. Mistakes that explain the whole chapter
 // by another check, `likely`, come first; other mistakes are returned only if none of these fits, and
-// generated families only if no other mistake explains everything.
+// generated families only if no other mistake explains everything. Mistakes that give the engine's very paths
+// come before those that come near them, and the latter count only for engines of an unknown design.
 std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& predictions,
                       const std::vector<Outcome>& chapter, std::size_t check, const std::string& named,
                       const std::vector<Fit>& likely) {
@@ -132,15 +136,20 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   const Outcome& outcome = chapter[check];
   if (!predictions.of({}, check)) return out;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
-  for (const Fit& fit : likely)
-    add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated}, predictions, outcome, check, out);
-  for (const bool generated : {false, true}) {
-    if (!out.empty() && !likely.empty()) break;
-    if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
-    for (const Predictable& mistake : mistakes) {
-      if (mistake.generated != generated) continue;
-      const bool belongs = mistake.chapters.find(digit) != std::string::npos;
-      if (belongs || named == mistake.name) add_fits(mistake, predictions, outcome, check, out);
+  for (const bool exactly : {true, false}) {
+    if (!out.empty() || (!exactly && predictions.design_known())) break;
+    for (const Fit& fit : likely)
+      add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated, false}, predictions, outcome, check, exactly, out);
+    for (const bool generated : {false, true}) {
+      if (!out.empty() && !likely.empty()) break;
+      if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
+      for (const Predictable& mistake : mistakes) {
+        if (mistake.generated != generated || (mistake.exactly && !exactly)) continue;
+        // What gives the very paths may be a mistake of an earlier chapter that passed its checks.
+        const bool belongs =
+            exactly ? mistake.chapters.front() <= digit : mistake.chapters.find(digit) != std::string::npos;
+        if (belongs || named == mistake.name) add_fits(mistake, predictions, outcome, check, exactly, out);
+      }
     }
   }
   std::stable_sort(out.begin(), out.end(), better);
@@ -163,6 +172,17 @@ std::string factor_text(double factor, double dt) {
   return is(1 / dt) ? "1/dt" : fmt::format("{:.3g}", factor);
 }
 
+// Returns the plain number that a fitted factor stands for: dt, a whole number, degrees in a radian, or the inverse of
+// one of these; otherwise the factor.
+double plain_factor(double factor, double dt) {
+  constexpr double kNear = 0.003, kDegrees = 180 / std::numbers::pi;
+  std::vector<double> plain{0, dt, 1 / dt, kDegrees, 1 / kDegrees};
+  for (int i = 1; i <= 12; ++i) plain.insert(plain.end(), {i * 1.0, 1.0 / i, -i * 1.0, -1.0 / i});
+  for (const double each : plain)
+    if (std::abs(factor - each) <= kNear * std::max(std::abs(each), kNear)) return each;
+  return factor;
+}
+
 // Returns the quantities whose factor can be fitted to the motion. The factor is fitted to one check; the
 // other checks, or the whole path, must agree with it.
 std::vector<Fit> fitted(Predictions& predictions, const std::vector<Outcome>& chapter, std::size_t check) {
@@ -173,16 +193,19 @@ std::vector<Fit> fitted(Predictions& predictions, const std::vector<Outcome>& ch
   const bool several = wrong_readings(chapter) > 1;
   for (const Scaled& scaled : scaled_quantities()) {
     if (std::string_view(scaled.chapters).find(digit) == std::string_view::npos) continue;
-    for (std::size_t manner = 0; manner < std::min(kTried, predictions.manners()); ++manner) {
-      const auto factor = predictions.factor(scaled.quantity, manner, check);
+    for (const std::size_t manner : predictions.likely()) {
+      if (manner >= predictions.likely()[std::min(kTried, predictions.likely().size()) - 1] + 1) break;
+      auto factor = predictions.factor(scaled.quantity, manner, check);
       if (!factor) continue;
+      factor = plain_factor(*factor, predictions.dt());
       const Planted planted{fmt::format("{}*{:.17g}", scaled.quantity, *factor), manner};
       const auto& wrong = predictions.of(planted, check);
       if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
       if (changes_nothing(predictions, manner, check, *wrong)) continue;
       if (!same_readings(outcome.finding, wrong->finding)) continue;
       const double share = predictions.off(check, manner, wrong->runs);
-      if (!(share <= (several ? kFittedPath : kExactPath))) continue;
+      if (!(share <= (several && !predictions.design_known() ? kFittedPath : kExactPath))) continue;
+      if (predictions.design_known() && !predictions.exactly(check, manner, wrong->runs)) continue;
       Fit fit{.name = scaled.name,
               .says = fmt::format(fmt::runtime(scaled.says), factor_text(*factor, predictions.dt())),
               .planted = planted,
@@ -236,6 +259,14 @@ void choose(std::vector<Fit>& found, const std::string& known, const std::set<st
   keep([&](const Fit& fit) { return alone.contains(fit.name); });
 }
 
+// Returns what the first check that a mistake fits says of it.
+std::string says_of(const std::vector<std::vector<Fit>>& found, const std::string& name) {
+  for (const std::vector<Fit>& fits : found)
+    for (const Fit& fit : fits)
+      if (fit.name == name) return fit.says;
+  return name;
+}
+
 void unname(Finding& finding) {
   finding.mistake.clear();
   finding.says = describe(finding);
@@ -267,9 +298,14 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.name, fit.says);
     return;
   }
-  // Does not name a mistake that was only suspected if its motion differs.
-  if (finding.proven || finding.mistake.empty() || (!computed(finding.mistake) && !finding.observed)) return;
+  // Does not name a mistake that was only suspected if its motion differs, nor one of unknown motion whose figures
+  // are only near.
+  if (finding.proven || finding.mistake.empty()) return;
+  const bool known = computed(finding.mistake);
+  if (!known && !finding.observed && finding.certain) return;
+  const std::string suspected = finding.says;
   unname(finding);
+  if (!known) finding.says += " It is compatible with this: " + suspected;
 }
 
 }  // namespace
@@ -280,8 +316,12 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
       scheme != Scheme::VelocityVerlet)
     return;
+  if (std::none_of(chapter.begin(), chapter.end(),
+                   [](const Outcome& outcome) { return outcome.finding.verdict == Verdict::Fail; }))
+    return;
   const std::vector<Predictable> mistakes = predictable_mistakes();
   Predictions predictions(lab, chapter);
+  if (getenv("PLUMB_DEBUG")) { fprintf(stderr, "known %d likely", predictions.design_known()); for (auto m : predictions.likely()) fprintf(stderr, " %zu", m); fprintf(stderr, "\n"); }
   std::vector<std::vector<Fit>> found(chapter.size());
   std::set<std::string> alone;
   std::vector<Fit> likely;
@@ -327,9 +367,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     if (finding.verdict != Verdict::Fail || !finding.mistake.empty() || !found[i].empty()) continue;
     if (!fails_as_well(ways_to_make(mistakes, known, found), predictions, i)) continue;
     finding.mistake = known;
-    finding.says = std::find_if(mistakes.begin(), mistakes.end(), [&](const Predictable& mistake) {
-                     return known == mistake.name;
-                   })->says;
+    finding.says = says_of(found, known);
   }
 }
 

@@ -14,6 +14,7 @@ struct Predictable {
   std::string chapters;  ///< digits of the chapters whose checks it may spoil
   std::string says;
   bool generated = false;  ///< one of a family: several that fit alike are all described
+  bool exactly = false;    ///< is named only if it gives the engine's very paths
 };
 
 /// Returns every mistake whose motion can be computed.

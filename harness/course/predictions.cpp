@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/course/design.h"
+#include "harness/course/flight.h"
 #include "harness/course/likeness.h"
 
 namespace plumb::course {
@@ -24,8 +26,18 @@ constexpr double kManners = 2, kLoosePath = 0.3;
 // correct paths.
 constexpr double kHopeless = 0.2;
 
+// A design is dropped if another one is nearer to the engine in the checks that it passes, by this factor.
+constexpr double kClearlyNearer = 5;
+
 // Paths nearer than this to those of a correct engine count as not changed by a mistake.
 constexpr double kUnchanged = 1e-6;
+
+// Largest distance of the engine's paths from those of a mistake that explains them, as a fraction of their
+// distance from the correct ones: what iterations that have not converged leave.
+constexpr double kExactly = 1e-3;
+
+// The same for bodies that meet nothing: what rounding leaves.
+constexpr double kExactlyFree = 1e-9;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -45,39 +57,30 @@ struct TooFar : std::runtime_error {
   TooFar() : std::runtime_error("too far") {}
 };
 
-// Design variants of the learner's engine by chapter. If a mistake makes results depend on the number of
-// iterations, variants with different numbers are included.
-std::vector<Manner> manners_of(int chapter) {
-  switch (chapter) {
-    case 1:
-      return {{},
-              {.once = true},
-              {.once = true, .after_move = true},
-              {.sweeps = 20},
-              {.sweeps = 10},
-              {.sweeps = 20, .deep = true}};
-    case 2:
-      return {{}};
-    case 3:
-      return {{},
-              {.once = true},
-              {.once = true, .after_move = true},
-              {.sweeps = 10},
-              {.sweeps = 20},
-              {.once = true, .share = 0.4},
-              {.once = true, .share = 0.2}};
-    case 4:
-      return {{}, {.once = true}, {.sweeps = 20}, {.sweeps = 10}, {.sweeps = 5}, {.sweeps = 30}};
-    default:
-      return {{}, {.once = true}, {.by_positions = true}, {.sweeps = 10}, {.sweeps = 20}, {.fed = 0.2}};
-  }
-}
-
 }  // namespace
 
 Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
-    : lab_(lab), chapter_(chapter), manners_(manners_of(chapter.front().chapter->number)) {
+    : lab_(lab), chapter_(chapter), manners_(manners_of(chapter.front().chapter->number, lab)) {
   for (const Outcome& outcome : chapter) seen_.push_back(outcome.finding.mistake);
+  std::vector<double> far;
+  for (std::size_t manner = 0; manner < manners_.size(); ++manner) far.push_back(misfit(manner));
+  const double least = *std::min_element(far.begin(), far.end());
+  for (std::size_t manner = 0; manner < manners_.size(); ++manner)
+    if (far[manner] <= kClearlyNearer * std::max(least, kUnchanged)) likely_.push_back(manner);
+  const bool told_apart = manners_.size() == 1 || likely_.size() < manners_.size();
+  known_ = least <= kUnchanged && (told_apart || (chapter.front().chapter->number < 4 && measured_push(lab)));
+}
+
+// Returns the distance of the engine's paths from those of a correct engine of a design, in the checks that it
+// passes.
+double Predictions::misfit(std::size_t manner) {
+  double sum = 0;
+  for (std::size_t i = 0; i < chapter_.size(); ++i) {
+    if (!chapter_[i].check->repeatable || chapter_[i].finding.verdict != Verdict::Pass) continue;
+    if (const auto& right = of({"", manner}, i))
+      sum = std::hypot(sum, distance(right->runs, chapter_[i].runs, right->runs.size()));
+  }
+  return sum;
 }
 
 const std::optional<Attempt>& Predictions::of(const Planted& planted, std::size_t check) {
@@ -100,13 +103,14 @@ std::optional<Attempt> Predictions::within(const Planted& planted, std::size_t c
                  });
 }
 
-const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::size_t check) {
+const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::size_t check, bool exactly) {
   static const std::optional<Attempt> none;
   if (const auto known = attempts_.find({planted, check}); known != attempts_.end()) return known->second;
   if (too_far_.contains({planted, check})) return none;
-  std::optional<Attempt> run = within(planted, check, farthest(check, planted.manner));
+  std::optional<Attempt> run =
+      within(planted, check, exactly ? exact_limit(check, planted.manner) : farthest(check, planted.manner));
   if (!run) {
-    too_far_.emplace(planted, check);
+    if (!exactly) too_far_.emplace(planted, check);
     return none;
   }
   return attempts_.emplace(std::pair{planted, check}, std::move(run)).first->second;
@@ -124,6 +128,23 @@ double Predictions::farthest(std::size_t check, std::size_t manner) {
   if (ends_sooner(seen, right->runs, n)) return kInfinity;
   const double most = kLoosePath * distance(right->runs, seen, n) + kManners * spread(check);
   return farthest_[{check, manner}] = std::max(kUnchanged, most / (1 - kLoosePath));
+}
+
+double Predictions::exact_limit(std::size_t check, std::size_t manner) {
+  const auto [place, is_new] = exact_limits_.try_emplace({check, manner}, kUnchanged);
+  const auto& right = of({"", manner}, check);
+  if (is_new && right) {
+    const auto& seen = chapter_[check].runs;
+    const bool free = std::all_of(seen.begin(), seen.end(), flies_freely);
+    const double least = free ? kExactlyFree : kUnchanged;
+    place->second = std::max(least, (free ? kExactlyFree : kExactly) * distance(right->runs, seen, right->runs.size()));
+  }
+  return place->second;
+}
+
+bool Predictions::exactly(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong) {
+  const auto& right = of({"", manner}, check);
+  return right && distance(chapter_[check].runs, wrong, right->runs.size()) <= exact_limit(check, manner);
 }
 
 void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {

@@ -52,7 +52,8 @@ class Predictions {
 
   /// Also returns nullopt if the paths are too far from the engine's for `near`. Such a run ends as soon as
   /// that is certain, which for most mistakes is early in the first scene.
-  const std::optional<Attempt>& nearby(const Planted& planted, std::size_t check);
+  /// `exactly`: also if they are too far for `exactly` below.
+  const std::optional<Attempt>& nearby(const Planted& planted, std::size_t check, bool exactly);
 
   /// Returns the fraction of an overlap that a step removes.
   double share(std::size_t manner) const { return manners_[manner].after_move ? 1 : manners_[manner].share; }
@@ -60,6 +61,16 @@ class Predictions {
   double dt() const { return lab_.dt(); }
 
   std::size_t manners() const { return manners_.size(); }
+
+  /// Returns the designs that are not clearly farther than another from the engine, in the checks that it passes.
+  const std::vector<std::size_t>& likely() const { return likely_; }
+
+  /// Returns true if a correct engine of a likely design gives the engine's paths in all checks that it passes. A
+  /// mistake must then give its paths in those that it fails.
+  bool design_known() const { return known_; }
+
+  /// Returns true if the engine's paths are those of a mistake, but for what iterations leave.
+  bool exactly(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong);
 
   /// Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
   void refute(const Planted& planted, std::size_t check, Fit& fit);
@@ -81,16 +92,20 @@ class Predictions {
   bool sees_another(std::size_t check, const Finding& predicted) const;
   double spread(std::size_t check);
   double farthest(std::size_t check, std::size_t manner);
+  double exact_limit(std::size_t check, std::size_t manner);
+  double misfit(std::size_t manner);
   std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit) const;
 
   const Lab& lab_;
   const std::vector<Outcome>& chapter_;
   std::vector<std::string> seen_;  ///< the mistakes that the checks themselves detected
   std::vector<Manner> manners_;
+  std::vector<std::size_t> likely_;
+  bool known_ = false;
   std::map<std::pair<Planted, std::size_t>, std::optional<Attempt>> attempts_;
   std::set<std::pair<Planted, std::size_t>> too_far_;
   std::map<std::size_t, double> spreads_;
-  std::map<std::pair<std::size_t, std::size_t>, double> farthest_;  ///< by check and manner
+  std::map<std::pair<std::size_t, std::size_t>, double> farthest_, exact_limits_;  ///< by check and manner
 };
 
 }  // namespace plumb::course

@@ -9,8 +9,6 @@
 namespace plumb::course {
 namespace {
 
-constexpr double kSlop = 0.001;  // m, overlap that is not corrected, so that resting bodies still touch
-
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
 }  // namespace
@@ -26,6 +24,7 @@ double StudentWorld::restitution(const Touch& touch) const {
   if (is("restitution_sum")) return a + b;
   if (is("restitution_of_the_first")) return a;
   if (is("restitution_of_the_second")) return b;
+  if (is("restitution_of_the_moving")) return bodies_[touch.a].inverse_mass > 0 ? a : b;
   if (is("restitution_squared")) return e * e;
   if (is("restitution_average")) return (a + b) / 2;
   if (is("restitution_product")) return a * b;
@@ -45,14 +44,17 @@ StudentWorld::Arms StudentWorld::arms_of(const Touch& touch) const {
 
 // The velocity of b's point relative to that of a.
 Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
-  const auto at_point = [&](const Rigid& body, Vec2d arm) {
-    if (is("spin_not_in_velocity")) return body.velocity;
-    if (is("point_velocity_flipped")) return body.velocity - cross(body.spin, arm);
-    return this->at_point(body, arm);
+  const auto at_point = [&](Vec2d velocity, double spin, Vec2d arm) {
+    if (is("spin_not_in_velocity")) return velocity;
+    if (is("point_velocity_flipped")) return velocity - cross(spin, arm);
+    return velocity + times("w x r") * mixed("w x r", cross(spin, arm));
   };
   const Arms arms = arms_of(touch);
   const auto arm = [&](Vec2d own) { return is("contact_arm_from_origin") ? touch.point : own; };
-  const Vec2d a = at_point(bodies_[touch.a], arm(arms.a)), b = at_point(bodies_[touch.b], arm(arms.b));
+  const auto r = edit_(Quantity::Arm, kContactRow, kInSpeed, std::array{arm(arms.a), arm(arms.b)},
+                       {touch.point, touch.point});
+  const auto [v, w] = moving(kContactRow, bodies_[touch.a], bodies_[touch.b]);
+  const Vec2d a = at_point(v[0], w[0], r[0]), b = at_point(v[1], w[1], r[1]);
   const bool both = bodies_[touch.a].inverse_mass > 0 && bodies_[touch.b].inverse_mass > 0;
   if (is("velocity_of_the_first_only") && both) return -a;
   if (is("velocity_of_the_second_only") && both) return b;
@@ -160,9 +162,12 @@ void StudentWorld::answer(Touch& touch) {
   if (is("bounce_each_sweep")) touch.bounce = -restitution(touch) * closing;
   if (is("ignores_slow") && closing > -4 * length(scene_.gravity) * dt_) return;
   if (answer_wrongly(touch, closing)) return;
-  double spin_a = cross(arm_a, n), spin_b = cross(arm_b, n);
+  const auto in_mass =
+      edit_(Quantity::Arm, kContactRow, kInMass, std::array{arm_a, arm_b}, {touch.point, touch.point});
+  double spin_a = cross(in_mass[0], n), spin_b = cross(in_mass[1], n);
   const bool heavy_only = is("effective_mass_without_rotation") || is("no_rotation");
-  double k = a.inverse_mass + b.inverse_mass;
+  const auto [masses, inertias] = eases(kContactRow, kInMass, a, b);
+  double k = masses[0] + masses[1];
   if (is("effective_mass_of_the_first_arm")) spin_b = spin_a;
   if (is("effective_mass_of_the_second_arm")) spin_a = spin_b;
   if (is("first_inverse_mass_only")) k = a.inverse_mass > 0 ? a.inverse_mass : k;
@@ -176,13 +181,16 @@ void StudentWorld::answer(Touch& touch) {
   else if (is("effective_mass_with_lever_only"))
     k += spin_a * spin_a + spin_b * spin_b;
   else if (!heavy_only)
-    k += a.inverse_inertia * spin_a * spin_a + b.inverse_inertia * spin_b * spin_b;
+    k += times("rotation in an effective mass") *
+         (inertias[0] * spin_a * spin_a + inertias[1] * spin_b * spin_b);
   if (is("masses_in_place_of_inverses_of_moving"))
     k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
   if (is("masses_in_place_of_inverses")) k = 1 / a.inverse_mass + 1 / b.inverse_mass;
   if (is("effective_mass_forgotten")) k = 1;
   if (is("masses_ignored")) k = (a.inverse_mass > 0) + (b.inverse_mass > 0);
-  spin_a = cross(arm_a, n), spin_b = cross(arm_b, n);
+  const auto in_change =
+      edit_(Quantity::Arm, kContactRow, kInChange, std::array{arm_a, arm_b}, {touch.point, touch.point});
+  spin_a = cross(in_change[0], n), spin_b = cross(in_change[1], n);
   double j = times("impulse of a contact") * (touch.bounce - closing) / k;
   const auto new_sum = [&](double change) {
     if (is("each_push_clamped")) return touch.sum + std::max(0.0, change);
@@ -190,7 +198,8 @@ void StudentWorld::answer(Touch& touch) {
   };
   const double before = touch.sum, sum = new_sum(j);
   j = sum - before;
-  double share_a = a.inverse_mass, share_b = b.inverse_mass;
+  const auto [changes, turns] = eases(kContactRow, kInChange, a, b);
+  double share_a = changes[0], share_b = changes[1];
   if (is("inverse_mass_forgotten") || is("masses_ignored")) {
     share_a = share_a > 0;
     share_b = share_b > 0;
@@ -243,19 +252,19 @@ void StudentWorld::answer(Touch& touch) {
   push = mixed("impulse of a contact", push);
   a.velocity -= share_a * mixed("impulse on the first", push);
   b.velocity += share_b * mixed("impulse on the second", push);
-  const auto eases = [&](const Rigid& body) {
+  const auto turns_by = [&](const Rigid& body, double own) {
     if (is("spin_by_inverse_mass")) return body.inverse_mass;
-    return is("spin_by_impulse_alone") && body.inverse_inertia > 0 ? 1 : body.inverse_inertia;
+    return is("spin_by_impulse_alone") && body.inverse_inertia > 0 ? 1 : own;
   };
   const double turn = times("spin by an impulse");
-  a.spin -= turn * eases(a) * spin_a * j;
-  b.spin += turn * eases(b) * spin_b * j;
+  a.spin -= turn * turns_by(a, turns[0]) * spin_a * j;
+  b.spin += turn * turns_by(b, turns[1]) * spin_b * j;
   rub(touch);
 }
 
 // Friction: along the tangent, at most mu times the sum of the impulses along the normal.
 void StudentWorld::rub(Touch& touch) {
-  const Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
+  Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
   const double mu_a = a.body->shapes[0].friction, mu_b = b.body->shapes[0].friction;
   double mu = times("friction") * std::sqrt(mu_a * mu_b);
   if (is("friction_product")) mu = mu_a * mu_b;
@@ -263,21 +272,26 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_sum")) mu = mu_a + mu_b;
   if (is("friction_minimum")) mu = std::min(mu_a, mu_b);
   if (is("friction_maximum")) mu = std::max(mu_a, mu_b);
-  if (is("friction_by_restitution"))
-    mu = std::sqrt(a.body->shapes[0].restitution * b.body->shapes[0].restitution);
+  const double e_a = a.body->shapes[0].restitution, e_b = b.body->shapes[0].restitution;
+  if (is("friction_by_restitution")) mu = std::sqrt(e_a * e_b);
+  if (is("friction_by_restitution_of_its_rule")) mu = std::max(e_a, e_b);
+  if (is("friction_of_the_first")) mu = mu_a;
+  if (is("friction_of_the_second")) mu = mu_b;
   if (mu == 0 || is("friction_ignored")) return;
-  const Vec2d t = mixed("tangent", {-touch.normal.y, touch.normal.x});
+  const Vec2d across{-touch.normal.y, touch.normal.x};
+  const Vec2d t = mixed("direction of friction", mixed("tangent", across));
   const auto [arm_a, arm_b] = arms_of(touch);
+  const Arms raw{touch.point, touch.point};
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
-  double k = a.inverse_mass + b.inverse_mass;
+  const Vec2d in_mass = is("friction_by_mass_of_normal") ? touch.normal : mixed("tangent", across);
+  double k = edited_mass(kFrictionRow, a, b, {arm_a, arm_b}, raw, in_mass);
   if (is("friction_lever_not_squared"))
-    k += a.inverse_inertia * spin_a + b.inverse_inertia * spin_b;
-  else if (!is("friction_without_rotation"))
-    k += a.inverse_inertia * spin_a * spin_a + b.inverse_inertia * spin_b * spin_b;
+    k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a + b.inverse_inertia * spin_b;
+  if (is("friction_without_rotation")) k = a.inverse_mass + b.inverse_mass;
   const bool centre_a = is("sliding_of_centres") || is("sliding_of_the_first_centre");
   const bool centre_b = is("sliding_of_centres") || is("sliding_of_the_second_centre");
   const double sliding =
-      dot(at_point(b, centre_b ? Vec2d{} : arm_b) - at_point(a, centre_a ? Vec2d{} : arm_a), t);
+      speed_apart(kFrictionRow, a, b, {centre_a ? Vec2d{} : arm_a, centre_b ? Vec2d{} : arm_b}, raw, t);
   double most = is("friction_unlimited") ? 1e9 : mu * touch.sum;
   if (is("friction_without_normal")) most = mu;
   if (is("friction_by_weight"))
@@ -285,30 +299,40 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_without_mu")) most = touch.sum;
   if (is("friction_limit_times_dt")) most *= dt_;
   if (is("friction_by_last_impulse")) most = mu * std::abs(touch.last);
-  const double against = is("friction_backwards") ? -sliding : sliding;
-  const double sum = std::clamp(touch.sum_across - against / k, -most, most);
+  most *= times("limit of friction");
+  const double against = times("impulse of friction") * (is("friction_backwards") ? -sliding : sliding);
+  double sum = std::clamp(touch.sum_across - against / k, -most, most);
+  if (is("friction_limited_above_only")) sum = std::min(touch.sum_across - against / k, most);
+  if (is("friction_limited_below_only")) sum = std::max(touch.sum_across - against / k, -most);
+  if (is("friction_at_its_limit")) sum = sliding > 0 ? -most : sliding < 0 ? most : 0;
+  if (is("friction_each_limited"))
+    sum = touch.sum_across + std::clamp(-against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);
   Vec2d turns_a = is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a;
   Vec2d turns_b = is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b;
   if (is("friction_never_spins") || is("friction_spins_the_second_only")) turns_a = {};
   if (is("friction_never_spins") || is("friction_spins_the_first_only")) turns_b = {};
-  apply_impulse(touch.a, touch.b, turns_a, turns_b, j * t);
+  change(kFrictionRow, a, b, {turns_a, turns_b}, raw, j * t);
 }
 
 void StudentWorld::push_out() {
   if (is("correction_split_evenly")) {
     for (const Touch& touch : touches()) {
-      const Vec2d push = manner_.share / 2 * std::max(0.0, touch.depth - kSlop) * touch.normal;
+      const Vec2d push = manner_.share / 2 * std::max(0.0, touch.depth - manner_.slop) * touch.normal;
       bodies_[touch.a].position -= push;
       bodies_[touch.b].position += push;
     }
     return;
   }
   if (is("sinks") || is("turned_every_step") || is("ignores_slow")) return;
-  const double part = manner_.after_move ? 1 : manner_.share, left = manner_.after_move ? 0 : kSlop;
+  const double part = manner_.after_move ? 1 : manner_.share, left = manner_.after_move ? 0 : manner_.slop;
   for (const Touch& touch : touches()) {
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
-    const double inverse = is("correction_not_divided") ? 1 : a.inverse_mass + b.inverse_mass;
+    const Vec2d zero{};
+    const Arms arms = manner_.turning_push ? Arms{touch.point - a.position, touch.point - b.position} : Arms{zero, zero};
+    const Arms raw = manner_.turning_push ? Arms{touch.point, touch.point} : Arms{zero, zero};
+    const double inverse =
+        is("correction_not_divided") ? 1 : edited_mass(kOverlapRow, a, b, arms, raw, touch.normal);
     const Vec2d push =
         mixed("push out of an overlap", part * std::max(0.0, touch.depth - left) / inverse * touch.normal);
     if (scales("share of an overlap that becomes velocity")) {
@@ -317,15 +341,21 @@ void StudentWorld::push_out() {
       b.velocity += faster * b.inverse_mass * push;
       continue;
     }
-    double share_a = a.inverse_mass, share_b = b.inverse_mass;
+    const auto [mass, inertia] = eases(kOverlapRow, kInChange, a, b);
+    double share_a = mass[0], share_b = mass[1];
     const bool both = share_a > 0 && share_b > 0;
     if (is("correction_shares_swapped") && both) std::swap(share_a, share_b);
     if (is("correction_of_the_first_only") && both) share_b = 0;
     if (is("correction_of_the_second_only") && both) share_a = 0;
     if (is("correction_without_masses") && both) share_a = share_b = share_a + share_b;
+    if (is("correction_of_the_first_only_always")) share_b = 0;
+    if (is("correction_of_the_second_only_always")) share_a = 0;
     const double f = times("correction of an overlap");
+    const auto turned = edit_(Quantity::Arm, kOverlapRow, kInChange, std::array{arms.a, arms.b}, {raw.a, raw.b});
     a.position -= f * share_a * push;
+    a.angle -= f * inertia[0] * cross(turned[0], push);
     b.position += f * share_b * push;
+    b.angle += f * inertia[1] * cross(turned[1], push);
   }
 }
 

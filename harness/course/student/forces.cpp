@@ -75,7 +75,13 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
     Rigid& a = bodies_[find_body(scene_, names[0]).value_or(bodies_.size() - 1)];
     Rigid& end = bodies_[find_body(scene_, names[1]).value_or(bodies_.size() - 1)];
-    const Vec2d arm_a = a.to_world(spring->anchor_a), arm_b = end.to_world(spring->anchor_b);
+    Vec2d arm_a = a.to_world(spring->anchor_a), arm_b = end.to_world(spring->anchor_b);
+    const auto ignored = [&](const Rigid& body) {
+      return is("spring_anchors_ignored") || (is("spring_anchor_of_world_ignored") && body.body == nullptr);
+    };
+    if (ignored(a)) arm_a = {};
+    if (ignored(end)) arm_b = {};
+    if (is("spring_anchors_not_turned")) arm_a = spring->anchor_a, arm_b = spring->anchor_b;
     const Vec2d way = end.position + arm_b - a.position - arm_a;
     const double rest = spring->rest_length * times("rest length of a spring"),
                  stretch = (is("length_squared") ? dot(way, way) : length(way)) - rest;
@@ -178,10 +184,8 @@ void StudentWorld::move() {
     }
     b.before = b.velocity;
     if (is("half_a_step_twice")) b.position += dt_ * dt_ / 2 * scene_.gravity;
-    b.angle += dt_ * b.spin * times("spin in the angle's change") *
-               (is("spin_in_degrees")        ? kDegrees
-                : is("spin_read_as_degrees") ? 1 / kDegrees
-                                             : 1);
+    const double turned = is("spin_in_degrees") ? kDegrees : is("spin_read_as_degrees") ? 1 / kDegrees : 1;
+    b.angle += dt_ * b.spin * times("spin in the angle's change") * turned;
   }
 }
 

@@ -9,8 +9,6 @@
 namespace plumb::course {
 namespace {
 
-constexpr double kShare = 0.5;  // of a joint's error that a correction removes
-
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
 }  // namespace
@@ -19,7 +17,7 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
   const auto [first, second] = ends_[static_cast<std::size_t>(&joint - scene_.joints.data())];
   return std::visit(
       [&, first = first, second = second](const auto& j) -> Ends {
-        Ends out{first, second, {}, {}, {}};
+        Ends out{first, second, {}, {}, {}, {}, {}};
         if constexpr (requires { j.anchor_a; }) {
           const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
           const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
@@ -29,6 +27,8 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
           const Rigid& turns_b = is("second_anchor_turned_by_the_first") ? a : b;
           out.arm_a = neither || is("first_anchor_not_turned") ? anchor_a : turns_a.to_world(anchor_a);
           out.arm_b = neither || is("second_anchor_not_turned") ? anchor_b : turns_b.to_world(anchor_b);
+          out.raw_a = anchor_a;
+          out.raw_b = anchor_b;
           out.gap = b.position + out.arm_b - a.position - out.arm_a;
         }
         return out;
@@ -43,11 +43,6 @@ bool StudentWorld::joined(std::size_t a, std::size_t b) const {
   });
 }
 
-// The velocity of a body's point.
-Vec2d StudentWorld::at_point(const Rigid& body, Vec2d arm) const {
-  return body.velocity + mixed("w x r", cross(body.spin, arm));
-}
-
 // A stick as one row along it, a hinge as two, x and y, one after the other.
 void StudentWorld::solve(const Joint& joint) {
   Ends e = ends(joint);
@@ -59,13 +54,12 @@ void StudentWorld::solve(const Joint& joint) {
     const double error = dot(e.gap, n) - (stick ? std::get<DistanceJoint>(joint).length : 0);
     double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
     if (scales("share of a joint's error without dt")) fed = factor_ * error;
-    const Vec2d parting = at_point(b, e.arm_b) - at_point(a, e.arm_a);
-    const double speed = dot(mixed("velocity in a joint", parting), n) + fed;
+    const double parting = speed_apart(kJointRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b}, n);
+    const double speed = parting + fed;
     const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
-    const double ka = is("joint_mass_of_the_second_arm") ? sb : sa;
-    const double kb = is("joint_mass_of_the_first_arm") ? sa : sb;
-    double k = a.inverse_mass + b.inverse_mass;
-    if (!is("joint_without_rotation")) k += a.inverse_inertia * ka * ka + b.inverse_inertia * kb * kb;
+    const Vec2d mass_a = is("joint_mass_of_the_second_arm") ? e.arm_b : e.arm_a;
+    const Vec2d mass_b = is("joint_mass_of_the_first_arm") ? e.arm_a : e.arm_b;
+    double k = edited_mass(kJointRow, a, b, {mass_a, mass_b}, {e.raw_a, e.raw_b}, n);
     if (is("joint_masses_in_place_of_inverses"))
       k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
     if (stick && is("stick_only_pulls") && (speed < 0 || gap < std::get<DistanceJoint>(joint).length)) break;
@@ -104,8 +98,8 @@ void StudentWorld::solve(const Joint& joint) {
       apply_impulse(e.a, e.b, is("joint_first_arm_for_both") ? e.arm_a : e.arm_b,
                     is("joint_second_arm_for_both") ? e.arm_b : e.arm_a, -speed / k * n);
     } else {
-      apply_impulse(e.a, e.b, e.arm_a, e.arm_b,
-                    mixed("impulse of a joint", -times("impulse of a joint") * speed / k * n));
+      change(kJointRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b},
+             mixed("impulse of a joint", -times("impulse of a joint") * speed / k * n));
     }
     if (stick) break;
   }
@@ -123,9 +117,9 @@ void StudentWorld::correct(const Joint& joint) {
   if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
   const Vec2d n = mixed("error of a joint", 1 / size * error);
   const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
-  const double k =
-      a.inverse_mass + b.inverse_mass + a.inverse_inertia * sa * sa + b.inverse_inertia * sb * sb;
-  const double push = times("correction of a joint") * (manner_.by_positions ? 1 : kShare) * size / k;
+  const double k = edited_mass(kCorrectionRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b}, n);
+  const double share = manner_.by_positions ? 1 : manner_.joint_share;
+  const double push = times("correction of a joint") * share * size / k;
   const double turn = is("correction_turns_backwards") ? -push : is("correction_never_turns") ? 0 : push;
   const double turn_a = is("correction_turns_the_first_backwards") ? -turn : turn;
   const double turn_b = is("correction_turns_the_second_backwards") ? -turn : turn;
@@ -136,20 +130,23 @@ void StudentWorld::correct(const Joint& joint) {
     return;
   }
   if (is("correction_by_the_first_mass") || is("correction_by_the_second_mass")) {
-    const double share = is("correction_by_the_first_mass") ? a.inverse_mass : b.inverse_mass;
-    a.position += share * push * n;
+    const double mass = is("correction_by_the_first_mass") ? a.inverse_mass : b.inverse_mass;
+    a.position += mass * push * n;
     a.angle += a.inverse_inertia * sa * turn;
-    b.position -= share * push * n;
+    b.position -= mass * push * n;
     b.angle -= b.inverse_inertia * sb * turn;
     return;
   }
+  const auto arms =
+      edit_(Quantity::Arm, kCorrectionRow, kInChange, std::array{e.arm_a, e.arm_b}, {e.raw_a, e.raw_b});
+  const auto [mass, inertia] = eases(kCorrectionRow, kInChange, a, b);
   if (!is("correction_of_the_second_end_only")) {
-    a.position += a.inverse_mass * push * n;
-    a.angle += a.inverse_inertia * sa * turn_a;
+    a.position += mass[0] * push * n;
+    a.angle += inertia[0] * cross(arms[0], n) * turn_a;
   }
   if (is("correction_of_the_first_end_only")) return;
-  b.position -= b.inverse_mass * push * n;
-  b.angle -= b.inverse_inertia * sb * turn_b;
+  b.position -= mass[1] * push * n;
+  b.angle -= inertia[1] * cross(arms[1], n) * turn_b;
 }
 
 }  // namespace plumb::course

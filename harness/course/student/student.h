@@ -16,6 +16,11 @@ struct Manner {
       false;           ///< joints are closed by positions, and velocities are displacements over the step
   double share = 0.5;  ///< fraction of an overlap that a step removes by positions
   bool deep = false;   ///< a circle with its centre inside a box is pushed out at the nearest side
+  double slop = 0.001;  ///< m of overlap that is left, so that what rests stays in contact
+  bool clips = false;   ///< boxes touch along the axis of least overlap, at the ends of the clipped side
+  bool turning_push = false;  ///< an overlap is corrected at the point of contact, which turns bodies as well
+  double joint_share = 0.5;   ///< fraction of a joint's error that a correction removes
+  int corrections = 0;        ///< corrections of joints in a step; 0: a quarter of the sweeps
   double fed = 0;      ///< fraction of a joint's error that velocities close in a step, instead of positions
 };
 

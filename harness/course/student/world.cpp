@@ -33,9 +33,7 @@ std::array<std::size_t, 2> indices(const Scene& scene, const Joint& joint) {
 
 }  // namespace
 
-Vec2d Rigid::to_world(Vec2d local) const {
-  return Rotation<double>{std::cos(angle), std::sin(angle)} * local;
-}
+Rotation<double> Rigid::rotation() const { return {std::cos(turns * angle), std::sin(turns * angle)}; }
 
 double StudentWorld::inertia(const Body& body) const {
   if (body.inertia) return *body.inertia;
@@ -48,6 +46,7 @@ double StudentWorld::inertia(const Body& body) const {
     if (is("disc_as_box")) share = 2.0 / 3;
     if (is("disc_by_diameter")) share = 2;
     if (is("inertia_inverted")) return 1 / (body.mass * r * r * share);
+    if (is("inertia_floored")) return std::floor(body.mass * r * r / 2);
     return (is("inertia_without_mass") ? 1 : body.mass) * r * r * share * times("inertia of a disc");
   }
   const Box& box = std::get<Box>(shape.geometry);
@@ -63,6 +62,7 @@ double StudentWorld::inertia(const Body& body) const {
   if (is("mass_for_inertia")) return body.mass;
   if (is("inertia_inverted")) return 12 / (body.mass * (w * w + h * h));
   if (is("inertia_of_one")) return 1;
+  if (is("inertia_floored")) return std::floor(body.mass * (w * w + h * h) / 12);
   if (is("square_of_sum")) return body.mass * (w + h) * (w + h) / 12;
   if (is("box_by_area")) return body.mass * w * h / 12;
   return mass * (w * w + h * h) / 12 * (is("inertia_sixth") ? 2 : 1) * times("inertia of a box");
@@ -89,13 +89,14 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     Rigid rigid{.position = body.position, .velocity = body.velocity, .force = {}, .angle = body.angle};
     rigid.spin = body.angular_velocity;
     rigid.body = &body;
+    rigid.turns = times("angle of a point");
     if (is("first_angle_ignored")) rigid.angle = 0;
     if (const auto* box = std::get_if<Box>(&body.shapes.at(0).geometry); box && is("corner_for_centre"))
       rigid.position += Vec2d{box->width / 2, box->height / 2};
     if (const auto* box = std::get_if<Box>(&body.shapes.at(0).geometry); box && is("upper_corner_for_centre"))
       rigid.position += Vec2d{box->width / 2, -box->height / 2};
     if (body.type == BodyType::Dynamic) {
-      rigid.inverse_mass = 1 / body.mass;
+      rigid.inverse_mass = is("inverse_mass_floored") ? std::floor(1 / body.mass) : 1 / body.mass;
       if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
@@ -131,6 +132,7 @@ void StudentWorld::read_mistake(const std::string& mistake) {
     scaled_hash_ = Name::of(std::string_view(mistake).substr(0, star));
     factor_ = std::stod(mistake.substr(star + 1));
   }
+  if (const auto edit = Edit::read(mistake)) edit_ = *edit;
   const std::size_t at = mistake.find('@'), comma = mistake.find(',');
   if (at == std::string::npos || comma == std::string::npos) return;
   mixed_hash_ = Name::of(std::string_view(mistake).substr(0, at));
@@ -152,6 +154,7 @@ Box StudentWorld::box(const Rigid& body) const {
   if (is("width_and_height_swapped")) std::swap(out.width, out.height);
   if (is("width_for_both")) out.height = out.width;
   if (is("height_for_both")) out.width = out.height;
+  if (is("half_sizes_floored")) out = {2 * std::floor(out.width / 2), 2 * std::floor(out.height / 2)};
   return out;
 }
 
@@ -178,7 +181,7 @@ void StudentWorld::advance() {
   push_out();
   if (is("no_position_correction") || manner_.by_positions || manner_.fed > 0) return;
   if (scales("share of a joint's error without dt")) return;
-  correct_all(std::max(1, sweeps() / 4));
+  correct_all(manner_.corrections > 0 ? manner_.corrections : std::max(1, sweeps() / 4));
 }
 
 int StudentWorld::sweeps() const { return is("too_few_iterations") ? 1 : manner_.sweeps; }
@@ -194,7 +197,7 @@ void StudentWorld::answer_touches(bool with_joints) {
   }
   for (int sweep = 0; sweep < sweeps(); ++sweep) {
     for (const Joint& joint : scene_.joints)
-      if (with_joints && !is("joint_ignored")) solve(joint);
+      if (with_joints && holds(joint)) solve(joint);
     if (sweep == 0 || !manner_.once) answer_all(found);
   }
   touched_ = touched_ || !found.empty();
@@ -215,9 +218,18 @@ void StudentWorld::move_and_project(bool moves) {
 }
 
 void StudentWorld::correct_all(int sweeps) {
-  if (is("joint_ignored")) return;
   for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (const Joint& joint : scene_.joints) correct(joint);
+    for (const Joint& joint : scene_.joints)
+      if (holds(joint)) correct(joint);
+}
+
+// Returns false for a joint that the mistake leaves out.
+bool StudentWorld::holds(const Joint& joint) const {
+  if (is("joint_ignored")) return false;
+  if (is("last_joint_left_out")) return &joint != &scene_.joints.back();
+  if (is("first_joint_left_out")) return &joint != &scene_.joints.front();
+  if (is("first_joint_only")) return &joint == &scene_.joints.front();
+  return !is("last_joint_only") || &joint == &scene_.joints.back();
 }
 
 }  // namespace plumb::course

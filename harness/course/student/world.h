@@ -3,11 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "harness/course/student/edit.h"
 #include "harness/course/student/student.h"
 #include "reference/backend.h"
 
@@ -30,10 +32,12 @@ struct Rigid {
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
+  double turns = 1;      ///< factor on the angle by which points are turned into the world
   bool touched = false;  ///< had a contact in the last step
   const Body* body = nullptr;
 
-  Vec2d to_world(Vec2d local) const;
+  Rotation<double> rotation() const;
+  Vec2d to_world(Vec2d local) const { return rotation() * local; }
   Vec2d velocity_at(Vec2d arm) const { return velocity + cross(spin, arm); }
 };
 
@@ -48,8 +52,8 @@ struct Touch {
 class StudentWorld {
  public:
   /// `mistake` is a name, a quantity and the factor by which it is wrong ("radius*0.5"), or a vector and
-  /// what stands for its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"). `scheme` is semi-implicit Euler,
-  /// explicit Euler or velocity Verlet.
+  /// what stands for its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"), or an edit as text (edit.h). `scheme`
+  /// is semi-implicit Euler, explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -64,6 +68,7 @@ class StudentWorld {
   void answer_touches(bool with_joints);
   void move_and_project(bool moves);
   void correct_all(int sweeps);
+  bool holds(const Joint& joint) const;
   std::vector<BodyState> truly() const;  ///< the current states, even if the engine reports others
   bool scales(Name quantity) const { return quantity.hash == scaled_hash_; }
   double times(Name quantity) const { return scales(quantity) ? factor_ : 1; }
@@ -81,6 +86,15 @@ class StudentWorld {
   void touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
+  void touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
+  double extent(const Rigid& body, Vec2d axis) const;
+  struct Face {
+    std::size_t box = 0;
+    Vec2d normal;  ///< from a to b
+    double overlap = 0;
+  };
+  std::optional<Face> nearest_face(std::size_t a, std::size_t b) const;
+  bool left_out(std::size_t a, std::size_t b) const;
   double restitution(const Touch& touch) const;
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
@@ -89,18 +103,30 @@ class StudentWorld {
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
   void push_out();
-  Vec2d at_point(const Rigid& body, Vec2d arm) const;
   void solve(const Joint& joint);
   void correct(const Joint& joint);
   struct Arms {
     Vec2d a, b;
   };
   Arms arms_of(const Touch& touch) const;
+  double speed_apart(Row row, const Rigid& a, const Rigid& b, Arms arms, Arms raw, Vec2d n) const;
+  double edited_mass(Row row, const Rigid& a, const Rigid& b, Arms arms, Arms raw, Vec2d n) const;
+  struct Eases {
+    std::array<double, 2> mass, inertia;  ///< the inverse ones of both bodies
+  };
+  struct Moving {
+    std::array<Vec2d, 2> velocity;
+    std::array<double, 2> spin;
+  };
+  Moving moving(Row row, const Rigid& a, const Rigid& b) const;
+  Eases eases(Row row, Place place, const Rigid& a, const Rigid& b) const;
+  void change(Row row, Rigid& a, Rigid& b, Arms arms, Arms raw, Vec2d impulse);
   void apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2d arm_b, Vec2d impulse);
 
   struct Ends {
     std::size_t a, b;
     Vec2d arm_a, arm_b, gap;
+    Vec2d raw_a, raw_b;  ///< the anchors before they are turned
   };
   Ends ends(const Joint& joint) const;
   bool joined(std::size_t a, std::size_t b) const;
@@ -110,6 +136,7 @@ class StudentWorld {
   std::string mistake_;
   std::uint64_t mistake_hash_ = 0, scaled_hash_ = 0, mixed_hash_ = 0;
   double factor_ = 1;
+  Edit edit_;
   std::array<Vec2d, 2> axes_;  ///< give the x and the y of a mixed vector
   reference::Scheme scheme_;
   Manner manner_;

@@ -1,0 +1,97 @@
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/course/predictable.h"
+#include "harness/course/student/edit.h"
+
+// The edits of formulas (student/edit.h): each quantity of a body, in each place, with each replacement.
+namespace plumb::course {
+namespace {
+
+struct Rows {
+  unsigned rows;
+  const char* chapters;
+  const char* what;
+};
+
+constexpr Rows kRows[] = {
+    {kContactRow, "34", "a contact's impulse"},
+    {kFrictionRow, "4", "friction"},
+    {kContactRow | kFrictionRow, "4", "a contact's impulse and its friction"},
+    {kOverlapRow, "34", "the correction of an overlap"},
+    {kContactRow | kFrictionRow | kOverlapRow, "34", "contacts, their friction and their correction"},
+    {kJointRow, "5", "a joint's impulse"},
+    {kCorrectionRow, "5", "the correction of a joint's positions"},
+    {kJointRow | kCorrectionRow, "5", "a joint's impulse and the correction of its positions"},
+    {kContactRow | kFrictionRow | kOverlapRow | kJointRow | kCorrectionRow, "5", "contacts and joints"},
+};
+
+struct Places {
+  unsigned places;
+  const char* what;
+};
+
+constexpr Places kSpeed{kInSpeed, "the speed of the two points in"}, kMass{kInMass, "the effective mass of"},
+    kChange{kInChange, "what changes the two bodies in"}, kMassAndChange{kInMass | kInChange, "the masses of"},
+    kEverywhere{kInSpeed | kInMass | kInChange, "all of"};
+
+struct Kind {
+  Quantity quantity;
+  const char *name, *what, *right;
+  std::vector<Places> places;
+  std::vector<std::pair<Instead, const char*>> instead;
+};
+
+std::vector<Kind> kinds() {
+  constexpr const char *kOthers = "is the other body's", *kZero = "is left out", *kMinus = "has the wrong sign";
+  return {
+      {Quantity::Arm, "wrong_arm", "the arm", "each body has its own r, from its centre to the point, turned with it",
+       {kSpeed, kMass, kChange, kEverywhere},
+       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus},
+        {Instead::Raw, "is the point itself, not seen from the body's centre or not turned with the body"}}},
+      {Quantity::InverseMass, "wrong_mass", "the inverse mass", "each body has its own 1/m, 0 if it is static",
+       {kMass, kChange, kMassAndChange},
+       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::One, "is 1"}, {Instead::Inverse, "is the mass"},
+        {Instead::Raw, "is the inverse inertia"}}},
+      {Quantity::InverseInertia, "wrong_inertia", "the inverse inertia", "each body has its own 1/I, 0 if it cannot turn",
+       {kMass, kChange, kMassAndChange},
+       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::One, "is 1"}, {Instead::Inverse, "is the inertia"},
+        {Instead::Raw, "is the inverse mass"}}},
+      {Quantity::Velocity, "wrong_velocity", "the velocity", "it is (vb + wb x rb) - (va + wa x ra)", {kSpeed},
+       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus}}},
+      {Quantity::Spin, "wrong_spin", "the spin", "it is (vb + wb x rb) - (va + wa x ra)", {kSpeed},
+       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus}}},
+  };
+}
+
+constexpr std::array<const char*, 4> kBodies{"", "the first body", "the second body", "both bodies"};
+
+// Returns false for edits that change nothing: a minus that is squared, and speeds where there are none.
+bool matters(const Rows& rows, const Places& places, const Kind& kind, Instead instead) {
+  const bool positions = (rows.rows & ~(kOverlapRow | kCorrectionRow)) == 0;
+  if (positions && (places.places & ~kInSpeed) == 0) return false;
+  return !(kind.quantity == Quantity::Arm && instead == Instead::Minus && places.places == kInMass);
+}
+
+}  // namespace
+
+std::vector<Predictable> mistakes_of_edits() {
+  std::vector<Predictable> out;
+  for (const Rows& rows : kRows)
+    for (const Kind& kind : kinds())
+      for (const Places& places : kind.places)
+        for (const auto& [instead, says] : kind.instead)
+          for (unsigned bodies = 1; bodies <= 3; ++bodies) {
+            if (!matters(rows, places, kind, instead)) continue;
+            const Edit edit{kind.quantity, rows.rows, places.places, bodies, instead};
+            out.push_back({edit.text(), kind.name, rows.chapters,
+                           fmt::format("In {} {}, {} of {} {}: {}.", places.what, rows.what, kind.what,
+                                       kBodies[bodies], says, kind.right),
+                           true, true});
+          }
+  return out;
+}
+
+}  // namespace plumb::course

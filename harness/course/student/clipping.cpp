@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "harness/course/student/world.h"
+
+// Finds the contacts of two boxes by separating axes and clipping.
+namespace plumb::course {
+
+// Returns half of a box's extent along an axis.
+double StudentWorld::extent(const Rigid& body, Vec2d axis) const {
+  const Box size = box(body);
+  const Rotation<double> q = body.rotation();
+  const double along = dot(q * Vec2d{1, 0}, axis), across = dot(q * Vec2d{0, 1}, axis);
+  const double w = size.width / 2, h = size.height / 2;
+  if (is("extent_sign_lost")) return w * along + h * across;
+  if (is("extent_of_the_sum")) return std::abs(w * along + h * across);
+  if (is("extent_sides_swapped")) return h * std::abs(along) + w * std::abs(across);
+  if (is("extent_of_width_only")) return w * std::abs(along);
+  if (is("extent_not_halved")) return 2 * (w * std::abs(along) + h * std::abs(across));
+  return w * std::abs(along) + h * std::abs(across);
+}
+
+// Returns the face along whose axis two boxes overlap least; nullopt if they do not overlap.
+std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std::size_t b) const {
+  std::optional<Face> best;
+  const Vec2d way = bodies_[b].position - bodies_[a].position;
+  for (const std::size_t box : {a, b}) {
+    if (is("axes_of_the_first_only") && box == b) continue;
+    if (is("axes_of_the_second_only") && box == a) continue;
+    for (const Vec2d local : {Vec2d{1, 0}, Vec2d{0, 1}}) {
+      if (is("axes_of_the_width_only") && local.x == 0) continue;
+      if (is("axes_of_the_height_only") && local.y == 0) continue;
+      const Vec2d axis = is("axes_not_turned") ? local : bodies_[box].rotation() * local;
+      const double overlap = extent(bodies_[a], axis) + extent(bodies_[b], axis) - std::abs(dot(way, axis));
+      if (overlap <= 0) return std::nullopt;
+      const bool nearer = is("largest_overlap") ? !best || overlap > best->overlap + 1e-9
+                                                : !best || overlap < best->overlap - 1e-9;
+      const Vec2d out = dot(way, axis) > 0 || is("axis_not_turned_to_b") ? axis : -axis;
+      if (nearer) best = Face{box, out, overlap};
+    }
+  }
+  return best;
+}
+
+// Clips the side that faces the nearest face at the face's ends.
+void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
+  const std::optional<Face> face = nearest_face(a, b);
+  if (!face) return;
+  const bool of_a = (face->box == a) != is("face_of_the_other");
+  const Rigid &owner = bodies_[of_a ? a : b], &other = bodies_[of_a ? b : a];
+  const Vec2d outward = of_a ? face->normal : -face->normal, along{-outward.y, outward.x};
+  const Box size = box(other);
+  std::array<Vec2d, 4> corners;
+  std::size_t filled = 0;
+  for (const Vec2d sign : {Vec2d{1, 1}, Vec2d{1, -1}, Vec2d{-1, -1}, Vec2d{-1, 1}})
+    corners[filled++] =
+        other.position + other.to_world({sign.x * size.width / 2, sign.y * size.height / 2}) - owner.position;
+  std::stable_sort(corners.begin(), corners.end(),
+                   [&](Vec2d p, Vec2d q) { return dot(p, outward) < dot(q, outward); });
+  const std::size_t first = is("corners_farthest_out") ? 2 : 0;
+  Vec2d from = corners[first], to = corners[first + 1];
+  if (dot(from, along) > dot(to, along)) std::swap(from, to);
+  const double half = extent(owner, is("face_of_the_other_side") ? outward : along) * times("width of a face");
+  const double s = dot(from, along), e = dot(to, along);
+  const auto clipped = [&](double at) {
+    if (e == s || is("face_not_clipped")) return at == s ? from : to;
+    return from + (std::clamp(at, -half, half) - s) / (e - s) * (to - from);
+  };
+  std::array<Vec2d, 2> ends{clipped(s), clipped(e)};
+  if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
+  const auto before = static_cast<std::ptrdiff_t>(out.size());
+  const double reach = extent(owner, outward);
+  for (const Vec2d end : ends) {
+    const double depth = reach - dot(end, outward);
+    if (depth > 0)
+      out.push_back({a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
+    if (is("middle_of_the_side")) break;
+  }
+  if (std::ssize(out) < before + 2) return;
+  const bool first_deeper = out[out.size() - 2].depth >= out.back().depth;
+  if (is("deepest_corner_only")) out.erase(first_deeper ? out.end() - 1 : out.end() - 2);
+  if (is("one_corner")) out.pop_back();
+  if (is("other_corner")) out.erase(out.end() - 2);
+}
+
+}  // namespace plumb::course

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/math/vec2.h"
+
+/// Edits of the learner's formulas: in one place, one quantity of a body stands where another should.
+namespace plumb::course {
+
+/// Rows of the engine: each closes the speed or the gap of two bodies. Bits, as a learner may share code.
+enum Row : unsigned { kContactRow = 1, kFrictionRow = 2, kOverlapRow = 4, kJointRow = 8, kCorrectionRow = 16 };
+
+/// Places in a row's formulas: the relative speed, the effective mass, and the change of the two bodies.
+enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4 };
+
+enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin };
+
+/// What stands in a quantity's place. `Raw` is the point for a contact's arm, the anchor before it is turned
+/// for a joint's, the inverse mass for an inverse inertia, and the other way round.
+enum class Instead { Others, Zero, Minus, One, Inverse, Raw };
+
+struct Edit {
+  Quantity quantity = Quantity::None;
+  unsigned rows = 0, places = 0;
+  unsigned bodies = 0;  ///< bit 0: the first, bit 1: the second
+  Instead instead = Instead::Others;
+
+  /// Returns the edit as text, for `make_student`, and back.
+  std::string text() const;
+  static std::optional<Edit> read(std::string_view text);
+
+  /// Returns the values of both bodies as this edit changes them.
+  template <class T>
+  std::array<T, 2> operator()(Quantity what, Row row, Place place, std::array<T, 2> own,
+                              std::array<T, 2> raw = {}) const {
+    if (quantity != what || (rows & row) == 0 || (places & place) == 0) return own;
+    std::array<T, 2> out = own;
+    for (std::size_t i = 0; i < 2; ++i)
+      if ((bodies >> i & 1U) != 0) out[i] = replaced(own[i], own[1 - i], raw[i]);
+    return out;
+  }
+
+ private:
+  Vec2d replaced(Vec2d own, Vec2d others, Vec2d raw) const;
+  double replaced(double own, double others, double raw) const;
+};
+
+}  // namespace plumb::course
