@@ -30,7 +30,8 @@ std::vector<Manner> variants(int chapter) {
               {.once = true, .share = 0.4},
               {.once = true, .share = 0.2}};
     case 4:
-      return {{}, {.clips = true}, {.clips = true, .turning_push = true}, {.once = true},
+      return {{}, {.clips = true}, {.clips = true, .turning_push = true}, {.clips = true, .extends = true},
+              {.clips = true, .extends = true, .turning_push = true}, {.once = true},
               {.sweeps = 20}, {.sweeps = 10}, {.sweeps = 5}, {.sweeps = 30}};
     default:
       return {{}, {.clips = true}, {.clips = true, .turning_push = true}, {.once = true},

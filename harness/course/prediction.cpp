@@ -136,8 +136,10 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   const Outcome& outcome = chapter[check];
   if (!predictions.of({}, check)) return out;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
+  // Bodies that meet nothing move alike in every design.
+  const bool free = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
   for (const bool exactly : {true, false}) {
-    if (!out.empty() || (!exactly && predictions.design_known())) break;
+    if (!out.empty() || (!exactly && (free || predictions.design_known()))) break;
     for (const Fit& fit : likely)
       add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated, false}, predictions, outcome, check, exactly, out);
     for (const bool generated : {false, true}) {

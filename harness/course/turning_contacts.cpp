@@ -316,12 +316,15 @@ Finding box_rests(const Lab& lab) {
                               .restitution = 0,
                               .friction = 0.5});
   const Trace trace = lab.run(scene_of("rest", {0, -kGravity}, {box, ground(0, 0.5)}), 4);
-  // On a slope of 0.6 a square that does not slide stands: it would tip from 1 on.
-  const auto on_slope = [&](bool ground_first) {
-    const Body square = make(Crate{.position = {0, side / 2}, .width = side, .height = side, .restitution = 0, .friction = 1});
-    const auto bodies = ground_first ? std::vector{ground(0, 1), square} : std::vector{square, ground(0, 1)};
-    const Vec2d gravity{0.6 * kGravity, -kGravity};
-    return lab.run(scene_of("slope", gravity, bodies), 1).last(ground_first ? 1 : 0).angle;
+  // A plank 2 m wide stands across a pillar of 1.2 m, on a slope: its centre is above 0.54 m of the pillar's 0.6 m.
+  const auto on_pillar = [&](bool pillar_first) {
+    constexpr double kSlope = 1.35, kHeight = 0.8;
+    const Body plank = make(Crate{.position = {0, kHeight / 2}, .width = 2, .height = kHeight, .restitution = 0, .friction = 2});
+    Body pillar = ground(0, 2);
+    pillar.shapes.front().geometry = Box{1.2, 2};
+    const auto bodies = pillar_first ? std::vector{pillar, plank} : std::vector{plank, pillar};
+    const Vec2d gravity{kSlope * kGravity, -kGravity};
+    return lab.run(scene_of("pillar", gravity, bodies), 1).last(pillar_first ? 1 : 0).angle;
   };
   const BodyState& end = trace.last(0);
   const double sunk = side / 2 - end.position.y, tolerance = kGravity * lab.dt() * lab.dt() + 0.03 * side;
@@ -330,8 +333,8 @@ Finding box_rests(const Lab& lab) {
       .read("angle", "rad", end.angle, 0, 0.02)
       .read("vy", "m/s", end.velocity.y, 0, 2 * kGravity * lab.dt())
       .read("slid", "m", end.position.x, 0, 0.02)
-      .read("angle on a slope of 0.6", "rad", on_slope(false), 0, 0.02)
-      .read("angle on a slope of 0.6, if the ground comes first in the scene", "rad", on_slope(true), 0, 0.02)
+      .read("angle of a plank that stands on a pillar", "rad", on_pillar(false), 0, 0.02)
+      .read("angle of a plank on a pillar that comes first in the scene", "rad", on_pillar(true), 0, 0.02)
       .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(sunk > side, "falls_through", "The box falls through the ground.")
       .mistake_if(std::abs(end.angle) > 0.02, "one_corner",

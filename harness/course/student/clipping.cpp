@@ -68,6 +68,7 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
     if (e == s || is("face_not_clipped")) return at == s ? from : to;
     return from + (std::clamp(at, -half, half) - s) / (e - s) * (to - from);
   };
+  if (!manner_.extends && !is("face_not_clipped") && (s > half || e < -half)) return;
   std::array<Vec2d, 2> ends{clipped(s), clipped(e)};
   if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
   const auto before = static_cast<std::ptrdiff_t>(out.size());
