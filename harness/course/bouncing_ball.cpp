@@ -348,10 +348,10 @@ Finding restitution(const Lab& lab) {
   const bool bounces_fast = stops && std::abs(after(5 * v).last(0).velocity.y - 5 * e * v) < 0.05 * v;
   return Judgement()
       .read("vy after the bounce", "m/s", end, e * v, 0.002 * v)
-      .read("vy after a bounce on a floor of 0.5, with a ball of 0.3", "m/s", vy_after({dull_ball, lively_floor}, 0),
-            lively * v, 0.002 * v)
-      .read("vy after a bounce on a floor of 0.2 that comes first in the scene", "m/s", vy_after({floor, ball}, 1),
-            e * v, 0.002 * v)
+      .read("vy after a bounce on a floor of 0.5, with a ball of 0.3", "m/s",
+            vy_after({dull_ball, lively_floor}, 0), lively * v, 0.002 * v)
+      .read("vy after a bounce on a floor of 0.2 that comes first in the scene", "m/s",
+            vy_after({floor, ball}, 1), e * v, 0.002 * v)
       .proven_if(bounces_fast, "threshold_too_high", kThreshold)
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(trembles(trace) || loses_what_it_got(trace), "turned_every_step", kTurnedEveryStep)

@@ -30,12 +30,25 @@ std::vector<Manner> variants(int chapter) {
               {.once = true, .share = 0.4},
               {.once = true, .share = 0.2}};
     case 4:
-      return {{}, {.clips = true}, {.clips = true, .turning_push = true}, {.clips = true, .extends = true},
-              {.clips = true, .extends = true, .turning_push = true}, {.once = true},
-              {.sweeps = 20}, {.sweeps = 10}, {.sweeps = 5}, {.sweeps = 30}};
+      return {{},
+              {.clips = true},
+              {.clips = true, .turning_push = true},
+              {.clips = true, .extends = true},
+              {.clips = true, .extends = true, .turning_push = true},
+              {.once = true},
+              {.sweeps = 20},
+              {.sweeps = 10},
+              {.sweeps = 5},
+              {.sweeps = 30}};
     default:
-      return {{}, {.clips = true}, {.clips = true, .turning_push = true}, {.once = true},
-              {.by_positions = true}, {.sweeps = 10}, {.sweeps = 20}, {.fed = 0.2}};
+      return {{},
+              {.clips = true},
+              {.clips = true, .turning_push = true},
+              {.once = true},
+              {.by_positions = true},
+              {.sweeps = 10},
+              {.sweeps = 20},
+              {.fed = 0.2}};
   }
 }
 
@@ -68,7 +81,8 @@ std::optional<Push> measured_push(const Lab& lab) try {
 
 std::optional<double> measured_joint_error(const Lab& lab) try {
   constexpr double kLength = 1, kTooLong = 0.05;  // m
-  Scene scene = scene_of("stick too long", {}, {make(Ball{.position = {kLength + kTooLong, 0}, .radius = 0.1})});
+  Scene scene =
+      scene_of("stick too long", {}, {make(Ball{.position = {kLength + kTooLong, 0}, .radius = 0.1})});
   DistanceJoint stick;
   stick.name = "stick";
   stick.body_a = kWorld;
@@ -93,14 +107,16 @@ std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
   const auto ball = [](const char* name, double y, double mass) {
     return make(Ball{.name = name, .position = {0, y}, .mass = mass, .radius = kRadius, .restitution = 0});
   };
-  const Scene scene = scene_of("heavy on light", {0, -kGravity},
-                               {ball("light", kRadius - kDeep, 1), ball("heavy", 3 * kRadius - 2 * kDeep, 50), floor});
+  const Scene scene =
+      scene_of("heavy on light", {0, -kGravity},
+               {ball("light", kRadius - kDeep, 1), ball("heavy", 3 * kRadius - 2 * kDeep, 50), floor});
   const auto speeds = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
   const std::vector<BodyState> due = speeds(lab);
   for (like.sweeps = 1; like.sweeps <= kMost; ++like.sweeps) {
     const auto student = make_student("", lab.scheme(), like);
     const std::vector<BodyState> is = speeds(Lab(*student, lab.plain_settings()));
-    const double off = std::abs(is[0].velocity.y - due[0].velocity.y) + std::abs(is[1].velocity.y - due[1].velocity.y);
+    const double off =
+        std::abs(is[0].velocity.y - due[0].velocity.y) + std::abs(is[1].velocity.y - due[1].velocity.y);
     if (off < 1e-9) return like.sweeps;
   }
   return std::nullopt;

@@ -92,7 +92,8 @@ bool Judgement::certain(const Mistake& mistake) const {
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const Reading& reading = readings_[i];
     const double gives = i < mistake.gives.size() ? mistake.gives[i] : kAny;
-    if (std::isnan(gives) ? !reading.good() : std::abs(reading.measured - gives) > reading.tolerance) return false;
+    if (std::isnan(gives) ? !reading.good() : std::abs(reading.measured - gives) > reading.tolerance)
+      return false;
   }
   return true;
 }

@@ -24,12 +24,14 @@ constexpr const char* kFrictionOnOne =
     "Friction spins only one of the two bodies: each changes its w by r x j/I, with its own r and I, and a "
     "gets the opposite impulse.";
 constexpr const char* kOneSide =
-    "Friction is limited on one side only: its sum stays between -mu and +mu times the sum of the impulses along "
+    "Friction is limited on one side only: its sum stays between -mu and +mu times the sum of the impulses "
+    "along "
     "the normal.";
 constexpr const char* kAxesLeftOut =
     "Some axes of two boxes are left out: compare them along the width and the height of both.";
 constexpr const char* kExtent =
-    "A box's extent along an axis is wrong: it is half of the width times |x . axis| plus half of the height times "
+    "A box's extent along an axis is wrong: it is half of the width times |x . axis| plus half of the height "
+    "times "
     "|y . axis|, with x and y the directions of its sides.";
 constexpr const char* kNotOpposite =
     "The two impulses are not opposite: compute j once, from the velocities before either changes, and apply "
@@ -218,36 +220,43 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"friction_by_restitution_of_its_rule", "friction_by_restitution", "134",
        "Friction acts with the coefficient of restitution: it is \"friction\" of the two shapes."},
       {"friction_of_the_first", "friction_of_one", "4",
-       "Friction takes the coefficient of the first body: \"contact_rules\" says geometric_mean, the root of the "
+       "Friction takes the coefficient of the first body: \"contact_rules\" says geometric_mean, the root of "
+       "the "
        "product of both."},
       {"friction_of_the_second", "friction_of_one", "4",
-       "Friction takes the coefficient of the second body: \"contact_rules\" says geometric_mean, the root of the "
+       "Friction takes the coefficient of the second body: \"contact_rules\" says geometric_mean, the root "
+       "of the "
        "product of both."},
       {"friction_by_mass_of_normal", "friction_mass_of_normal", "4",
        "Friction has the effective mass along the normal: it has its own, with (r x t)^2/I."},
       {"friction_limited_above_only", "friction_limited_on_one_side", "4", kOneSide},
       {"friction_limited_below_only", "friction_limited_on_one_side", "4", kOneSide},
       {"friction_at_its_limit", "friction_at_its_limit", "4",
-       "Friction always acts with its largest impulse: it acts with the one that stops the sliding, if that is "
+       "Friction always acts with its largest impulse: it acts with the one that stops the sliding, if that "
+       "is "
        "smaller."},
       {"friction_each_limited", "friction_each_limited", "4",
-       "Each sweep's impulse of friction is limited by itself: their sum is limited, by mu times the sum of the "
+       "Each sweep's impulse of friction is limited by itself: their sum is limited, by mu times the sum of "
+       "the "
        "impulses along the normal."},
       {"axes_of_the_first_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_second_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_width_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_height_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_not_turned", "axes_not_turned", "4",
-       "The axes along which two boxes are compared do not turn with them: turn (1, 0) and (0, 1) by each angle."},
+       "The axes along which two boxes are compared do not turn with them: turn (1, 0) and (0, 1) by each "
+       "angle."},
       {"axis_not_turned_to_b", "normal_not_turned", "4",
-       "The normal of two boxes may point from b to a: reverse the axis if the way from a to b is against it."},
+       "The normal of two boxes may point from b to a: reverse the axis if the way from a to b is against "
+       "it."},
       {"extent_sign_lost", "extent_wrong", "4", kExtent},
       {"extent_of_the_sum", "extent_wrong", "4", kExtent},
       {"extent_sides_swapped", "extent_wrong", "4", kExtent},
       {"extent_of_width_only", "extent_wrong", "4", kExtent},
       {"extent_not_halved", "extent_wrong", "4", kExtent},
       {"face_of_the_other", "face_of_the_other", "4",
-       "The side that touches is clipped against the wrong box: the face belongs to the box whose axis has the "
+       "The side that touches is clipped against the wrong box: the face belongs to the box whose axis has "
+       "the "
        "least overlap."},
       {"face_of_the_other_side", "clipped_wrong", "4",
        "The side that touches is clipped at the wrong half side of the face: along the face, not across it."},

@@ -116,7 +116,8 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"correction_of_the_first_only_always", "correction_of_one_only", "134",
        "Only the first body is moved out of an overlap: both move, each by its share of the inverse masses."},
       {"correction_of_the_second_only_always", "correction_of_one_only", "134",
-       "Only the second body is moved out of an overlap: both move, each by its share of the inverse masses."},
+       "Only the second body is moved out of an overlap: both move, each by its share of the inverse "
+       "masses."},
       {"first_contact_only", "first_contact_only", "3",
        "Only the first contact of a step is answered: go over all of them."},
       {"last_contact_only", "first_contact_only", "3",

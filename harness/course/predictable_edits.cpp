@@ -34,7 +34,8 @@ struct Places {
 };
 
 constexpr Places kSpeed{kInSpeed, "the speed of the two points in"}, kMass{kInMass, "the effective mass of"},
-    kChange{kInChange, "what changes the two bodies in"}, kMassAndChange{kInMass | kInChange, "the masses of"},
+    kChange{kInChange, "what changes the two bodies in"},
+    kMassAndChange{kInMass | kInChange, "the masses of"},
     kEverywhere{kInSpeed | kInMass | kInChange, "all of"};
 
 struct Kind {
@@ -45,23 +46,49 @@ struct Kind {
 };
 
 std::vector<Kind> kinds() {
-  constexpr const char *kOthers = "is the other body's", *kZero = "is left out", *kMinus = "has the wrong sign";
+  constexpr const char *kOthers = "is the other body's", *kZero = "is left out",
+                       *kMinus = "has the wrong sign";
   return {
-      {Quantity::Arm, "wrong_arm", "the arm", "each body has its own r, from its centre to the point, turned with it",
+      {Quantity::Arm,
+       "wrong_arm",
+       "the arm",
+       "each body has its own r, from its centre to the point, turned with it",
        {kSpeed, kMass, kChange, kEverywhere},
-       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus},
+       {{Instead::Others, kOthers},
+        {Instead::Zero, kZero},
+        {Instead::Minus, kMinus},
         {Instead::Raw, "is the point itself, not seen from the body's centre or not turned with the body"}}},
-      {Quantity::InverseMass, "wrong_mass", "the inverse mass", "each body has its own 1/m, 0 if it is static",
+      {Quantity::InverseMass,
+       "wrong_mass",
+       "the inverse mass",
+       "each body has its own 1/m, 0 if it is static",
        {kMass, kChange, kMassAndChange},
-       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::One, "is 1"}, {Instead::Inverse, "is the mass"},
+       {{Instead::Others, kOthers},
+        {Instead::Zero, kZero},
+        {Instead::One, "is 1"},
+        {Instead::Inverse, "is the mass"},
         {Instead::Raw, "is the inverse inertia"}}},
-      {Quantity::InverseInertia, "wrong_inertia", "the inverse inertia", "each body has its own 1/I, 0 if it cannot turn",
+      {Quantity::InverseInertia,
+       "wrong_inertia",
+       "the inverse inertia",
+       "each body has its own 1/I, 0 if it cannot turn",
        {kMass, kChange, kMassAndChange},
-       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::One, "is 1"}, {Instead::Inverse, "is the inertia"},
+       {{Instead::Others, kOthers},
+        {Instead::Zero, kZero},
+        {Instead::One, "is 1"},
+        {Instead::Inverse, "is the inertia"},
         {Instead::Raw, "is the inverse mass"}}},
-      {Quantity::Velocity, "wrong_velocity", "the velocity", "it is (vb + wb x rb) - (va + wa x ra)", {kSpeed},
+      {Quantity::Velocity,
+       "wrong_velocity",
+       "the velocity",
+       "it is (vb + wb x rb) - (va + wa x ra)",
+       {kSpeed},
        {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus}}},
-      {Quantity::Spin, "wrong_spin", "the spin", "it is (vb + wb x rb) - (va + wa x ra)", {kSpeed},
+      {Quantity::Spin,
+       "wrong_spin",
+       "the spin",
+       "it is (vb + wb x rb) - (va + wa x ra)",
+       {kSpeed},
        {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus}}},
   };
 }

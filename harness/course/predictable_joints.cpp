@@ -16,7 +16,8 @@ constexpr const char* kOneAnchor =
 constexpr const char* kOneTurnsBackwards =
     "Correcting the hinge's positions turns one of the bodies the wrong way: the angle of a changes by (ra x "
     "push)/Ia, that of b by minus (rb x push)/Ib.";
-constexpr const char* kJointsLeftOut = "Not all joints act: go over all of them, the first and the last included.";
+constexpr const char* kJointsLeftOut =
+    "Not all joints act: go over all of them, the first and the last included.";
 constexpr const char* kOneEnd =
     "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
 

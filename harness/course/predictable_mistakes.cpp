@@ -4,7 +4,8 @@ namespace plumb::course {
 
 std::vector<Predictable> predictable_mistakes() {
   std::vector<Predictable> out = mistakes_of_motion();
-  for (const auto& more : {mistakes_of_contacts(), mistakes_of_boxes(), mistakes_of_joints(), mistakes_of_axes(), mistakes_of_edits()})
+  for (const auto& more : {mistakes_of_contacts(), mistakes_of_boxes(), mistakes_of_joints(),
+                           mistakes_of_axes(), mistakes_of_edits()})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
@@ -59,7 +60,8 @@ std::vector<Scaled> scaled_quantities() {
       {"stiffness of a spring", "stiffness_wrong", "2",
        "Springs are {} times as stiff as the scene says: the force is stiffness (length - rest_length)."},
       {"damping of a spring", "damping_wrong", "2",
-       "A spring's damping is {} times what the scene says: it is damping times the speed at which the ends part."},
+       "A spring's damping is {} times what the scene says: it is damping times the speed at which the ends "
+       "part."},
       {"rest length of a spring", "rest_length_wrong", "2",
        "A spring is at rest at {} times its rest length: the force is stiffness (length - rest_length)."},
       {"impulse of friction", "friction_impulse_wrong", "4",
@@ -71,7 +73,8 @@ std::vector<Scaled> scaled_quantities() {
       {"angle of a point", "turned_wrong", "45",
        "Points turn with {} times the body's angle: cos and sin take the angle in radians."},
       {"width of a face", "clipped_wrong", "4",
-       "The side that touches is clipped at {} times the half width of the face: it reaches half of the width to "
+       "The side that touches is clipped at {} times the half width of the face: it reaches half of the "
+       "width to "
        "each side of the box's centre."},
       {"share of a joint's error without dt", "bias_without_dt", "5",
        "Velocities close a joint as if {} of its error were a speed: a share s of the error C is closed in a "

@@ -333,14 +333,16 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_divided_by_mass_twice", "mass_divided_twice", "2",
        "The spring's force is divided by the mass twice."},
       {"spring_anchor_of_world_ignored", "spring_anchor_ignored", "2",
-       "A spring's end that is a point of the world pulls to the origin: \"world\" is a body at the origin, and the "
+       "A spring's end that is a point of the world pulls to the origin: \"world\" is a body at the origin, "
+       "and the "
        "anchor is a point of it."},
       {"spring_anchors_ignored", "spring_anchor_ignored", "24",
        "A spring holds the centres of its bodies: it holds the anchors."},
       {"spring_anchors_not_turned", "anchor_not_turned", "4",
        "The anchors of a spring do not turn with their bodies: turn each by its body's angle."},
       {"inverse_mass_floored", "integer_division", "1234",
-       "1/m is rounded down to an integer, so that heavy bodies do not feel forces and impulses: divide as real "
+       "1/m is rounded down to an integer, so that heavy bodies do not feel forces and impulses: divide as "
+       "real "
        "numbers."},
       {"half_sizes_floored", "integer_division", "14",
        "Half of a box's width and height is rounded down to an integer: divide as real numbers."},

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -24,6 +25,9 @@ constexpr double kClearly = 5;
 // Paths nearer than this fit equally well: one value with contacts, one in free flight, where only rounding
 // differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
+
+// Checks of a chapter for which edits and factors are tried if none explains them: they take most of the time.
+constexpr std::size_t kSearches = 2;
 
 // The same for a mistake with a fitted factor: its path must be nearer.
 constexpr double kFittedPath = 0.02, kExactPath = 0.001;
@@ -113,7 +117,6 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
     const double share = predictions.off(check, manner, wrong->runs);
     if (!std::isfinite(share) || !predictions.near(check, manner, *wrong)) continue;
     out.push_back({.name = mistake.name, .says = mistake.says, .planted = planted, .off = share});
-    if (getenv("PLUMB_DEBUG")) fprintf(stderr, "FIT %s: %s [%s] manner %zu off %g exactly %d\n", outcome.check->name.c_str(), mistake.name.c_str(), mistake.planted.c_str(), manner, share, exactly);
     out.back().generated = mistake.generated;
     predictions.refute(planted, check, out.back());
     // A mistake that is made only in some cases may pass a check that it would otherwise fail.
@@ -139,21 +142,25 @@ std::vector<Fit> fits(const std::vector<Predictable>& mistakes, Predictions& pre
   // Bodies that meet nothing move alike in every design.
   const bool free = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
   for (const bool exactly : {true, false}) {
-    if (!out.empty() || (!exactly && (free || predictions.design_known()))) break;
+    if (!out.empty() || (!exactly && free)) break;
     for (const Fit& fit : likely)
-      add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated, false}, predictions, outcome, check, exactly, out);
+      add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated, false}, predictions, outcome,
+               check, exactly, out);
     for (const bool generated : {false, true}) {
       if (!out.empty() && !likely.empty()) break;
       if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
       for (const Predictable& mistake : mistakes) {
         if (mistake.generated != generated || (mistake.exactly && !exactly)) continue;
-        // What gives the very paths may be a mistake of an earlier chapter that passed its checks.
+        // Includes mistakes of earlier chapters, which may have passed those checks.
         const bool belongs =
             exactly ? mistake.chapters.front() <= digit : mistake.chapters.find(digit) != std::string::npos;
         if (belongs || named == mistake.name) add_fits(mistake, predictions, outcome, check, exactly, out);
       }
     }
   }
+  // A known design leaves no room for what comes near and contradicts other checks.
+  if (predictions.design_known())
+    std::erase_if(out, [](const Fit& fit) { return !fit.exact && !explains_all(fit); });
   std::stable_sort(out.begin(), out.end(), better);
   return one_for_each_name(out);
 }
@@ -174,8 +181,8 @@ std::string factor_text(double factor, double dt) {
   return is(1 / dt) ? "1/dt" : fmt::format("{:.3g}", factor);
 }
 
-// Returns the plain number that a fitted factor stands for: dt, a whole number, degrees in a radian, or the inverse of
-// one of these; otherwise the factor.
+// Returns the plain number that a fitted factor stands for: dt, a whole number, degrees in a radian, or the
+// inverse of one of these; otherwise the factor.
 double plain_factor(double factor, double dt) {
   constexpr double kNear = 0.003, kDegrees = 180 / std::numbers::pi;
   std::vector<double> plain{0, dt, 1 / dt, kDegrees, 1 / kDegrees};
@@ -188,15 +195,15 @@ double plain_factor(double factor, double dt) {
 // Returns the quantities whose factor can be fitted to the motion. The factor is fitted to one check; the
 // other checks, or the whole path, must agree with it.
 std::vector<Fit> fitted(Predictions& predictions, const std::vector<Outcome>& chapter, std::size_t check) {
-  constexpr std::size_t kTried = 3;  // manners
+  const std::vector<std::size_t>& likely = predictions.likely();
+  const std::size_t tried = std::min<std::size_t>(predictions.design_known() ? 1 : 3, likely.size());
   std::vector<Fit> out;
   const Outcome& outcome = chapter[check];
   const char digit = static_cast<char>('0' + outcome.chapter->number);
   const bool several = wrong_readings(chapter) > 1;
   for (const Scaled& scaled : scaled_quantities()) {
     if (std::string_view(scaled.chapters).find(digit) == std::string_view::npos) continue;
-    for (const std::size_t manner : predictions.likely()) {
-      if (manner >= predictions.likely()[std::min(kTried, predictions.likely().size()) - 1] + 1) break;
+    for (const std::size_t manner : std::span(likely).first(tried)) {
       auto factor = predictions.factor(scaled.quantity, manner, check);
       if (!factor) continue;
       factor = plain_factor(*factor, predictions.dt());
@@ -300,8 +307,8 @@ void name_check(const std::vector<Predictable>& mistakes, const std::vector<Fit>
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.name, fit.says);
     return;
   }
-  // Does not name a mistake that was only suspected if its motion differs, nor one of unknown motion whose figures
-  // are only near.
+  // Does not name a mistake that was only suspected if its motion differs, nor one of unknown motion whose
+  // figures are only near.
   if (finding.proven || finding.mistake.empty()) return;
   const bool known = computed(finding.mistake);
   if (!known && !finding.observed && finding.certain) return;
@@ -322,8 +329,10 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
                    [](const Outcome& outcome) { return outcome.finding.verdict == Verdict::Fail; }))
     return;
   const std::vector<Predictable> mistakes = predictable_mistakes();
+  std::vector<Predictable> listed = mistakes;
+  std::erase_if(listed, [](const Predictable& mistake) { return mistake.exactly; });
+  std::size_t in_vain = 0;  // checks that no mistake explains
   Predictions predictions(lab, chapter);
-  if (getenv("PLUMB_DEBUG")) { fprintf(stderr, "known %d likely", predictions.design_known()); for (auto m : predictions.likely()) fprintf(stderr, " %zu", m); fprintf(stderr, "\n"); }
   std::vector<std::vector<Fit>> found(chapter.size());
   std::set<std::string> alone;
   std::vector<Fit> likely;
@@ -331,9 +340,11 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     const Finding& finding = chapter[i].finding;
     if (finding.verdict != Verdict::Fail || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer)
       continue;
-    found[i] = fits(mistakes, predictions, chapter, i, named, likely);
+    const bool all = in_vain < kSearches;
+    found[i] = fits(all ? mistakes : listed, predictions, chapter, i, named, likely);
     narrow(found[i], chapter[i]);
-    if (found[i].empty() && !finding.proven) found[i] = fitted(predictions, chapter, i);
+    if (found[i].empty() && !finding.proven && all) found[i] = fitted(predictions, chapter, i);
+    in_vain += found[i].empty();
     if (found[i].size() == 1) alone.insert(found[i].front().name);
     if (likely.empty())
       std::copy_if(found[i].begin(), found[i].end(), std::back_inserter(likely), explains_all);
@@ -360,6 +371,11 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
                                 [&](const Fit& fit) { return fit.exact && finding.mistake == fit.name; });
     finding.computed = std::any_of(found[i].begin(), found[i].end(),
                                    [&](const Fit& fit) { return finding.mistake == fit.name; });
+    // The figures of a check whose motion cannot be compared choose among mistakes of one motion.
+    if (!chapter[i].check->repeatable && std::any_of(likely.begin(), likely.end(), [&](const Fit& fit) {
+          return finding.mistake == fit.name;
+        }))
+      finding.exact = finding.computed = true;
     if (known.empty() && finding.computed) known = finding.mistake;
   }
   // If the motions show a single mistake, assigns it to the failed checks without a name.

@@ -39,6 +39,9 @@ constexpr double kExactly = 1e-3;
 // The same for bodies that meet nothing: what rounding leaves.
 constexpr double kExactlyFree = 1e-9;
 
+// m, the most that iterations leave over all states, also where the paths are far from the correct ones.
+constexpr double kMostLeft = 0.01;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::optional<Attempt> attempt(const Check& check, const reference::Backend& engine,
@@ -71,8 +74,8 @@ Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
   known_ = least <= kUnchanged && (told_apart || (chapter.front().chapter->number < 4 && measured_push(lab)));
 }
 
-// Returns the distance of the engine's paths from those of a correct engine of a design, in the checks that it
-// passes.
+// Returns the distance of the engine's paths from those of a correct engine of a design, in the checks that
+// it passes.
 double Predictions::misfit(std::size_t manner) {
   double sum = 0;
   for (std::size_t i = 0; i < chapter_.size(); ++i) {
@@ -137,7 +140,8 @@ double Predictions::exact_limit(std::size_t check, std::size_t manner) {
     const auto& seen = chapter_[check].runs;
     const bool free = std::all_of(seen.begin(), seen.end(), flies_freely);
     const double least = free ? kExactlyFree : kUnchanged;
-    place->second = std::max(least, (free ? kExactlyFree : kExactly) * distance(right->runs, seen, right->runs.size()));
+    const double apart = distance(right->runs, seen, right->runs.size());
+    place->second = std::max(least, std::min(kMostLeft, (free ? kExactlyFree : kExactly) * apart));
   }
   return place->second;
 }
@@ -219,11 +223,13 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
   constexpr double kFactors[] = {-2,   -1, -0.5, 0,   0.05, 0.1, 0.2, 0.35, 0.5,
                                  0.75, 1,  1.25, 1.5, 2,    3,   5,   9,    15};
   const auto count = static_cast<std::ptrdiff_t>(std::size(kFactors));
+  const double all = right ? distance(right->runs, chapter_[check].runs, right_runs) : 0;
+  // A quantity that plays no part here changes nothing, whatever its factor.
+  if (far(kFactors[0], kInfinity) == all && far(kFactors[count - 1], kInfinity) == all) return std::nullopt;
   std::ptrdiff_t best = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i)
     if (const double before = least; far(kFactors[i], before) < before) best = i;
   if (std::isinf(least)) return std::nullopt;
-  const double all = right ? distance(right->runs, chapter_[check].runs, right_runs) : 0;
   double low = kFactors[std::max<std::ptrdiff_t>(best - 1, 0)],
          high = kFactors[std::min(best + 1, count - 1)];
   constexpr double kGolden = 0.6180339887498949;
@@ -235,11 +241,11 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
     if (at_lower < at_upper) {
       high = std::exchange(upper, lower);
       at_upper = at_lower;
-      at_lower = far(lower = high - kGolden * (high - low), kInfinity);
+      at_lower = far(lower = high - kGolden * (high - low), at_upper);
     } else {
       low = std::exchange(lower, upper);
       at_lower = at_upper;
-      at_upper = far(upper = low + kGolden * (high - low), kInfinity);
+      at_upper = far(upper = low + kGolden * (high - low), at_lower);
     }
   }
   return (low + high) / 2;

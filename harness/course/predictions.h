@@ -62,11 +62,12 @@ class Predictions {
 
   std::size_t manners() const { return manners_.size(); }
 
-  /// Returns the designs that are not clearly farther than another from the engine, in the checks that it passes.
+  /// Returns the designs that are not clearly farther than another from the engine, in the checks that it
+  /// passes.
   const std::vector<std::size_t>& likely() const { return likely_; }
 
-  /// Returns true if a correct engine of a likely design gives the engine's paths in all checks that it passes. A
-  /// mistake must then give its paths in those that it fails.
+  /// Returns true if a correct engine of a likely design gives the engine's paths in all checks that it
+  /// passes. A mistake must then give its paths in those that it fails.
   bool design_known() const { return known_; }
 
   /// Returns true if the engine's paths are those of a mistake, but for what iterations leave.

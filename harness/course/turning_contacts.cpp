@@ -164,11 +164,12 @@ Finding turned_box(const Lab& lab) {
       .finding();
 }
 
-// Lands a square on a corner, with nothing to turn it but the corner's arm r: the corner leaves the ground with e v.
+// Lands a square on a corner, with nothing to turn it but the corner's arm r: the corner leaves the ground
+// with e v.
 BodyState on_corner(const Lab& lab, double v, double e, double side, bool ground_first) {
   const Body box = make(Crate{.position = {0.3, 1.2},
                               .velocity = {0, -v},
-                              .angle = 30 / kDegrees,
+                              .angle = (ground_first ? -30 : 30) / kDegrees,
                               .mass = 2,
                               .width = side,
                               .height = side,
@@ -217,8 +218,8 @@ Finding lands_flat(const Lab& lab) {
       .read("spin of a tall box after landing", "rad/s", standing.last(0).angular_velocity, 0, 0.02)
       .read("vy after landing on a corner", "m/s", corner.velocity.y, j / box.mass - v, kTurned * v)
       .read("spin after landing on a corner", "rad/s", corner.angular_velocity, turns, -kTurned * turns)
-      .read("spin after landing on a corner, if the ground comes first in the scene", "rad/s", second.angular_velocity,
-            turns, -kTurned * turns)
+      .read("spin after landing on the other corner, if the ground comes first in the scene", "rad/s",
+            second.angular_velocity, -turns, -kTurned * turns)
       .mistake_if(trace.still(0), "starts_at_rest",
                   "The box never moves: add v dt to the position; v begins with the scene's \"velocity\".")
       .proven_if(not_clipped, "not_clipped",
@@ -316,10 +317,12 @@ Finding box_rests(const Lab& lab) {
                               .restitution = 0,
                               .friction = 0.5});
   const Trace trace = lab.run(scene_of("rest", {0, -kGravity}, {box, ground(0, 0.5)}), 4);
-  // A plank 2 m wide stands across a pillar of 1.2 m, on a slope: its centre is above 0.54 m of the pillar's 0.6 m.
+  // A plank 2 m wide stands across a pillar of 1.2 m, on a slope: its centre is above 0.54 m of the pillar's
+  // 0.6 m.
   const auto on_pillar = [&](bool pillar_first) {
     constexpr double kSlope = 1.35, kHeight = 0.8;
-    const Body plank = make(Crate{.position = {0, kHeight / 2}, .width = 2, .height = kHeight, .restitution = 0, .friction = 2});
+    const Body plank = make(
+        Crate{.position = {0, kHeight / 2}, .width = 2, .height = kHeight, .restitution = 0, .friction = 2});
     Body pillar = ground(0, 2);
     pillar.shapes.front().geometry = Box{1.2, 2};
     const auto bodies = pillar_first ? std::vector{pillar, plank} : std::vector{plank, pillar};

@@ -305,8 +305,7 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_limited_above_only")) sum = std::min(touch.sum_across - against / k, most);
   if (is("friction_limited_below_only")) sum = std::max(touch.sum_across - against / k, -most);
   if (is("friction_at_its_limit")) sum = sliding > 0 ? -most : sliding < 0 ? most : 0;
-  if (is("friction_each_limited"))
-    sum = touch.sum_across + std::clamp(-against / k, -most, most);
+  if (is("friction_each_limited")) sum = touch.sum_across + std::clamp(-against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);
   Vec2d turns_a = is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a;
   Vec2d turns_b = is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b;
@@ -329,7 +328,8 @@ void StudentWorld::push_out() {
   for (const Touch& touch : touches()) {
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
     const Vec2d zero{};
-    const Arms arms = manner_.turning_push ? Arms{touch.point - a.position, touch.point - b.position} : Arms{zero, zero};
+    const Arms arms =
+        manner_.turning_push ? Arms{touch.point - a.position, touch.point - b.position} : Arms{zero, zero};
     const Arms raw = manner_.turning_push ? Arms{touch.point, touch.point} : Arms{zero, zero};
     const double inverse =
         is("correction_not_divided") ? 1 : edited_mass(kOverlapRow, a, b, arms, raw, touch.normal);
@@ -351,7 +351,8 @@ void StudentWorld::push_out() {
     if (is("correction_of_the_first_only_always")) share_b = 0;
     if (is("correction_of_the_second_only_always")) share_a = 0;
     const double f = times("correction of an overlap");
-    const auto turned = edit_(Quantity::Arm, kOverlapRow, kInChange, std::array{arms.a, arms.b}, {raw.a, raw.b});
+    const auto turned =
+        edit_(Quantity::Arm, kOverlapRow, kInChange, std::array{arms.a, arms.b}, {raw.a, raw.b});
     a.position -= f * share_a * push;
     a.angle -= f * inertia[0] * cross(turned[0], push);
     b.position += f * share_b * push;

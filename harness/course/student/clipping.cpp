@@ -62,7 +62,8 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   const std::size_t first = is("corners_farthest_out") ? 2 : 0;
   Vec2d from = corners[first], to = corners[first + 1];
   if (dot(from, along) > dot(to, along)) std::swap(from, to);
-  const double half = extent(owner, is("face_of_the_other_side") ? outward : along) * times("width of a face");
+  const double half =
+      extent(owner, is("face_of_the_other_side") ? outward : along) * times("width of a face");
   const double s = dot(from, along), e = dot(to, along);
   const auto clipped = [&](double at) {
     if (e == s || is("face_not_clipped")) return at == s ? from : to;
@@ -76,7 +77,8 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   for (const Vec2d end : ends) {
     const double depth = reach - dot(end, outward);
     if (depth > 0)
-      out.push_back({a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
+      out.push_back(
+          {a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
     if (is("middle_of_the_side")) break;
   }
   if (std::ssize(out) < before + 2) return;

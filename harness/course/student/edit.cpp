@@ -6,7 +6,8 @@ namespace plumb::course {
 
 std::string Edit::text() const {
   std::string out = "edit";
-  for (const unsigned part : {static_cast<unsigned>(quantity), rows, places, bodies, static_cast<unsigned>(instead)})
+  for (const unsigned part :
+       {static_cast<unsigned>(quantity), rows, places, bodies, static_cast<unsigned>(instead)})
     out += ":" + std::to_string(part);
   return out;
 }

@@ -12,14 +12,20 @@
 namespace plumb::course {
 
 /// Rows of the engine: each closes the speed or the gap of two bodies. Bits, as a learner may share code.
-enum Row : unsigned { kContactRow = 1, kFrictionRow = 2, kOverlapRow = 4, kJointRow = 8, kCorrectionRow = 16 };
+enum Row : unsigned {
+  kContactRow = 1,
+  kFrictionRow = 2,
+  kOverlapRow = 4,
+  kJointRow = 8,
+  kCorrectionRow = 16
+};
 
 /// Places in a row's formulas: the relative speed, the effective mass, and the change of the two bodies.
 enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4 };
 
 enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin };
 
-/// What stands in a quantity's place. `Raw` is the point for a contact's arm, the anchor before it is turned
+/// Says by what a quantity is replaced. `Raw` is the point for a contact's arm, the anchor before it is turned
 /// for a joint's, the inverse mass for an inverse inertia, and the other way round.
 enum class Instead { Others, Zero, Minus, One, Inverse, Raw };
 

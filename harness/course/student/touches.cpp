@@ -69,7 +69,9 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const Rigid &c = bodies_[circle], &b = bodies_[box];
   const double r = radius(c);
   const Box size = this->box(b);
-  const double angle = b.turns * (is("box_taken_upright") ? 0 : is("box_turned_backwards") ? -b.angle : b.angle);
+  const double angle = b.turns * (is("box_taken_upright")      ? 0
+                                  : is("box_turned_backwards") ? -b.angle
+                                                               : b.angle);
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const Vec2d local = q.inverse() * (c.position - b.position);
   const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
