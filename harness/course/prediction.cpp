@@ -26,7 +26,8 @@ constexpr double kClearly = 5;
 // differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
 
-// Checks of a chapter for which edits and factors are tried if none explains them: they take most of the time.
+// Checks of a chapter for which edits and factors are tried if none explains them: they take most of the
+// time.
 constexpr std::size_t kSearches = 2;
 
 // The same for a mistake with a fitted factor: its path must be nearer.

@@ -277,6 +277,7 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_by_restitution_of_its_rule")) mu = std::max(e_a, e_b);
   if (is("friction_of_the_first")) mu = mu_a;
   if (is("friction_of_the_second")) mu = mu_b;
+  if (is("friction_without_mu")) mu = 1;
   if (mu == 0 || is("friction_ignored")) return;
   const Vec2d across{-touch.normal.y, touch.normal.x};
   const Vec2d t = mixed("direction of friction", mixed("tangent", across));

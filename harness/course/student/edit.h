@@ -25,8 +25,8 @@ enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4 };
 
 enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin };
 
-/// Says by what a quantity is replaced. `Raw` is the point for a contact's arm, the anchor before it is turned
-/// for a joint's, the inverse mass for an inverse inertia, and the other way round.
+/// Says by what a quantity is replaced. `Raw` is the point for a contact's arm, the anchor before it is
+/// turned for a joint's, the inverse mass for an inverse inertia, and the other way round.
 enum class Instead { Others, Zero, Minus, One, Inverse, Raw };
 
 struct Edit {
