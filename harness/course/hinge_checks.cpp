@@ -1,0 +1,195 @@
+#include "harness/course/hinge_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/course/pendulum.h"
+#include "harness/course/scenes.h"
+
+namespace plumb::course {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kPi = std::numbers::pi;
+
+}  // namespace
+
+Finding hinged_rod(const Lab& lab) {
+  const double l = 1, h = 0.1, mass = 2, amplitude = kPi / 6;
+  const double about_centre = mass * (l * l + h * h) / 12, about_end = about_centre + mass * l * l / 4;
+  const double angle = amplitude - kPi / 2;  // of the rod's x axis; it hangs at -90 degrees
+  Scene scene = scene_of("hinge", {0, -kGravity},
+                         {make(Crate{.name = "rod",
+                                     .position = {l / 2 * std::cos(angle), l / 2 * std::sin(angle)},
+                                     .angle = angle,
+                                     .mass = mass,
+                                     .width = l,
+                                     .height = h})});
+  RevoluteJoint hinge;
+  hinge.name = "hinge";
+  hinge.body_a = kWorld;
+  hinge.body_b = "rod";
+  hinge.anchor_b = {-l / 2, 0};
+  scene.joints.emplace_back(hinge);
+  const Trace trace = lab.run(scene, 10);
+  const auto swing = [](const std::vector<BodyState>& s) {
+    return std::atan2(s[0].position.x, -s[0].position.y);
+  };
+  const auto period_with = [&](double inertia) {
+    return 2 * kPi * std::sqrt(inertia / (mass * kGravity * l / 2)) * period_ratio(amplitude);
+  };
+  double gap = 0;
+  for (const auto& states : trace.states) {
+    const double a = states[0].angle;
+    gap = std::max(gap, length(states[0].position - l / 2 * Vec2d{std::cos(a), std::sin(a)}));
+  }
+  // If a hinge does not rotate its anchor, it pulls the rod's centre to half a length right of it within a
+  // second.
+  double to_unturned = l;
+  for (std::size_t k = 0; k < trace.states.size() && trace.times[k] < 1; ++k)
+    to_unturned = std::min(to_unturned, length(trace.states[k][0].position - Vec2d{l / 2, 0}));
+  // The anchor's speed along x and y: a hinge holds both at 0.
+  double slides_x = 0, slides_y = 0;
+  for (std::size_t k = 1; k < trace.states.size() && trace.times[k] < 0.5; ++k) {
+    const BodyState& s = trace.states[k][0];
+    const Vec2d arm = -l / 2 * Vec2d{std::cos(s.angle), std::sin(s.angle)};
+    slides_x = std::max(slides_x, std::abs(s.velocity.x - s.angular_velocity * arm.y));
+    slides_y = std::max(slides_y, std::abs(s.velocity.y + s.angular_velocity * arm.x));
+  }
+  const double less = std::min(slides_x, slides_y), more = std::max(slides_x, slides_y);
+  // The same rod on a post that it overlaps: joined bodies do not collide.
+  const auto gap_on_post = [&] {
+    Scene joined = scene;
+    joined.bodies.push_back(fixed(make(Crate{.name = "post", .width = 0.4, .height = 0.4})));
+    std::get<RevoluteJoint>(joined.joints.front()).body_a = "post";
+    double most = 0;
+    for (const auto& states : lab.run(joined, 1).states)
+      most = std::max(most, length(states[0].position -
+                                   l / 2 * Vec2d{std::cos(states[0].angle), std::sin(states[0].angle)}));
+    return most;
+  };
+  const double at_post = gap_on_post();
+  // A rod at rest along x, its anchor 2 cm off the hinge, without gravity: what is left of the gap.
+  const auto left_of = [&](Vec2d off) {
+    Scene parted = scene;
+    parted.gravity = {};
+    parted.bodies[0].angle = 0;
+    parted.bodies[0].position = Vec2d{l / 2, 0} + off;
+    const BodyState end = lab.run(parted, 1).last(0);
+    return length(end.position - l / 2 * Vec2d{std::cos(end.angle), std::sin(end.angle)});
+  };
+  const double parted = 0.02;
+  const bool held = gap <= 0.01 * l * lab.coarseness();
+  // A rod without a gap stays in place unless its anchor is computed at the wrong point.
+  const auto stays = [&] {
+    Scene still = scene;
+    still.gravity = {};
+    const Trace t = lab.run(still, 1);
+    return length(t.last(0).position - t.first(0).position) < parted / 4;
+  };
+  const bool turns_wrong =
+      !held && stays() && left_of({parted, 0}) < parted / 4 && left_of({0, parted}) > parted;
+  const double due = period_with(about_end);
+  const std::optional<double> period = period_of(trace, swing);
+  const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
+  return Judgement()
+      .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
+      .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
+      .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
+      .proven_if(held && at_post > 0.01 * l * lab.coarseness(), "joined_bodies_collide",
+                 "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "
+                 "collide, unless \"collide\" is true.")
+      .proven_if(more > 0.2 && less < 0.1 * more, "hinge_one_axis",
+                 fmt::format("The hinge holds its anchor along {0} and lets go along {1}: solve both, along "
+                             "(1, 0) and along (0, 1).",
+                             slides_x < slides_y ? "x" : "y", slides_x < slides_y ? "y" : "x"))
+      .mistake_if(
+          turns_wrong, "correction_turns_backwards",
+          "A gap along the rod closes and one across it grows: correcting the hinge's positions turns the "
+          "bodies the wrong way. The angle changes by (r x push)/I, with the push that moves this body.")
+      .mistake_if(gap > 0.2 * l && to_unturned < l / 4, "anchor_not_turned",
+                  "The anchor does not turn with the rod: turn \"anchor_b\" by the body's angle to get r.")
+      .mistake_if(
+          !period && still, "lever_forgotten",
+          "The rod does not swing: if gravity acts on it, the hinge holds its centre. It should hold the "
+          "anchor, r from the centre: the anchor's velocity is v + w x r, and an impulse changes the spin by "
+          "r x j/I.")
+      .mistake(
+          "rod_as_point", {period_with(mass * l * l / 4), kAny},
+          "The rod swings as a point at its centre would: it turns as well, r x j/I, and its inertia counts.")
+      .mistake("inertia_sixth", {period_with(2 * about_centre + mass * l * l / 4), kAny},
+               "It swings slowly: is the inertia 1/6 where it should be 1/12?")
+      .mistake("inertia_half", {period_with(about_centre / 2 + mass * l * l / 4), kAny},
+               "It swings fast: is the inertia 1/24 where it should be 1/12?")
+      .mistake_if(gap > 0.2 * l, "joint_ignored", "The rod leaves its hinge.")
+      .mistake_if(gap > 0.01 * l * lab.coarseness(), "no_position_correction",
+                  "The hinge comes apart: correct the positions as well.")
+      .finding();
+}
+
+Finding hinge_turns_both(const Lab& lab) {
+  const double w = 3, half_a = 0.5, half_b = 0.4, h = 0.1;
+  const Vec2d arm{0, half_b};
+  Scene scene = scene_of("rods", {},
+                         {make(Crate{.name = "a", .mass = 2, .width = 2 * half_a, .height = h}),
+                          make(Crate{.name = "b",
+                                     .position = Vec2d{half_a, 0} + arm,
+                                     .velocity = cross(w, arm),
+                                     .angle = kPi / 2,
+                                     .angular_velocity = w,
+                                     .mass = 1,
+                                     .width = 2 * half_b,
+                                     .height = h})});
+  RevoluteJoint hinge;
+  hinge.name = "hinge";
+  hinge.body_a = "a";
+  hinge.body_b = "b";
+  hinge.anchor_a = {half_a, 0};
+  hinge.anchor_b = {-half_b, 0};
+  scene.joints.emplace_back(hinge);
+  const Trace trace = lab.run(scene, 1);
+  const auto sums = [&](const std::vector<BodyState>& states) {
+    std::pair<Vec2d, double> out{{}, 0};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const double m = scene.bodies[i].mass, l = i == 0 ? 2 * half_a : 2 * half_b;
+      out.first += m * states[i].velocity;
+      out.second += m * cross(states[i].position, states[i].velocity) +
+                    m * (l * l + h * h) / 12 * states[i].angular_velocity;
+    }
+    return out;
+  };
+  const auto [p0, l0] = sums(trace.states.front());
+  const auto [p, l] = sums(trace.states.back());
+  double gap = 0;
+  for (const auto& states : trace.states) {
+    const auto end = [&](std::size_t i, double at) {
+      return states[i].position + at * Vec2d{std::cos(states[i].angle), std::sin(states[i].angle)};
+    };
+    gap = std::max(gap, length(end(1, -half_b) - end(0, half_a)));
+  }
+  const double moved = length(p - p0) / length(p0), kept = lab.spin_kept_by_positions(w, trace.duration());
+  return Judgement()
+      .read("momentum lost", "of all", moved, 0, 1e-6)
+      .read("angular momentum kept", "of all", l / l0, 1, std::max(0.05, 1 - kept))
+      .read("widest gap at the hinge", "m", gap, 0, 0.02 * lab.coarseness())
+      .mistake_if(gap > half_b, "joint_ignored",
+                  "The rods leave each other: a hinge holds the two anchors together.")
+      .symptom_if(moved > 1e-6,
+                  "The hinge changes the total momentum: its two ends must get opposite impulses.")
+      .mistake_if(
+          trace.last(0).angular_velocity == 0, "one_body_never_spins",
+          "The first rod never turns: the hinge's impulse changes the spin of both bodies by r x j/I, and a "
+          "gets the opposite impulse.")
+      .symptom_if(
+          std::abs(l / l0 - 1) > std::max(0.05, 1 - kept),
+          "The hinge changes the total angular momentum: an impulse at an anchor changes each body's spin "
+          "by r x j/I, with its own r, turned by the body's angle.")
+      .finding();
+}
+
+}  // namespace plumb::course
