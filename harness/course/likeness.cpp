@@ -2,46 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace plumb::course {
 namespace {
 
-// m, distance above which a path shows only that it diverges.
+// m, distance from the origin above which a path shows only that it diverges.
 constexpr double kFar = 30;
 
 constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
 
-// Adds the squared distances of the bodies' positions; returns false once a body is farther away than the
-// limit.
-bool add_distance(std::span<const BodyState> a, std::span<const BodyState> b, double& sum) {
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    const Vec2d way = a[i].position - b[i].position;
-    if (dot(a[i].position, a[i].position) > kFar * kFar) return false;
-    const double turn = kLever * (a[i].angle - b[i].angle);
-    sum += dot(way, way) + turn * turn;
-  }
-  return true;
+// Returns the nearest place in the range in which paths are compared.
+Vec2d in_range(Vec2d at) {
+  const double far = std::hypot(at.x, at.y);
+  return far <= kFar ? at : kFar / far * at;
 }
 
-// Returns the number of states before a body is farther away than the limit.
-std::size_t length(const Trace& trace) {
-  const auto far = [](const std::vector<BodyState>& states) {
-    return std::any_of(states.begin(), states.end(),
-                       [](const BodyState& s) { return dot(s.position, s.position) > kFar * kFar; });
-  };
-  return static_cast<std::size_t>(std::find_if(trace.states.begin(), trace.states.end(), far) -
-                                  trace.states.begin());
+bool left_range(std::span<const BodyState> states) {
+  return std::any_of(states.begin(), states.end(), [](const BodyState& s) {
+    return !(dot(s.position, s.position) <= kFar * kFar);
+  });
+}
+
+// Returns the sum of the squared distances of the bodies' positions, and of their angles unless one has left
+// the range. What is not a number is farther than anything else.
+double square_distance(std::span<const BodyState> a, std::span<const BodyState> b, bool left) {
+  double sum = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const Vec2d way = in_range(a[i].position) - in_range(b[i].position);
+    const double turn = left ? 0 : kLever * (a[i].angle - b[i].angle);
+    sum += dot(way, way) + turn * turn;
+  }
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 
 }  // namespace
 
-double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs) {
+double distance(const std::vector<Recorded>& seen, const std::vector<Recorded>& a,
+                const std::vector<Recorded>& b, std::size_t runs) {
   double sum = 0;
-  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r) {
-    const auto &from = a[r].trace.states, &to = b[r].trace.states;
-    for (std::size_t k = 0; k < std::min(from.size(), to.size()); ++k)
-      if (!add_distance(from[k], to[k], sum)) break;
+  for (std::size_t r = 0; r < std::min({seen.size(), a.size(), b.size(), runs}); ++r) {
+    const auto &range = seen[r].trace.states, &from = a[r].trace.states, &to = b[r].trace.states;
+    bool left = false;
+    for (std::size_t k = 0; !left && k < std::min({range.size(), from.size(), to.size()}); ++k) {
+      left = left_range(range[k]);
+      sum += square_distance(from[k], to[k], left);
+    }
   }
   return std::sqrt(sum);
 }
@@ -49,15 +56,12 @@ double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, 
 double Distance::add(std::size_t run, std::size_t state, std::span<const BodyState> states) {
   if (run != run_) ended_ = false;
   run_ = run;
-  if (!ended_ && run < std::min(runs_, from_.size()) && state < from_[run].trace.states.size())
-    ended_ = !add_distance(from_[run].trace.states[state], states, sum_);
+  if (!ended_ && run < std::min(runs_, seen_.size()) && state < seen_[run].trace.states.size()) {
+    const std::vector<BodyState>& seen = seen_[run].trace.states[state];
+    ended_ = left_range(seen);
+    sum_ += square_distance(seen, states, ended_);
+  }
   return std::sqrt(sum_);
-}
-
-bool ends_sooner(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs) {
-  for (std::size_t r = 0; r < std::min({a.size(), b.size(), runs}); ++r)
-    if (length(a[r].trace) < length(b[r].trace)) return true;
-  return false;
 }
 
 bool same_readings(const Finding& seen, const Finding& predicted) {

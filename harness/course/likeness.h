@@ -11,26 +11,27 @@
 namespace plumb::course {
 
 /// Compares the first `runs` runs, which are those of the check without its experiments on engines that fail
-/// it.
-double distance(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
+/// it. Each is compared up to the first state in which a body of `seen` has left the range around the origin
+/// in which paths are compared, that state included; places outside count as the nearest ones inside. So an
+/// engine that throws a body away is far from one that keeps it, and the distances over one `seen` obey the
+/// triangle inequality.
+double distance(const std::vector<Recorded>& seen, const std::vector<Recorded>& a,
+                const std::vector<Recorded>& b, std::size_t runs);
 
-/// Accumulates the same distance while runs are under way.
+/// Accumulates the distance from `seen` while runs are under way.
 class Distance {
  public:
-  Distance(const std::vector<Recorded>& from, std::size_t runs) : from_(from), runs_(runs) {}
+  Distance(const std::vector<Recorded>& seen, std::size_t runs) : seen_(seen), runs_(runs) {}
 
   /// Adds a state, given by the numbers of run and state, and returns the distance so far.
   double add(std::size_t run, std::size_t state, std::span<const BodyState> states);
 
  private:
-  const std::vector<Recorded>& from_;
+  const std::vector<Recorded>& seen_;
   std::size_t runs_, run_ = 0;
   double sum_ = 0;
-  bool ended_ = false;  ///< the path of the current run has left the range in which paths are compared
+  bool ended_ = false;  ///< a body of the current run has left the range in which paths are compared
 };
-
-/// Returns true if a path of `a` leaves the range in which paths are compared before that of `b` does.
-bool ends_sooner(const std::vector<Recorded>& a, const std::vector<Recorded>& b, std::size_t runs);
 
 /// Returns true if each reading equals that of the mistake, within the tolerance for figures of mistakes.
 bool same_readings(const Finding& seen, const Finding& predicted);

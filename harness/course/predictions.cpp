@@ -81,7 +81,7 @@ double Predictions::misfit(std::size_t manner) {
   for (std::size_t i = 0; i < chapter_.size(); ++i) {
     if (!chapter_[i].check->repeatable || chapter_[i].finding.verdict != Verdict::Pass) continue;
     if (const auto& right = of({"", manner}, i))
-      sum = std::hypot(sum, distance(right->runs, chapter_[i].runs, right->runs.size()));
+      sum = std::hypot(sum, distance(chapter_[i].runs, chapter_[i].runs, right->runs, right->runs.size()));
   }
   return sum;
 }
@@ -121,15 +121,14 @@ const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::s
 
 // Returns a distance of the engine's paths from those of a mistake above which `near` is false. With r for
 // the correct paths, w for the mistake's and e for the engine's, `near` requires |e - w| <= a |r - w| + b,
-// and |r - w| <= |r - e| + |e - w|. The bound holds if all paths are compared over the same times.
+// and |r - w| <= |r - e| + |e - w|.
 double Predictions::farthest(std::size_t check, std::size_t manner) {
   const auto [place, is_new] = farthest_.try_emplace({check, manner}, kInfinity);
   const auto& right = of({"", manner}, check);
   if (!is_new || !right) return place->second;
   const std::vector<Recorded>& seen = chapter_[check].runs;
   const std::size_t n = right->runs.size();
-  if (ends_sooner(seen, right->runs, n)) return kInfinity;
-  const double most = kLoosePath * distance(right->runs, seen, n) + kManners * spread(check);
+  const double most = kLoosePath * distance(seen, seen, right->runs, n) + kManners * spread(check);
   return farthest_[{check, manner}] = std::max(kUnchanged, most / (1 - kLoosePath));
 }
 
@@ -140,7 +139,7 @@ double Predictions::exact_limit(std::size_t check, std::size_t manner) {
     const auto& seen = chapter_[check].runs;
     const bool free = std::all_of(seen.begin(), seen.end(), flies_freely);
     const double least = free ? kExactlyFree : kUnchanged;
-    const double apart = distance(right->runs, seen, right->runs.size());
+    const double apart = distance(seen, seen, right->runs, right->runs.size());
     place->second = std::max(least, std::min(kMostLeft, (free ? kExactlyFree : kExactly) * apart));
   }
   return place->second;
@@ -148,7 +147,8 @@ double Predictions::exact_limit(std::size_t check, std::size_t manner) {
 
 bool Predictions::exactly(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong) {
   const auto& right = of({"", manner}, check);
-  return right && distance(chapter_[check].runs, wrong, right->runs.size()) <= exact_limit(check, manner);
+  const auto& seen = chapter_[check].runs;
+  return right && distance(seen, seen, wrong, right->runs.size()) <= exact_limit(check, manner);
 }
 
 void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {
@@ -178,17 +178,18 @@ bool Predictions::sees_another(std::size_t check, const Finding& predicted) cons
 double Predictions::off(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong) {
   const auto& right = of({"", manner}, check);
   if (!right) return 0;
+  const auto& seen = chapter_[check].runs;
   const std::size_t n = right->runs.size();
-  const double way = distance(right->runs, wrong, n);
-  return way > 1e-9 ? distance(chapter_[check].runs, wrong, n) / way : 0;
+  const double way = distance(seen, right->runs, wrong, n);
+  return way > 1e-9 ? distance(seen, seen, wrong, n) / way : 0;
 }
 
 bool Predictions::near(std::size_t check, std::size_t manner, const Attempt& wrong) {
   const auto& right = of({"", manner}, check);
   if (!right) return true;
   const std::size_t n = right->runs.size();
-  const double way = distance(right->runs, wrong.runs, n),
-               far = distance(chapter_[check].runs, wrong.runs, n);
+  const auto& seen = chapter_[check].runs;
+  const double way = distance(seen, right->runs, wrong.runs, n), far = distance(seen, seen, wrong.runs, n);
   if (way <= 1e-9) return far <= std::max(kUnchanged, kManners * spread(check));
   if (far <= kSamePath * way) return true;
   return same_figures(chapter_[check].finding, wrong.finding) &&
@@ -203,7 +204,7 @@ double Predictions::spread(std::size_t check) {
   for (std::size_t manner = 1; manner < manners_.size(); ++manner) {
     const auto &first = of({}, check), &other = of({"", manner}, check);
     if (first && other && other->finding.verdict == Verdict::Pass)
-      most = std::max(most, distance(first->runs, other->runs, first->runs.size()));
+      most = std::max(most, distance(first->runs, first->runs, other->runs, first->runs.size()));
   }
   return spreads_[check] = most;
 }
@@ -212,18 +213,19 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
                                           std::size_t check) {
   const auto& right = of({"", manner}, check);
   const std::size_t right_runs = right ? right->runs.size() : 0;
+  const auto& seen = chapter_[check].runs;
   double least = kInfinity;
   // Returns infinity for distances above `limit`.
   const auto far = [&](double factor, double limit) {
     const auto run = within({fmt::format("{}*{:.17g}", quantity, factor), manner}, check, limit);
-    const double way = run ? distance(chapter_[check].runs, run->runs, right_runs) : kInfinity;
+    const double way = run ? distance(seen, seen, run->runs, right_runs) : kInfinity;
     least = std::min(least, std::isfinite(way) ? way : kInfinity);
     return std::isfinite(way) ? way : kInfinity;
   };
   constexpr double kFactors[] = {-2,   -1, -0.5, 0,   0.05, 0.1, 0.2, 0.35, 0.5,
                                  0.75, 1,  1.25, 1.5, 2,    3,   5,   9,    15};
   const auto count = static_cast<std::ptrdiff_t>(std::size(kFactors));
-  const double all = right ? distance(right->runs, chapter_[check].runs, right_runs) : 0;
+  const double all = right ? distance(seen, seen, right->runs, right_runs) : 0;
   // A quantity that plays no part here changes nothing, whatever its factor.
   if (far(kFactors[0], kInfinity) == all && far(kFactors[count - 1], kInfinity) == all) return std::nullopt;
   std::ptrdiff_t best = 0;

@@ -186,6 +186,13 @@ void StudentWorld::advance() {
 
 int StudentWorld::sweeps() const { return is("too_few_iterations") ? 1 : manner_.sweeps; }
 
+// Writes the values that sweeps change: a sweep that changes none would be repeated to no effect.
+void StudentWorld::write_sweep_state(const std::vector<Touch>& found, std::vector<double>& out) const {
+  out.clear();
+  for (const Rigid& b : bodies_) out.insert(out.end(), {b.velocity.x, b.velocity.y, b.spin});
+  for (const Touch& t : found) out.insert(out.end(), {t.bounce, t.sum, t.sum_across, t.last});
+}
+
 // Finds contacts, and iterates over them and, if joints are held by velocities, over joints.
 void StudentWorld::answer_touches(bool with_joints) {
   std::vector<Touch> found = touches();
@@ -195,10 +202,17 @@ void StudentWorld::answer_touches(bool with_joints) {
     prepare(touch);
     bodies_[touch.a].touched = bodies_[touch.b].touched = true;
   }
+  const bool any_joints = with_joints && !scene_.joints.empty();
+  if (found.empty() && !any_joints) return;
+  std::vector<double> before, after;
+  write_sweep_state(found, before);
   for (int sweep = 0; sweep < sweeps(); ++sweep) {
     for (const Joint& joint : scene_.joints)
       if (with_joints && holds(joint)) solve(joint);
     if (sweep == 0 || !manner_.once) answer_all(found);
+    write_sweep_state(found, after);
+    if (sweep > 0 && before == after) break;
+    before.swap(after);
   }
   touched_ = touched_ || !found.empty();
 }

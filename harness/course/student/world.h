@@ -65,6 +65,7 @@ class StudentWorld {
   bool is(Name mistake) const { return mistake.hash == mistake_hash_; }
   void advance();
   int sweeps() const;
+  void write_sweep_state(const std::vector<Touch>& found, std::vector<double>& out) const;
   void answer_touches(bool with_joints);
   void move_and_project(bool moves);
   void correct_all(int sweeps);
