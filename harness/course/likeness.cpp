@@ -20,9 +20,8 @@ Vec2d in_range(Vec2d at) {
 }
 
 bool left_range(std::span<const BodyState> states) {
-  return std::any_of(states.begin(), states.end(), [](const BodyState& s) {
-    return !(dot(s.position, s.position) <= kFar * kFar);
-  });
+  return std::any_of(states.begin(), states.end(),
+                     [](const BodyState& s) { return !(dot(s.position, s.position) <= kFar * kFar); });
 }
 
 // Returns the sum of the squared distances of the bodies' positions, and of their angles unless one has left

@@ -182,6 +182,8 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The impulse changes the spin by r x j: divide it by I."},
       {"spin_by_inverse_mass", "inertia_forgotten", "4",
        "The impulse changes the spin by r x j/m: divide it by I, not by the mass."},
+      {"spin_by_inverse_mass_of_turning", "inertia_forgotten", "4",
+       "The impulse changes the spin by r x j/m: divide it by I, not by the mass."},
       {"spin_not_in_velocity", "point_velocity", "4",
        "The speed at which two close is that of their centres: it is that of their points, v + w x r, which "
        "is (vx - w ry, vy + w rx)."},
@@ -207,6 +209,8 @@ std::vector<Predictable> mistakes_of_boxes() {
        "of them."},
       {"friction_unlimited", "friction_unlimited", "4",
        "The box stops at once: the impulse of friction is at most mu times the impulse along the normal."},
+      {"friction_unlimited_everywhere", "friction_unlimited", "4",
+       "The box stops at once: the impulse of friction is at most mu times the impulse along the normal."},
       {"friction_backwards", "friction_backwards", "4",
        "Friction speeds the box up: it acts against the sliding velocity along the tangent."},
       {"friction*0.5", "friction_halved", "4",
@@ -231,6 +235,8 @@ std::vector<Predictable> mistakes_of_boxes() {
        "Friction has the effective mass along the normal: it has its own, with (r x t)^2/I."},
       {"friction_limited_above_only", "friction_limited_on_one_side", "4", kOneSide},
       {"friction_limited_below_only", "friction_limited_on_one_side", "4", kOneSide},
+      {"rough_limited_above_only", "friction_limited_on_one_side", "4", kOneSide},
+      {"rough_limited_below_only", "friction_limited_on_one_side", "4", kOneSide},
       {"friction_at_its_limit", "friction_at_its_limit", "4",
        "Friction always acts with its largest impulse: it acts with the one that stops the sliding, if that "
        "is "

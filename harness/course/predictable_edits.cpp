@@ -94,12 +94,28 @@ std::vector<Kind> kinds() {
 }
 
 constexpr std::array<const char*, 4> kBodies{"", "the first body", "the second body", "both bodies"};
+constexpr unsigned kBoth = 3;
 
-// Returns false for edits that change nothing: a minus that is squared, and speeds where there are none.
+// Returns false for edits that change nothing, a minus that is squared or speeds where there are none, and
+// for those that another one repeats: an arm appears in products with the spin and with the inverse inertia
+// alone, so that either may be left out, or have the wrong sign.
 bool matters(const Rows& rows, const Places& places, const Kind& kind, Instead instead) {
   const bool positions = (rows.rows & ~(kOverlapRow | kCorrectionRow)) == 0;
   if (positions && (places.places & ~kInSpeed) == 0) return false;
-  return !(kind.quantity == Quantity::Arm && instead == Instead::Minus && places.places == kInMass);
+  if (kind.quantity != Quantity::Arm) return true;
+  if (instead == Instead::Minus) return places.places != kInMass && places.places != kInSpeed;
+  return instead != Instead::Zero || places.places == kEverywhere.places;
+}
+
+// Returns the name of an edit, which other mistakes may share.
+const char* name_of(const Places& places, const Kind& kind, Instead instead, unsigned bodies) {
+  if (kind.quantity == Quantity::Spin && instead != Instead::Others) return "point_velocity";
+  if (kind.quantity == Quantity::Arm && instead == Instead::Minus && places.places == kInChange)
+    return "r_cross_n_flipped";
+  if (kind.quantity != Quantity::InverseInertia || instead != Instead::Zero) return kind.name;
+  if (places.places == kInMass) return "effective_mass_without_rotation";
+  if (bodies != kBoth) return "one_body_never_spins";
+  return places.places == kInChange ? "spin_not_changed" : "no_rotation";
 }
 
 }  // namespace
@@ -110,10 +126,10 @@ std::vector<Predictable> mistakes_of_edits() {
     for (const Kind& kind : kinds())
       for (const Places& places : kind.places)
         for (const auto& [instead, says] : kind.instead)
-          for (unsigned bodies = 1; bodies <= 3; ++bodies) {
+          for (unsigned bodies = 1; bodies <= kBoth; ++bodies) {
             if (!matters(rows, places, kind, instead)) continue;
             const Edit edit{kind.quantity, rows.rows, places.places, bodies, instead};
-            out.push_back({edit.text(), kind.name, rows.chapters,
+            out.push_back({edit.text(), name_of(places, kind, instead, bodies), rows.chapters,
                            fmt::format("In {} {}, {} of {} {}: {}.", places.what, rows.what, kind.what,
                                        kBodies[bodies], says, kind.right),
                            true, true});

@@ -44,18 +44,6 @@ constexpr double kMostLeft = 0.01;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::optional<Attempt> attempt(const Check& check, const reference::Backend& engine,
-                               const reference::StepSettings& settings, Lab::Watcher watcher = {}) {
-  Attempt out;
-  try {
-    const Lab lab(engine, settings, &out.runs, std::move(watcher));
-    out.finding = check.run(lab);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  return out;
-}
-
 struct TooFar : std::runtime_error {
   TooFar() : std::runtime_error("too far") {}
 };
@@ -63,7 +51,10 @@ struct TooFar : std::runtime_error {
 }  // namespace
 
 Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
-    : lab_(lab), chapter_(chapter), manners_(manners_of(chapter.front().chapter->number, lab)) {
+    : lab_(lab),
+      chapter_(chapter),
+      manners_(manners_of(chapter.front().chapter->number, lab)),
+      experiments_(experiments(chapter.front().chapter->number)) {
   for (const Outcome& outcome : chapter) seen_.push_back(outcome.finding.mistake);
   std::vector<double> far;
   for (std::size_t manner = 0; manner < manners_.size(); ++manner) far.push_back(misfit(manner));
@@ -92,31 +83,128 @@ const std::optional<Attempt>& Predictions::of(const Planted& planted, std::size_
   return place->second;
 }
 
-// Runs a check until its paths are farther than `limit` from the engine's; returns nullopt in that case.
-std::optional<Attempt> Predictions::within(const Planted& planted, std::size_t check, double limit) const {
-  const Outcome& outcome = chapter_[check];
+std::optional<Attempt> Predictions::attempt(const Planted& planted, std::size_t check, Lab::Watcher watcher) {
   const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
-  if (std::isinf(limit)) return attempt(*outcome.check, *student, lab_.plain_settings());
+  const auto watch = [&](std::size_t run, std::size_t state, std::span<const BodyState> states) {
+    ++steps_;
+    if (watcher) watcher(run, state, states);
+  };
+  Attempt out;
+  try {
+    const Lab lab(*student, lab_.plain_settings(), &out.runs, watch);
+    out.finding = chapter_[check].check->run(lab);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+// Runs a check until its paths are farther than `limit` from the engine's; returns nullopt in that case.
+std::optional<Attempt> Predictions::within(const Planted& planted, std::size_t check, double limit) {
+  if (std::isinf(limit)) return attempt(planted, check, {});
   const auto right = attempts_.find({Planted{"", planted.manner}, check});
   if (right == attempts_.end() || !right->second) return std::nullopt;
-  Distance distance(outcome.runs, right->second->runs.size());
-  return attempt(*outcome.check, *student, lab_.plain_settings(),
-                 [&](std::size_t run, std::size_t state, std::span<const BodyState> states) {
-                   if (distance.add(run, state, states) > limit) throw TooFar();
-                 });
+  Distance distance(chapter_[check].runs, right->second->runs.size());
+  return attempt(planted, check, [&](std::size_t run, std::size_t state, std::span<const BodyState> states) {
+    if (distance.add(run, state, states) > limit) throw TooFar();
+  });
 }
 
 const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::size_t check, bool exactly) {
   static const std::optional<Attempt> none;
   if (const auto known = attempts_.find({planted, check}); known != attempts_.end()) return known->second;
   if (too_far_.contains({planted, check})) return none;
-  std::optional<Attempt> run =
-      within(planted, check, exactly ? exact_limit(check, planted.manner) : farthest(check, planted.manner));
+  const double limit = exactly ? exact_limit(check, planted.manner) : farthest(check, planted.manner);
+  std::optional<Attempt> run;
+  if (!screened_out(planted, check, limit)) run = within(planted, check, limit);
   if (!run) {
     if (!exactly) too_far_.emplace(planted, check);
     return none;
   }
   return attempts_.emplace(std::pair{planted, check}, std::move(run)).first->second;
+}
+
+// Returns true if a mistake is too far from the engine already in the run that leaves the correct paths
+// first: most mistakes change nothing there, and running the check up to that run would take longer.
+bool Predictions::screened_out(const Planted& planted, std::size_t check, double limit) {
+  const auto& right = of({"", planted.manner}, check);
+  if (!right || std::isinf(limit)) return false;
+  const std::vector<Recorded>& seen = chapter_[check].runs;
+  const auto [place, is_new] = screens_.try_emplace({check, planted.manner, limit});
+  if (is_new)
+    for (std::size_t r = 0; r < std::min(seen.size(), right->runs.size()); ++r) {
+      Distance distance(seen, right->runs.size());
+      const auto& states = right->runs[r].trace.states;
+      for (std::size_t k = 1; k < std::min(states.size(), seen[r].trace.states.size()); ++k) {
+        if (!(distance.add(r, k, states[k]) > limit)) continue;
+        if (!place->second || k < place->second->second) place->second = {r, k};
+        break;
+      }
+    }
+  if (!place->second) return false;
+  const auto [run, states] = *place->second;
+  Distance distance(seen, right->runs.size());
+  const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
+  try {
+    const Lab lab(*student, lab_.plain_settings(), nullptr,
+                  [&, run = run](std::size_t, std::size_t state, std::span<const BodyState> now) {
+                    ++steps_;
+                    if (distance.add(run, state, now) > limit) throw TooFar();
+                  });
+    const double dt = seen[run].dt;
+    lab.run(seen[run].scene, (static_cast<double>(states) + 0.5) * dt,
+            static_cast<int>(std::round(lab_.dt() / dt)));
+  } catch (const TooFar&) {
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+  return false;
+}
+
+// Returns the engine's run of an experiment; nullopt if it does not support such scenes.
+const std::optional<Recorded>& Predictions::seen_in(std::size_t experiment) {
+  const auto [place, is_new] = seen_in_.try_emplace(experiment);
+  if (!is_new) return place->second;
+  const auto& [scene, duration] = experiments_[experiment];
+  try {
+    place->second = {scene, lab_.run(scene, duration), lab_.dt()};
+  } catch (const std::exception&) {
+    place->second.reset();
+  }
+  return place->second;
+}
+
+// Returns the distance of the engine's paths from those of a mistake in an experiment.
+std::optional<double> Predictions::far_in(std::size_t experiment, const Planted& planted) {
+  const auto& seen = seen_in(experiment);
+  if (!seen) return std::nullopt;
+  const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
+  const auto& [scene, duration] = experiments_[experiment];
+  std::vector<Recorded> wrong;
+  try {
+    Lab(*student, lab_.plain_settings(), &wrong).run(scene, duration);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  steps_ += static_cast<long>(wrong.front().trace.states.size());
+  return distance({*seen}, {*seen}, wrong, 1);
+}
+
+void Predictions::tell_apart(std::vector<Fit>& found) {
+  const auto same_name = [&](const Fit& fit) { return fit.name == found.front().name; };
+  for (std::size_t i = 0; i < experiments_.size(); ++i) {
+    if (std::all_of(found.begin(), found.end(), same_name)) return;
+    std::vector<bool> fits;
+    for (const Fit& fit : found) {
+      const std::optional<double> right = far_in(i, {"", fit.planted.manner}), far = far_in(i, fit.planted);
+      if (!right || !far) break;
+      fits.push_back(*far <= std::max(kUnchanged, std::min(kMostLeft, kExactly * *right)));
+    }
+    if (fits.size() < found.size() || std::find(fits.begin(), fits.end(), true) == fits.end()) continue;
+    std::size_t k = 0;
+    std::erase_if(found, [&](const Fit&) { return !fits[k++]; });
+  }
 }
 
 // Returns a distance of the engine's paths from those of a mistake above which `near` is false. With r for

@@ -6,10 +6,12 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "harness/course/course.h"
+#include "harness/course/experiments.h"
 #include "harness/course/student/student.h"
 
 /// Runs the checks of a chapter on the learner's engine (student/student.h) with a mistake.
@@ -60,6 +62,10 @@ class Predictions {
 
   double dt() const { return lab_.dt(); }
 
+  /// Returns the number of steps that the learner's engine has taken so far: it measures the time of a search
+  /// alike on every machine.
+  long steps() const { return steps_; }
+
   std::size_t manners() const { return manners_.size(); }
 
   /// Returns the designs that are not clearly farther than another from the engine, in the checks that it
@@ -85,17 +91,25 @@ class Predictions {
   /// the mistake causes.
   bool near(std::size_t check, std::size_t manner, const Attempt& wrong);
 
+  /// Keeps those of several mistakes that give the engine's very paths in further scenes as well
+  /// (experiments.h), if any do in a scene in which others do not.
+  void tell_apart(std::vector<Fit>& found);
+
   /// Returns the factor that brings the learner's engine nearest to the engine's paths, or nullopt if no
   /// factor brings it near.
   std::optional<double> factor(const std::string& quantity, std::size_t manner, std::size_t check);
 
  private:
+  bool screened_out(const Planted& planted, std::size_t check, double limit);
+  const std::optional<Recorded>& seen_in(std::size_t experiment);
+  std::optional<double> far_in(std::size_t experiment, const Planted& planted);
   bool sees_another(std::size_t check, const Finding& predicted) const;
   double spread(std::size_t check);
   double farthest(std::size_t check, std::size_t manner);
   double exact_limit(std::size_t check, std::size_t manner);
   double misfit(std::size_t manner);
-  std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit) const;
+  std::optional<Attempt> attempt(const Planted& planted, std::size_t check, Lab::Watcher watcher);
+  std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit);
 
   const Lab& lab_;
   const std::vector<Outcome>& chapter_;
@@ -103,6 +117,13 @@ class Predictions {
   std::vector<Manner> manners_;
   std::vector<std::size_t> likely_;
   bool known_ = false;
+  long steps_ = 0;
+  std::vector<Experiment> experiments_;
+  std::map<std::size_t, std::optional<Recorded>> seen_in_;  ///< the engine's runs of the experiments
+  // The first run whose paths leave the correct ones by a limit, and the number of states until they do, by
+  // check, manner and limit.
+  std::map<std::tuple<std::size_t, std::size_t, double>, std::optional<std::pair<std::size_t, std::size_t>>>
+      screens_;
   std::map<std::pair<Planted, std::size_t>, std::optional<Attempt>> attempts_;
   std::set<std::pair<Planted, std::size_t>> too_far_;
   std::map<std::size_t, double> spreads_;

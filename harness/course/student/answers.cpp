@@ -254,6 +254,7 @@ void StudentWorld::answer(Touch& touch) {
   b.velocity += share_b * mixed("impulse on the second", push);
   const auto turns_by = [&](const Rigid& body, double own) {
     if (is("spin_by_inverse_mass")) return body.inverse_mass;
+    if (is("spin_by_inverse_mass_of_turning")) return own > 0 ? body.inverse_mass : 0;
     return is("spin_by_impulse_alone") && body.inverse_inertia > 0 ? 1 : own;
   };
   const double turn = times("spin by an impulse");
@@ -278,7 +279,11 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_of_the_first")) mu = mu_a;
   if (is("friction_of_the_second")) mu = mu_b;
   if (is("friction_without_mu")) mu = 1;
-  if (mu == 0 || is("friction_ignored")) return;
+  // With a coefficient of 0 only a friction that is not limited on both sides acts.
+  const bool above_only = is("friction_limited_above_only"), below_only = is("friction_limited_below_only");
+  if ((mu == 0 && !above_only && !below_only && !is("friction_unlimited_everywhere")) ||
+      is("friction_ignored"))
+    return;
   const Vec2d across{-touch.normal.y, touch.normal.x};
   const Vec2d t = mixed("direction of friction", mixed("tangent", across));
   const auto [arm_a, arm_b] = arms_of(touch);
@@ -293,7 +298,8 @@ void StudentWorld::rub(Touch& touch) {
   const bool centre_b = is("sliding_of_centres") || is("sliding_of_the_second_centre");
   const double sliding =
       speed_apart(kFrictionRow, a, b, {centre_a ? Vec2d{} : arm_a, centre_b ? Vec2d{} : arm_b}, raw, t);
-  double most = is("friction_unlimited") ? 1e9 : mu * touch.sum;
+  const bool unlimited = is("friction_unlimited") || is("friction_unlimited_everywhere");
+  double most = unlimited ? 1e9 : mu * touch.sum;
   if (is("friction_without_normal")) most = mu;
   if (is("friction_by_weight"))
     most = mu * length(scene_.gravity) * dt_ / (b.inverse_mass > 0 ? b.inverse_mass : a.inverse_mass);
@@ -303,8 +309,8 @@ void StudentWorld::rub(Touch& touch) {
   most *= times("limit of friction");
   const double against = times("impulse of friction") * (is("friction_backwards") ? -sliding : sliding);
   double sum = std::clamp(touch.sum_across - against / k, -most, most);
-  if (is("friction_limited_above_only")) sum = std::min(touch.sum_across - against / k, most);
-  if (is("friction_limited_below_only")) sum = std::max(touch.sum_across - against / k, -most);
+  if (above_only || is("rough_limited_above_only")) sum = std::min(touch.sum_across - against / k, most);
+  if (below_only || is("rough_limited_below_only")) sum = std::max(touch.sum_across - against / k, -most);
   if (is("friction_at_its_limit")) sum = sliding > 0 ? -most : sliding < 0 ? most : 0;
   if (is("friction_each_limited")) sum = touch.sum_across + std::clamp(-against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);
