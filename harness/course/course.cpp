@@ -76,8 +76,11 @@ Finding run(const Check& check, const Lab& lab, int& timeouts) {
     Finding out = check.run(lab);
     if (out.verdict == Verdict::Fail) compare_with_second_run(check, lab, out);
     for (const Reading& reading : out.readings)
-      if (!std::isfinite(reading.measured))
-        return broken(fmt::format("{} is not a finite number", reading.what));
+      if (!std::isfinite(reading.measured)) {
+        Finding endless = broken(fmt::format("{} is not a finite number", reading.what));
+        endless.diverged = true;
+        return endless;
+      }
     return out;
   } catch (const NotYet& reason) {
     return not_yet(check, reason.what());
@@ -86,6 +89,7 @@ Finding run(const Check& check, const Lab& lab, int& timeouts) {
     if (is(error, ProcessError::Fault::Timeout)) ++timeouts;
     const bool grows = is(error, ProcessError::Fault::Diverged);
     Finding out = broken(error.what() + std::string(grows ? kGrowsForEver : ""));
+    out.diverged = grows;
     if (is(error, ProcessError::Fault::Time)) {
       out.mistake = "wrong_dt";
       out.says = kWrongStep + fmt::format(" ({})", error.what());

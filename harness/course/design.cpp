@@ -92,8 +92,9 @@ std::optional<double> measured_joint_error(const Lab& lab) try {
   const Trace trace = lab.run(scene, 2.5 * lab.dt());
   const auto error = [&](std::size_t k) { return trace.states[k][0].position.x - kLength; };
   const double left = error(1) / error(0);
-  if (trace.states[1][0].velocity != Vec2d{} || !(left >= 0 && left < 1)) return std::nullopt;
-  if (std::abs(error(2) - left * error(1)) > 1e-9) return std::nullopt;
+  constexpr double kMost = 1e3;  // with the wrong sign a correction makes the error grow
+  if (trace.states[1][0].velocity != Vec2d{} || !(left >= 0 && left < kMost)) return std::nullopt;
+  if (std::abs(error(2) - left * error(1)) > 1e-9 * std::max(1.0, left * left)) return std::nullopt;
   return left;
 } catch (const std::exception&) {
   return std::nullopt;
@@ -139,7 +140,7 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
   if (const auto left = measured_joint_error(lab))
     for (Manner& manner : out) {
       manner.corrections = std::max(1, manner.sweeps / 4);
-      manner.joint_share = 1 - std::pow(*left, 1.0 / manner.corrections);
+      manner.joint_share = std::abs(1 - std::pow(*left, 1.0 / manner.corrections));
     }
   return out;
 }

@@ -19,7 +19,8 @@ struct Push {
 std::optional<Push> measured_push(const Lab& lab);
 
 /// Returns the fraction of a joint's error that is left after a step, measured on a ball at rest on a stick
-/// that is too long; nullopt if the engine closes joints otherwise.
+/// that is too long; above 1 if corrections have the wrong sign. nullopt if the engine closes joints
+/// otherwise.
 std::optional<double> measured_joint_error(const Lab& lab);
 
 /// Returns the number of times that a step goes over its contacts, measured on a heavy ball on a light one,

@@ -33,7 +33,9 @@ struct Finding {
   bool certain = false;   ///< `mistake` gives every wrong figure, within the tolerance of the right one
   bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
   bool computed = false;  ///< the motion of `mistake` was computed, and equals the engine's
-  std::string follows;    ///< name of a mistake found in an earlier check that may also explain this failure
+  bool diverged =
+      false;            ///< broken by numbers that grow without end: its motion until then may show the cause
+  std::string follows;  ///< name of a mistake found in an earlier check that may also explain this failure
 };
 
 /// Returns a sentence about the first reading that is wrong, without a cause, and what was seen besides.

@@ -200,6 +200,10 @@ std::vector<Predictable> mistakes_of_boxes() {
        "impulses from becoming negative."},
       {"one_corner", "one_corner", "4",
        "Only one corner gets an impulse: a flat landing has two contact points; go over them several times."},
+      {"first_end_only", "one_corner", "4",
+       "Only one corner gets an impulse: a flat landing has two contact points; go over them several times."},
+      {"second_end_only", "one_corner", "4",
+       "Only one corner gets an impulse: a flat landing has two contact points; go over them several times."},
       {"other_corner", "one_corner", "4",
        "Only one corner gets an impulse: a flat landing has two contact points; go over them several times."},
       {"sinks", "sinks", "4", "The box sinks: correct its position by a share of the overlap each step."},
@@ -273,6 +277,9 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"middle_of_the_side", "one_corner", "4",
        "Only one point holds the box, the middle of its side: a flat landing has two contact points."},
       {"deepest_corner_only", "one_corner", "4",
+       "Only the deepest corner gets an impulse: a flat landing has two contact points; go over them several "
+       "times."},
+      {"deepest_corner_or_last", "one_corner", "4",
        "Only the deepest corner gets an impulse: a flat landing has two contact points; go over them several "
        "times."},
       {"depth_of_the_overlap", "depth_wrong", "4",

@@ -107,15 +107,38 @@ bool matters(const Rows& rows, const Places& places, const Kind& kind, Instead i
   return instead != Instead::Zero || places.places == kEverywhere.places;
 }
 
-// Returns the name of an edit, which other mistakes may share.
-const char* name_of(const Places& places, const Kind& kind, Instead instead, unsigned bodies) {
-  if (kind.quantity == Quantity::Spin && instead != Instead::Others) return "point_velocity";
-  if (kind.quantity == Quantity::Arm && instead == Instead::Minus && places.places == kInChange)
-    return "r_cross_n_flipped";
-  if (kind.quantity != Quantity::InverseInertia || instead != Instead::Zero) return kind.name;
-  if (places.places == kInMass) return "effective_mass_without_rotation";
-  if (bodies != kBoth) return "one_body_never_spins";
-  return places.places == kInChange ? "spin_not_changed" : "no_rotation";
+// Returns the name of an edit after its effect, where other mistakes have the same one. Iterations repair a
+// wrong effective mass: an edit of the change alone then moves bodies as one of all masses does.
+const char* name_of(const Rows& rows, const Places& places, const Kind& kind, Instead instead,
+                    unsigned bodies) {
+  const bool both = bodies == kBoth, in_change = (places.places & kInChange) != 0;
+  const bool contacts = (rows.rows & (kJointRow | kCorrectionRow)) == 0;
+  const bool joints = (rows.rows & (kContactRow | kFrictionRow | kOverlapRow)) == 0;
+  switch (kind.quantity) {
+    case Quantity::Arm:
+      if (instead == Instead::Others) return "arm_of_the_other";
+      if (instead == Instead::Minus && places.places == kInChange) return "r_cross_n_flipped";
+      if (instead == Instead::Raw && contacts) return "lever_from_origin";
+      if (instead == Instead::Raw && joints) return "anchor_not_turned";
+      return kind.name;
+    case Quantity::InverseMass:
+      if (!in_change) return "masses_wrong";
+      if (instead == Instead::Zero && !both) return "one_body_only";
+      if (instead == Instead::Others && both && places.places == kInChange) return "masses_swapped";
+      if (instead == Instead::One && both)
+        return places.places == kInChange ? "inverse_mass_forgotten" : "masses_ignored";
+      return kind.name;
+    case Quantity::InverseInertia:
+      if (instead == Instead::Zero && !in_change) return "effective_mass_without_rotation";
+      if (instead == Instead::Zero && !both) return "one_body_never_spins";
+      if (instead == Instead::Zero) return places.places == kInChange ? "spin_not_changed" : "no_rotation";
+      if (in_change && (instead == Instead::One || instead == Instead::Raw)) return "inertia_forgotten";
+      return kind.name;
+    case Quantity::Velocity:
+      return both ? kind.name : "relative_velocity";
+    default:
+      return instead == Instead::Others ? kind.name : "point_velocity";
+  }
 }
 
 }  // namespace
@@ -129,7 +152,7 @@ std::vector<Predictable> mistakes_of_edits() {
           for (unsigned bodies = 1; bodies <= kBoth; ++bodies) {
             if (!matters(rows, places, kind, instead)) continue;
             const Edit edit{kind.quantity, rows.rows, places.places, bodies, instead};
-            out.push_back({edit.text(), name_of(places, kind, instead, bodies), rows.chapters,
+            out.push_back({edit.text(), name_of(rows, places, kind, instead, bodies), rows.chapters,
                            fmt::format("In {} {}, {} of {} {}: {}.", places.what, rows.what, kind.what,
                                        kBodies[bodies], says, kind.right),
                            true, true});

@@ -26,10 +26,10 @@ constexpr double kClearly = 5;
 // differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
 
-// Steps of the learner's engine that the searches of a chapter may take: about half a minute. A failing check
-// of a box with 40 sweeps takes 5 to 10 microseconds a step. With fewer, mistakes of engines whose design is
+// Steps of the learner's engine that the searches of a chapter may take: half a minute at most. A check of a
+// box with 40 sweeps takes 5 to 12 microseconds a step. With fewer, mistakes of engines whose design is
 // not known are not found, as each is tried in ten designs; with more, a learner waits.
-constexpr long kSteps = 4'000'000;
+constexpr long kSteps = 2'500'000;
 
 // Checks of a chapter for which edits and factors are tried if none explains them: they take most of the
 // time.
@@ -121,9 +121,12 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
     const Planted planted{mistake.planted, manner};
     const auto& wrong = predictions.nearby(planted, check, exactly);
     if (exactly && wrong && !predictions.exactly(check, manner, wrong->runs)) continue;
-    if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
+    if (!wrong || wrong->finding.verdict != Verdict::Fail) continue;
     if (changes_nothing(predictions, manner, check, *wrong)) continue;
-    if (!same_readings(outcome.finding, wrong->finding)) continue;
+    // A motion that diverges has no figures.
+    if (!outcome.finding.diverged &&
+        (!finite(wrong->finding) || !same_readings(outcome.finding, wrong->finding)))
+      continue;
     if (static_moves(outcome.runs) != static_moves(wrong->runs)) continue;
     if (pushes_farther(outcome.runs, wrong->runs, predictions.share(manner))) continue;
     const double share = predictions.off(check, manner, wrong->runs);
@@ -259,10 +262,10 @@ void narrow(std::vector<Fit>& found, const Outcome& outcome) {
     const double equal = exact ? kRounding : best.off < kExactPath ? kExactPath : kEqual;
     const double most = kClearly * std::max(best.off, equal);
     // The other checks refute a mistake unless its motion in this check fits clearly better than that of the
-    // best.
+    // best, or the best does not explain them either.
     const double least = best.off / kClearly;
     std::erase_if(found, [&](const Fit& fit) {
-      const bool worse = fit.verdicts > best.verdicts || fit.readings > best.readings;
+      const bool worse = explains_all(best) && !explains_all(fit);
       return fit.off > most || (worse && (fit.off >= least || best.off <= equal));
     });
     // If figures refute none, the motions in the other checks decide.
@@ -297,6 +300,9 @@ std::string says_of(const std::vector<Search>& found, const std::string& name) {
   return name;
 }
 
+// Returns true for a check that fails, or breaks because its motion diverges.
+bool fails(const Finding& finding) { return finding.verdict == Verdict::Fail || finding.diverged; }
+
 void unname(Finding& finding) {
   finding.mistake.clear();
   finding.says = describe(finding);
@@ -304,7 +310,7 @@ void unname(Finding& finding) {
 
 // Says how many mistakes a search has left out.
 std::string untried_text(std::size_t untried) {
-  return fmt::format(" {} of the known mistakes were not tried: that would take longer than half a minute.",
+  return fmt::format(" {} of the known mistakes were not tried here: a search takes half a minute at most.",
                      untried);
 }
 
@@ -362,7 +368,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
       scheme != Scheme::VelocityVerlet)
     return;
   if (std::none_of(chapter.begin(), chapter.end(),
-                   [](const Outcome& outcome) { return outcome.finding.verdict == Verdict::Fail; }))
+                   [](const Outcome& outcome) { return fails(outcome.finding); }))
     return;
   const std::vector<Predictable> mistakes = predictable_mistakes();
   std::vector<Predictable> listed = mistakes;
@@ -374,8 +380,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   std::vector<Fit> likely;
   for (std::size_t i = 0; i < chapter.size(); ++i) {
     const Finding& finding = chapter[i].finding;
-    if (finding.verdict != Verdict::Fail || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer)
-      continue;
+    if (!fails(finding) || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer) continue;
     // Leaves half of the rest to later checks, which may tell more.
     const long until = predictions.steps() + (kSteps - predictions.steps()) / 2;
     const bool all = in_vain < kSearches;
@@ -384,7 +389,9 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     narrow(fits, chapter[i]);
     predictions.tell_apart(fits);
     fits = one_for_each_name(fits);
-    if (fits.empty() && !finding.proven && all) add_fitted(predictions, chapter, i, until, found[i]);
+    if (finding.diverged) std::erase_if(fits, [](const Fit& fit) { return !fit.exact; });
+    if (fits.empty() && !finding.proven && !finding.diverged && all)
+      add_fitted(predictions, chapter, i, until, found[i]);
     if (fits.empty() && !all) found[i].untried += mistakes.size() - listed.size();
     in_vain += fits.empty();
     if (fits.size() == 1 && found[i].untried == 0) alone.insert(fits.front().name);
@@ -393,10 +400,14 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   std::string known = named;
   for (std::size_t i = 0; i < chapter.size(); ++i) {
     Finding& finding = chapter[i].finding;
-    if (finding.verdict != Verdict::Fail || finding.mistake == kRunsDiffer) continue;
+    if (!fails(finding) || finding.mistake == kRunsDiffer) continue;
+    if (finding.diverged && found[i].fits.empty()) continue;
     if (chapter[i].check->repeatable && !is_the_methods_own(predictions, chapter[i], i)) {
+      const std::string ended =
+          finding.diverged ? finding.says + (finding.says.ends_with('.') ? " " : ". ") : "";
       choose(found[i].fits, known, alone);
       name_check(mistakes, found[i], finding);
+      finding.says.insert(0, ended);
     }
     // Drops a suspicion that no motion confirms, also where motions cannot be compared.
     if (!chapter[i].check->repeatable && finding.observed && !finding.proven && finding.mistake != known)
@@ -413,7 +424,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
                                 [&](const Fit& fit) { return fit.exact && finding.mistake == fit.name; });
     finding.computed =
         std::any_of(fits.begin(), fits.end(), [&](const Fit& fit) { return finding.mistake == fit.name; });
-    if (finding.mistake.empty() && fits.empty() && found[i].untried > 0)
+    if (finding.mistake.empty() && fits.empty() && known.empty() && found[i].untried > 0)
       finding.says += untried_text(found[i].untried);
     // The figures of a check whose motion cannot be compared choose among mistakes of one motion.
     if (!chapter[i].check->repeatable && std::any_of(likely.begin(), likely.end(), [&](const Fit& fit) {

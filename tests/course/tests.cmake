@@ -34,7 +34,7 @@ set_tests_properties(course/pages course/pages_self_test course/output course/fi
 
 add_test(NAME course/skeletons COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/course/skeletons.py ${starters})
 set_tests_properties(course/skeletons PROPERTIES LABELS unit TIMEOUT 60)
-# All of either take minutes: the first sixth is run every time.
+# All of each take minutes: the first sixth is run every time.
 foreach(part 1 2 3 4 5 6)
   add_test(NAME course/planted_mistakes/${part} COMMAND ${Python3_EXECUTABLE}
     ${CMAKE_CURRENT_SOURCE_DIR}/course/planted_mistakes.py $<TARGET_FILE:plumb_app> $<TARGET_FILE:plumb_warm_start>
@@ -42,7 +42,11 @@ foreach(part 1 2 3 4 5 6)
   add_test(NAME course/whole_engine_mistakes/${part} COMMAND ${Python3_EXECUTABLE}
     ${CMAKE_CURRENT_SOURCE_DIR}/course/whole_engine_mistakes.py $<TARGET_FILE:plumb_app>
       $<TARGET_FILE:plumb_warm_start> --part ${part}/6)
-  set_tests_properties(course/planted_mistakes/${part} course/whole_engine_mistakes/${part} PROPERTIES
-    LABELS "process;long" TIMEOUT 600)
+  add_test(NAME course/common_mistakes/${part} COMMAND ${Python3_EXECUTABLE}
+    ${CMAKE_CURRENT_SOURCE_DIR}/course/common_mistakes.py $<TARGET_FILE:plumb_app> $<TARGET_FILE:plumb_warm_start>
+      ${starters} --part ${part}/6)
+  set_tests_properties(course/planted_mistakes/${part} course/whole_engine_mistakes/${part}
+    course/common_mistakes/${part} PROPERTIES LABELS "process;long" TIMEOUT 600)
 endforeach()
-set_tests_properties(course/planted_mistakes/1 course/whole_engine_mistakes/1 PROPERTIES LABELS process)
+set_tests_properties(course/planted_mistakes/1 course/whole_engine_mistakes/1 course/common_mistakes/1 PROPERTIES
+  LABELS process)

@@ -74,15 +74,18 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   const double reach = extent(owner, outward);
+  if (is("second_end_only")) ends[0] = ends[1];
   for (const Vec2d end : ends) {
     const double depth = reach - dot(end, outward);
     if (depth > 0)
       out.push_back(
           {a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
-    if (is("middle_of_the_side")) break;
+    if (is("middle_of_the_side") || is("first_end_only") || is("second_end_only")) break;
   }
   if (std::ssize(out) < before + 2) return;
   const bool first_deeper = out[out.size() - 2].depth >= out.back().depth;
+  const double deeper = out[out.size() - 2].depth - out.back().depth;
+  if (is("deepest_corner_or_last")) out.erase(deeper > 1e-9 ? out.end() - 1 : out.end() - 2);
   if (is("deepest_corner_only")) out.erase(first_deeper ? out.end() - 1 : out.end() - 2);
   if (is("one_corner")) out.pop_back();
   if (is("other_corner")) out.erase(out.end() - 2);
