@@ -38,7 +38,7 @@ Experiment three_discs(double friction) {
   return {scene_of("three discs", {},
                    {disc({.name = "a",
                           .position = {-2, 0.1},
-                          .velocity = {2, 0.3},
+                          .velocity = {5, 0.3},
                           .mass = 1,
                           .radius = 0.3,
                           .restitution = 0.6},
@@ -53,6 +53,13 @@ Experiment three_discs(double friction) {
                     fixed(disc({.name = "c", .position = {0.7, 0.5}, .radius = 0.4, .restitution = 0.5}, 0,
                                friction))}),
           2};
+}
+
+// A ball in the air, with gravity along both axes.
+Experiment free_ball() {
+  return {scene_of("free ball", {1.5, -7},
+                   {make(Ball{.position = {1, 2}, .velocity = {-1, 3}, .mass = 3, .radius = 0.3})}),
+          1};
 }
 
 // A force at a point and a torque on a box that turns in the air.
@@ -194,8 +201,8 @@ Experiment two_rods(bool hangs) {
 }  // namespace
 
 std::vector<Experiment> experiments(int chapter) {
-  if (chapter < kCollisions) return {};
-  if (chapter == kCollisions) return {three_discs(0)};
+  if (chapter < kCollisions) return {free_ball()};
+  if (chapter == kCollisions) return {free_ball(), three_discs(0)};
   if (chapter == kBoxes)
     return {pushed_box(),        three_discs(0), three_discs(0.8),      spinning_disc(), landing_box(0, 0.4),
             landing_box(0.5, 0), two_boxes(0),   landing_box(0.5, 0.3), two_boxes(0.6)};

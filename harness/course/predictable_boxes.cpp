@@ -66,6 +66,10 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The inertia stands where its inverse should: w grows by torque dt/I, and by r x j/I."},
       {"inertia_without_mass", "inertia_without_mass", "45",
        "The mass is left out of the inertia: a box has m (w^2 + h^2)/12, a disc m r^2/2."},
+      {"inertia_of_boxes_without_mass", "inertia_without_mass", "45",
+       "The mass is left out of the inertia: a box has m (w^2 + h^2)/12, a disc m r^2/2."},
+      {"inertia_of_discs_without_mass", "inertia_without_mass", "4",
+       "The mass is left out of the inertia: a box has m (w^2 + h^2)/12, a disc m r^2/2."},
       {"second_moment_of_area", "second_moment_of_area", "45", kSecondMoment},
       {"second_moment_about_height", "second_moment_of_area", "45", kSecondMoment},
       {"second_moment_without_mass", "second_moment_of_area", "45", kSecondMoment},
@@ -309,6 +313,10 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"point_of_box_not_turned", "box_not_turned", "4", kBoxNotTurned},
       {"box_turned_backwards", "turned_backwards", "4",
        "A circle meets a turned box as if the box were turned the other way: turned by the angle a, (x, y) "
+       "becomes (x cos a - y sin a, x sin a + y cos a)."},
+      {"centre_turned_backwards", "turned_backwards", "4",
+       "The centre of a circle is turned into the box's frame the wrong way, by +angle: turned by the angle "
+       "a, (x, y) "
        "becomes (x cos a - y sin a, x sin a + y cos a)."},
       {"contact_point_at_first_centre", "contact_point_at_centre", "4", kPointAtCentre},
       {"contact_point_at_second_centre", "contact_point_at_centre", "4", kPointAtCentre},

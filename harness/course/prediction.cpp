@@ -142,6 +142,14 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
 // Returns true if a mistake predicts every verdict and every wrong reading of the chapter.
 bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 0; }
 
+// Returns true if a mistake has another name in the chapter of `digit`, which applies there.
+bool renamed(const std::vector<Predictable>& mistakes, const Predictable& mistake, char digit) {
+  if (mistake.generated || mistake.chapters.find(digit) != std::string::npos) return false;
+  return std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& other) {
+    return other.planted == mistake.planted && other.chapters.find(digit) != std::string::npos;
+  });
+}
+
 // Searches for the mistakes that fit, the best first, until the learner's engine has taken
 // `until` steps in all. Mistakes that explain the whole chapter by another check, `likely`, come first; other
 // mistakes are returned only if none of these fits, and generated families only if no other mistake explains
@@ -171,6 +179,7 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
         const bool belongs =
             exactly ? mistake.chapters.front() <= digit : mistake.chapters.find(digit) != std::string::npos;
         if (!belongs && named != mistake.name) continue;
+        if (renamed(mistakes, mistake, digit)) continue;
         if (predictions.steps() < until)
           add_fits(mistake, predictions, outcome, check, exactly, out);
         else

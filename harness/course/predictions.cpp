@@ -29,6 +29,10 @@ constexpr double kHopeless = 0.2;
 // A design is dropped if another one is nearer to the engine in the checks that it passes, by this factor.
 constexpr double kClearlyNearer = 5;
 
+// Largest distance that a mistake leaves in an experiment which tells it from others, as a fraction of the
+// engine's distance from the correct paths.
+constexpr double kNearest = 0.05;
+
 // Paths nearer than this to those of a correct engine count as not changed by a mistake.
 constexpr double kUnchanged = 1e-6;
 
@@ -193,17 +197,35 @@ std::optional<double> Predictions::far_in(std::size_t experiment, const Planted&
 
 void Predictions::tell_apart(std::vector<Fit>& found) {
   const auto same_name = [&](const Fit& fit) { return fit.name == found.front().name; };
-  for (std::size_t i = 0; i < experiments_.size(); ++i) {
-    if (std::all_of(found.begin(), found.end(), same_name)) return;
-    std::vector<bool> fits;
+  for (std::size_t i = 0; i < experiments_.size() && !found.empty(); ++i) {
+    const auto& seen = seen_in(i);
+    if (!seen) continue;
+    const bool free = flies_freely(*seen);
+    if (!free && std::all_of(found.begin(), found.end(), same_name)) continue;
+    std::vector<double> far, limit;
+    std::vector<bool> moves_right;
+    double least = kInfinity, all = kInfinity;  // of the mistakes, and of the correct engine
     for (const Fit& fit : found) {
-      const std::optional<double> right = far_in(i, {"", fit.planted.manner}), far = far_in(i, fit.planted);
-      if (!right || !far) break;
-      fits.push_back(*far <= std::max(kUnchanged, std::min(kMostLeft, kExactly * *right)));
+      const std::optional<double> right = far_in(i, {"", fit.planted.manner}), wrong = far_in(i, fit.planted);
+      if (!right || !wrong) break;
+      far.push_back(*wrong);
+      moves_right.push_back(*wrong == *right);
+      limit.push_back(std::max(kUnchanged, std::min(kMostLeft, kExactly * *right)));
+      least = std::min(least, *wrong);
+      all = std::min(all, *right);
     }
-    if (fits.size() < found.size() || std::find(fits.begin(), fits.end(), true) == fits.end()) continue;
+    if (far.size() < found.size()) continue;
+    const auto exact = [&](std::size_t k) { return far[k] <= limit[k]; };
+    bool any = false;
+    for (std::size_t k = 0; k < far.size(); ++k) any = any || exact(k);
+    // Designs that are not quite the engine's leave a distance, much less than that of another mistake.
+    if (!any && !free && !(least <= kNearest * all)) continue;
     std::size_t k = 0;
-    std::erase_if(found, [&](const Fit&) { return !fits[k++]; });
+    std::erase_if(found, [&](const Fit&) {
+      const bool keep = exact(k) || (!any && (free ? moves_right[k] : far[k] <= kClearlyNearer * least));
+      ++k;
+      return !keep;
+    });
   }
 }
 

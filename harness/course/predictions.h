@@ -92,7 +92,8 @@ class Predictions {
   bool near(std::size_t check, std::size_t manner, const Attempt& wrong);
 
   /// Keeps those of several mistakes that give the engine's very paths in further scenes as well
-  /// (experiments.h), if any do in a scene in which others do not.
+  /// (experiments.h), if any do in a scene in which others do not. Where bodies meet nothing, engines of
+  /// every design move alike: a mistake that gives another motion there is dropped in any case.
   void tell_apart(std::vector<Fit>& found);
 
   /// Returns the factor that brings the learner's engine nearest to the engine's paths, or nullopt if no

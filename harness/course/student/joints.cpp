@@ -87,6 +87,13 @@ void StudentWorld::solve(const Joint& joint) {
     } else if (is("stick_pulls_the_first_only")) {
       a.velocity += a.inverse_mass * speed / k * n;
       a.spin += a.inverse_inertia * sa * speed / k;
+    } else if ((is("joint_pulls_the_first_if_it_moves") && a.inverse_mass > 0) ||
+               (is("joint_pulls_the_second_if_it_moves") && b.inverse_mass > 0)) {
+      const bool first = is("joint_pulls_the_first_if_it_moves");
+      const double push = -speed / k;
+      Rigid& pulled = first ? a : b;
+      pulled.velocity += (first ? -push : push) * pulled.inverse_mass * n;
+      pulled.spin += (first ? -push : push) * pulled.inverse_inertia * (first ? sa : sb);
     } else if (is("joint_never_spins")) {
       a.velocity += a.inverse_mass * speed / k * n;
       b.velocity -= b.inverse_mass * speed / k * n;

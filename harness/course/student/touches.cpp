@@ -73,10 +73,12 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
                                   : is("box_turned_backwards") ? -b.angle
                                                                : b.angle);
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
-  const Vec2d local = q.inverse() * (c.position - b.position);
+  const bool backwards = is("centre_turned_backwards");
+  const Vec2d local = (backwards ? q : q.inverse()) * (c.position - b.position);
   const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
                       std::clamp(local.y, -size.height / 2, size.height / 2)};
-  const Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
+  Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
+  if (backwards) way = b.position + q * nearest - c.position;
   const double d = length(way);
   if (d == 0 && manner_.deep) {
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);

@@ -47,12 +47,14 @@ double StudentWorld::inertia(const Body& body) const {
     if (is("disc_by_diameter")) share = 2;
     if (is("inertia_inverted")) return 1 / (body.mass * r * r * share);
     if (is("inertia_floored")) return std::floor(body.mass * r * r / 2);
-    return (is("inertia_without_mass") ? 1 : body.mass) * r * r * share * times("inertia of a disc");
+    const bool no_mass = is("inertia_without_mass") || is("inertia_of_discs_without_mass");
+    return (no_mass ? 1 : body.mass) * r * r * share * times("inertia of a disc");
   }
   const Box& box = std::get<Box>(shape.geometry);
   const double w = is("square_of_its_height") ? box.height : box.width;
   const double h = is("thin_box_as_square") ? w : box.height;
-  const double mass = is("inertia_without_mass") ? 1 : body.mass;
+  const bool no_mass = is("inertia_without_mass") || is("inertia_of_boxes_without_mass");
+  const double mass = no_mass ? 1 : body.mass;
   if (is("second_moment_of_area")) return mass * w * h * h * h / 12;
   if (is("second_moment_about_height")) return mass * h * w * w * w / 12;
   if (is("second_moment_without_mass")) return w * h * h * h / 12;
