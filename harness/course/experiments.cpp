@@ -55,30 +55,38 @@ Experiment three_discs(double friction) {
           2};
 }
 
-// A ball in the air, with gravity along both axes.
+// A ball in the air.
 Experiment free_ball() {
-  return {scene_of("free ball", {1.5, -7},
+  return {scene_of("free ball", {0, -7},
                    {make(Ball{.position = {1, 2}, .velocity = {-1, 3}, .mass = 3, .radius = 0.3})}),
           1};
 }
 
-// A force at a point and a torque on a box that turns in the air.
+Scene turning_box() {
+  return scene_of("turning box", {0, -kGravity},
+                  {make(Crate{.name = "box",
+                              .position = {1, 2},
+                              .velocity = {0.5, 1},
+                              .angle = 0.5,
+                              .angular_velocity = -1,
+                              .mass = 3,
+                              .width = 1.2,
+                              .height = 0.4})});
+}
+
+// A force at a point of a box that turns in the air.
 Experiment pushed_box() {
-  Scene scene = scene_of("pushed box", {0, -kGravity},
-                         {make(Crate{.name = "box",
-                                     .position = {1, 2},
-                                     .velocity = {0.5, 1},
-                                     .angle = 0.5,
-                                     .angular_velocity = -1,
-                                     .mass = 3,
-                                     .width = 1.2,
-                                     .height = 0.4})});
+  Scene scene = turning_box();
   scene.forces.emplace_back(push("box", {2, -7}, {0.4, 0.1}));
+  return {std::move(scene), 0.8};
+}
+
+// A torque on a box that turns in the air.
+Experiment twisted_box() {
+  Scene scene = turning_box();
   Torque torque;
   torque.body = "box";
   torque.torque = 1.5;
-  torque.start = 0.2;
-  torque.duration = 0.3;
   scene.forces.emplace_back(torque);
   return {std::move(scene), 0.8};
 }
@@ -204,9 +212,9 @@ std::vector<Experiment> experiments(int chapter) {
   if (chapter < kCollisions) return {free_ball()};
   if (chapter == kCollisions) return {free_ball(), three_discs(0)};
   if (chapter == kBoxes)
-    return {pushed_box(),        three_discs(0), three_discs(0.8),      spinning_disc(), landing_box(0, 0.4),
-            landing_box(0.5, 0), two_boxes(0),   landing_box(0.5, 0.3), two_boxes(0.6)};
-  return {pushed_box(), two_sticks(), two_rods(false), two_rods(true), two_boxes(0)};
+    return {pushed_box(),        twisted_box(),       three_discs(0), three_discs(0.8),      spinning_disc(),
+            landing_box(0, 0.4), landing_box(0.5, 0), two_boxes(0),   landing_box(0.5, 0.3), two_boxes(0.6)};
+  return {pushed_box(), twisted_box(), two_sticks(), two_rods(false), two_rods(true), two_boxes(0)};
 }
 
 }  // namespace plumb::course

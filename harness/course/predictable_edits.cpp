@@ -84,6 +84,12 @@ std::vector<Kind> kinds() {
        "it is (vb + wb x rb) - (va + wa x ra)",
        {kSpeed},
        {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus}}},
+      {Quantity::PointVelocity,
+       "wrong_velocity",
+       "the velocity of the point",
+       "it is (vb + wb x rb) - (va + wa x ra)",
+       {kSpeed},
+       {{Instead::Others, kOthers}, {Instead::Zero, kZero}, {Instead::Minus, kMinus}}},
       {Quantity::Spin,
        "wrong_spin",
        "the spin",
@@ -135,6 +141,7 @@ const char* name_of(const Rows& rows, const Places& places, const Kind& kind, In
       if (in_change && (instead == Instead::One || instead == Instead::Raw)) return "inertia_forgotten";
       return kind.name;
     case Quantity::Velocity:
+    case Quantity::PointVelocity:
       return both ? kind.name : "relative_velocity";
     default:
       return instead == Instead::Others ? kind.name : "point_velocity";

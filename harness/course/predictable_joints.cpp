@@ -118,6 +118,9 @@ std::vector<Predictable> mistakes_of_joints() {
       {"joint_arms_swapped", "arm_of_the_other", "5", kArmOfTheOther},
       {"joint_first_arm_for_both", "arm_of_the_other", "5", kArmOfTheOther},
       {"joint_second_arm_for_both", "arm_of_the_other", "5", kArmOfTheOther},
+      {"stick_not_unit", "normal_not_unit", "5",
+       "The stick's impulse depends on its length: divide the way from end to end by its length to get the "
+       "direction."},
       {"stick_only_pulls", "stick_only_pulls", "5",
        "The stick holds as a rope does, and gives way when its ends are pushed together: its impulse and its "
        "correction have both signs."},

@@ -354,7 +354,9 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
   }
   if (found.size() > 1) {
     finding.mistake.clear();
-    finding.says = "Several mistakes give this motion, and the checks do not tell them apart.";
+    finding.says = std::any_of(found.begin(), found.end(), explains_all)
+                       ? "Several mistakes give this motion, and the checks do not tell them apart."
+                       : "Several mistakes give this motion, but none gives those of all other checks.";
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.name, fit.says);
     return;
   }

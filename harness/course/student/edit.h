@@ -23,7 +23,8 @@ enum Row : unsigned {
 /// Places in a row's formulas: the relative speed, the effective mass, and the change of the two bodies.
 enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4 };
 
-enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin };
+/// `PointVelocity` stands for the velocity and the spin of a body, together.
+enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin, PointVelocity };
 
 /// Says by what a quantity is replaced. `Raw` is the point for a contact's arm, the anchor before it is
 /// turned for a joint's, the inverse mass for an inverse inertia, and the other way round.

@@ -50,7 +50,8 @@ void StudentWorld::solve(const Joint& joint) {
   Rigid &a = bodies_[e.a], &b = bodies_[e.b];
   const bool stick = std::holds_alternative<DistanceJoint>(joint);
   const double gap = length(e.gap);
-  for (const Vec2d n : {stick ? 1 / gap * e.gap : Vec2d{1, 0}, Vec2d{0, 1}}) {
+  const Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
+  for (const Vec2d n : {stick ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
     const double error = dot(e.gap, n) - (stick ? std::get<DistanceJoint>(joint).length : 0);
     double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
     if (scales("share of a joint's error without dt")) fed = factor_ * error;

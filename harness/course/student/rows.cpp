@@ -13,8 +13,10 @@ StudentWorld::Eases StudentWorld::eases(Row row, Place place, const Rigid& a, co
 }
 
 StudentWorld::Moving StudentWorld::moving(Row row, const Rigid& a, const Rigid& b) const {
-  return {edit_(Quantity::Velocity, row, kInSpeed, std::array{a.velocity, b.velocity}),
-          edit_(Quantity::Spin, row, kInSpeed, std::array{a.spin, b.spin})};
+  const bool both = edit_.quantity == Quantity::PointVelocity;
+  return {
+      edit_(both ? edit_.quantity : Quantity::Velocity, row, kInSpeed, std::array{a.velocity, b.velocity}),
+      edit_(both ? edit_.quantity : Quantity::Spin, row, kInSpeed, std::array{a.spin, b.spin})};
 }
 
 // Returns the speed along n at which the point of b leaves that of a.
