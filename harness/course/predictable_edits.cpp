@@ -142,6 +142,10 @@ const char* name_of(const Rows& rows, const Places& places, const Kind& kind, In
       return kind.name;
     case Quantity::Velocity:
     case Quantity::PointVelocity:
+      // The speed of the points is then reversed, whichever way each of them is.
+      if (both && kind.quantity == Quantity::PointVelocity && rows.rows == kFrictionRow &&
+          instead != Instead::Zero)
+        return "friction_backwards";
       return both ? kind.name : "relative_velocity";
     default:
       return instead == Instead::Others ? kind.name : "point_velocity";
