@@ -23,9 +23,34 @@ void PreciseDriver::read(std::span<BodyState> out) const {
 
 Reactions PreciseDriver::reactions() {
   if (parts_.integrated.empty()) return {};
+  if (!joints_closed_) return reactions_after_next_decision();
   if (sampled_ != time_) smooth_.at(time_, true, sample_);
   sampled_ = time_;
   return equations_.reactions(time_, sample_.value());
+}
+
+/// Computes the forces with which the next step begins. Before the first step, and after bodies were changed
+/// from outside, no step has closed joints and decided about contacts, limits and motors. The motion is put
+/// back, so that asking changes no bits.
+Reactions PreciseDriver::reactions_after_next_decision() {
+  const std::vector<std::byte> before = save();
+  const bool written = written_;
+  const auto put_back = [&] {
+    take(before);
+    written_ = written;
+  };
+  Reactions out;
+  try {
+    close_joints();
+    decide();
+    equations_.set_window(time_, time_);
+    out = equations_.reactions(time_, smooth_.state().value());
+  } catch (...) {
+    put_back();
+    throw;
+  }
+  put_back();
+  return out;
 }
 
 void PreciseDriver::write(std::size_t body, const BodyState& state) {
@@ -34,6 +59,7 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
   if (at_rest_[body] || locked_[body]) allowed.angular_velocity = 0;
   smooth_.rewind(time_);
   follow();
+  contacts_.let_go();
   const auto slot = flight_.holds(body) ? std::nullopt : std::optional(slot_of(body));
   if (sensitivities_) sensitivities_->write(body, slot, time_, allowed);
   if (flight_.holds(body)) {

@@ -51,12 +51,14 @@ class PreciseDriver final : public Driver {
   // The parts of a step, in this order.
   void close_joints();
   void go_on(double end);
+  void decide();
   double limit_of_step(double end) const;
   void arrive();
   void settle();
   void follow();
 
   // Helpers of these parts.
+  Reactions reactions_after_next_decision();
   void name_redundant_joints();
   void refuse_open_joints() const;
   std::size_t slot_of(std::size_t body) const;

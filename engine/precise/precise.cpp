@@ -49,9 +49,7 @@ void PreciseDriver::step() {
 /// Advances the motion by one step. Steps may go beyond `end`, because states are interpolated within them:
 /// step sizes do not depend on the output times. An event ends a step.
 void PreciseDriver::go_on(double end) {
-  follow();
-  arrive();
-  if (!contacts_.empty() && !contacts_.settled()) settle();
+  decide();
   {
     const Clock clock(profiling_, cost_[kRungeKutta]);
     smooth_.step(limit_of_step(end));
@@ -71,6 +69,13 @@ void PreciseDriver::go_on(double end) {
          "they do not stop within one step; Realtime may do");
   }
   ++statistics_.steps;
+}
+
+/// Determines the forces, contacts, limits and motors of the next step.
+void PreciseDriver::decide() {
+  follow();
+  arrive();
+  if (!contacts_.empty() && !contacts_.settled()) settle();
 }
 
 /// Resolves the event at which the last step ended.

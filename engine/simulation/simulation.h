@@ -26,7 +26,8 @@ class Simulation {
   void set_state(std::size_t body, const BodyState& state);  ///< Error (Value) beyond 1e100
 
   /// Returns the forces of joints and persistent contacts at `time`, for Precise; throws `Error`
-  /// (Unsupported) for Realtime, which has only impulses. Contacts have forces from the first step on. Of
+  /// (Unsupported) for Realtime, which has only impulses. Before the first step, and after `set_state`, they
+  /// are those with which the next step begins, after the impacts there; `Error` (Run) if it cannot begin. Of
   /// redundant joints, the first carry all: one of many solutions.
   Reactions forces() const;
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -158,6 +159,114 @@ TEST(PreciseForces, AskingChangesNothingAndFarOffIsTheSame) {
   const JointReaction here_hinge = asked.forces().joints[0], far_hinge = there.forces().joints[0];
   expect_force(far_hinge.force, here_hinge.force, 1e-7);
   expect_force(far_hinge.position, here_hinge.position + off, 1e-8);
+}
+
+double weight_on(const Reactions& forces, std::size_t body) {
+  double up = 0;
+  for (const ContactReaction& contact : forces.contacts) {
+    const Vec2d force =
+        contact.normal_force * contact.normal + contact.tangent_force * perpendicular(contact.normal);
+    up += contact.body_b == body ? force.y : contact.body_a == body ? -force.y : 0;
+  }
+  return up;
+}
+
+TEST(PreciseForces, BeforeTheFirstStepLimitsRopesAndMotorsHoldTheirLoad) {
+  Scene arm{.name = "arm on its limit"};
+  arm.bodies = {{.name = "arm", .position = {1, 0}, .mass = 2, .inertia = 1}};
+  RevoluteJoint hinge{"hinge", std::string(kWorld), "arm", {0, 0}, {-1, 0}, false};
+  hinge.limits = Range{0, 1};
+  arm.joints = {hinge};
+  const JointReaction limit = precise(arm).forces().joints[0];
+  expect_force(limit.force, {0, 2 * kG}, 1e-12);
+  EXPECT_NEAR(limit.torque, 2 * kG, 1e-12);
+
+  Scene rope{.name = "taut rope", .gravity = {0, 0}};
+  rope.bodies = {{.name = "stone", .position = {2, 0}, .velocity = {0, 3}, .mass = 1.5, .inertia = 1}};
+  rope.joints = {DistanceJoint{
+      .name = "rope", .body_a = std::string(kWorld), .body_b = "stone", .length = 2, .range = Range{0, 2}}};
+  expect_force(precise(rope).forces().joints[0].force, {-1.5 * 3 * 3 / 2, 0}, 1e-12);
+
+  const double slope = 1.2;
+  Scene rail{.name = "rail with a brake"};
+  rail.bodies = {{.name = "car", .mass = 2, .inertia = 1}};
+  PrismaticJoint axle{.name = "rail",
+                      .body_a = std::string(kWorld),
+                      .body_b = "car",
+                      .axis = {std::cos(slope), std::sin(slope)}};
+  axle.motor = Motor{.speed = 0, .max_force = 100};
+  rail.joints = {axle};
+  expect_force(precise(rail).forces().joints[0].force, {0, 2 * kG}, 1e-12);
+}
+
+TEST(PreciseForces, BeforeTheFirstStepEachBlockOfAPileBearsThoseAboveIt) {
+  Scene pile{.name = "pile"};
+  pile.bodies = {ground(0.5)};
+  for (int i = 0; i < 4; ++i) {
+    pile.bodies.push_back(block("b" + std::to_string(i), {0.1 * i, 0.5 + i}, 1, 1, 0.5));
+    pile.bodies.back().mass = 1 + i, pile.bodies.back().inertia = (1 + i) / 6.0;
+  }
+  const Reactions forces = precise(pile).forces();
+  EXPECT_EQ(forces.contacts.size(), 8u);
+  for (std::size_t body = 1; body <= 4; ++body)
+    EXPECT_NEAR(weight_on(forces, body), static_cast<double>(body) * kG, 1e-10) << body;
+}
+
+TEST(PreciseForces, ABodyThatIsPutSomewhereElseHasTheForcesOfThatPlaceAtOnce) {
+  Scene scene{.name = "lifted and put down"};
+  scene.bodies = {ground(0.5), block("block", {0, 3}, 1, 1, 0.5)};
+  Simulation simulation = precise(scene), quiet = precise(scene);
+  simulation.step(3), quiet.step(3);
+  EXPECT_TRUE(simulation.forces().contacts.empty()) << "it falls";
+  for (Simulation* each : {&simulation, &quiet}) each->set_state(1, {.position = {2, 0.5}});
+  EXPECT_NEAR(weight_on(simulation.forces(), 1), scene.bodies[1].mass * kG, 1e-10);
+  const Simulation copy = [&] {
+    Simulation other = precise(scene);
+    other.restore(simulation.save());
+    return other;
+  }();
+  EXPECT_NEAR(weight_on(copy.forces(), 1), scene.bodies[1].mass * kG, 1e-10);
+  EXPECT_EQ(simulation.hash(), quiet.hash());
+  simulation.step(5), quiet.step(5);
+  EXPECT_EQ(simulation.hash(), quiet.hash()) << "asking changed the motion";
+  simulation.set_state(1, {.position = {2, 2}});
+  EXPECT_TRUE(simulation.forces().contacts.empty()) << "it hangs in the air";
+  simulation.step();
+  EXPECT_NEAR(simulation.state(1).position.y, 2 - 0.5 * kG / 3600, 1e-9);
+}
+
+// Forces are continuous where nothing strikes: those at the start are those a microsecond later.
+TEST(PreciseForces, AtTheStartAreThoseOfTheNextInstant) {
+  std::mt19937 random_bits(7);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random_bits()) / 4294967296.0;
+  };
+  const auto chance = [&] { return between(0, 1) < 0.5; };
+  for (int trial = 0; trial < 40; ++trial) {
+    Scene scene{.name = "mixed", .gravity = {between(-3, 3), -kG}};
+    scene.bodies = {ground(between(0, 1))};
+    const int blocks = 1 + trial % 3;
+    for (int i = 0; i < blocks; ++i) {
+      scene.bodies.push_back(block("block" + std::to_string(i), {2.0 * i, 0.5}, 1, 1, between(0, 1)));
+      scene.bodies.back().velocity = {chance() ? 0 : between(-2, 2), 0};
+    }
+    scene.bodies.push_back({.name = "arm", .position = {1, 9}, .mass = between(1, 3), .inertia = 1});
+    RevoluteJoint hinge{"hinge", std::string(kWorld), "arm", {0, 9}, {-1, 0}, false};
+    if (chance()) hinge.limits = Range{0, 1};
+    if (chance()) hinge.motor = Motor{.speed = 0, .max_force = between(1, 60)};
+    scene.joints = {hinge};
+    Simulation simulation = compile(scene, Precise{.tolerance = 1e-9, .max_dt = 1e-6});
+    const Reactions first = simulation.forces();
+    simulation.step();
+    const Reactions next = simulation.forces();
+    ASSERT_EQ(first.contacts.size(), next.contacts.size()) << trial;
+    for (std::size_t i = 0; i < first.contacts.size(); ++i) {
+      EXPECT_NEAR(first.contacts[i].normal_force, next.contacts[i].normal_force, 1e-3) << trial;
+      EXPECT_NEAR(first.contacts[i].tangent_force, next.contacts[i].tangent_force, 1e-3) << trial;
+    }
+    expect_force(first.joints[0].force, next.joints[0].force, 1e-3);
+    EXPECT_NEAR(first.joints[0].torque, next.joints[0].torque, 1e-3) << trial;
+  }
 }
 
 TEST(PreciseForces, FixedStepsSayThatTheyHaveNone) {

@@ -131,6 +131,13 @@ void Contacts::refuse_overlaps(double share) {
           " m, and no law says how they part: place them apart, or filter the pair out; Realtime parts them");
 }
 
+void Contacts::let_go() {
+  held_.clear();
+  equations_.hold_contacts({});
+  stops_.let_go();
+  unsettle();
+}
+
 void Contacts::settle() {
   const double now = smooth_.time();
   const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();

@@ -48,6 +48,10 @@ class Contacts {
     record_.met.reset();
   }
 
+  /// Lets go of all contacts, limits and motors: after bodies were changed from outside, closing joints would
+  /// otherwise draw them back to where they touched before.
+  void let_go();
+
   /// Cuts the last step at its first event, and is then unsettled.
   void stop();
 

@@ -70,6 +70,12 @@ std::vector<Brake> Stops::push(double time, std::span<const double> y, std::span
   return brakes;
 }
 
+void Stops::let_go() {
+  std::fill(modes_.begin(), modes_.end(), Mode::Free);
+  met_.reset();
+  if (!empty()) equations_.hold_stops(modes_);
+}
+
 void Stops::hold(std::size_t limit) { modes_[limit] = Mode::Held; }
 
 void Stops::take(const Brake& brake, int mode) {

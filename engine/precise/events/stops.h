@@ -71,6 +71,9 @@ class Stops {
   };
   Approach approach(std::size_t limit, double time, std::span<const double> y);
 
+  /// Frees limits and motors: after bodies were changed from outside, nothing holds until it is decided anew.
+  void let_go();
+
   /// Takes over the modes of another scene's stops, of the same structure.
   void follow(const Stops& other);
 
