@@ -259,6 +259,21 @@ TEST(SnapshotBytes, SignedDamageIsRefusedOrHarmless) {
   EXPECT_GT(taken, 100);
 }
 
+TYPED_TEST(Snapshot, PlacesFartherThanAnyCallAllowsAreRefused) {
+  BusyWorld<TypeParam> busy = make_busy_world<TypeParam>(16);
+  run(busy, 20);
+  const std::vector<std::byte> sound = save(busy.world);
+  for (const double far : {1e15, 1e100, 1e304, -1.7e308}) {
+    for (const bool sideways : {false, true}) {
+      restore(busy.world, sound);
+      Vec2d& position = busy.world.data().position[busy.pile[0].index];
+      (sideways ? position.x : position.y) = far;
+      BasicWorld<TypeParam> other;
+      EXPECT_THROW(restore(other, save(busy.world)), Error) << far;
+    }
+  }
+}
+
 // The middle box of three has a contact above and one below, of two colours: contacts of one are solved side
 // by side. The world is told that both are of the first, as no run of it leaves them.
 TEST(SnapshotBytes, RefusesContactsOfOneColourThatShareABody) {

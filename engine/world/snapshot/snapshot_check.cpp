@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/encoding/encoding.h"
 #include "engine/world/snapshot/world_members.h"
@@ -28,6 +29,18 @@ bool is_finite(const T& value) {
 template <class T>
 bool all_finite(const std::vector<T>& all) {
   return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
+}
+
+bool is_within_reach(double length) { return std::abs(length) <= kFarthest; }
+
+template <class Real>
+bool is_within_reach(Vec2<Real> v) {
+  return is_within_reach(static_cast<double>(v.x)) && is_within_reach(static_cast<double>(v.y));
+}
+
+template <class Real>
+bool is_within_reach(const Aabb<Real>& box) {
+  return is_within_reach(box.lower) && is_within_reach(box.upper);
 }
 
 // Marks each number once; `mark` returns false for a number out of range or already marked.
@@ -96,8 +109,10 @@ class Check {
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
     require(finite, "state", "holds numbers that are not finite");
     require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
+    require(w_.last_h <= kLargestNumber, "time", "has steps that are longer than a world's");
     require(w_.steps <= kMostSteps, "steps", "are more than a world takes");
     validate(w_.settings);
+    lengths();
   }
 
   bool all_finite_uncommon() const {
@@ -106,6 +121,27 @@ class Check {
       return is_finite(each.gravity_scale) && is_finite(each.linear_damping) &&
              is_finite(each.angular_damping);
     });
+  }
+
+  // Places and sizes obey the limits of the calls that set them: of others, boxes would be infinite a step
+  // later, and the world could be saved but not restored.
+  void lengths() const {
+    const auto all = [](const auto& list, const auto& lengths_of) {
+      return std::all_of(list.begin(), list.end(), lengths_of);
+    };
+    const auto in_reach = [](const auto&... each) { return (is_within_reach(each) && ...); };
+    // The part of a motion that is smaller than the rounding of positions.
+    constexpr double kRounding = kFarthest * std::numeric_limits<double>::epsilon();
+    const auto is_rounding = [](Vec2d v) { return std::abs(v.x) <= kRounding && std::abs(v.y) <= kRounding; };
+    const bool bodies = all(std::get<0>(w_.position_compensation.parts()), is_rounding) &&
+                        all(w_.position, in_reach) && all(w_.extents, in_reach) &&
+                        all(std::get<0>(w_.bodies.parts()),
+                            [&](const BodyRecord<Real>& each) { return in_reach(each.angle, each.centre); });
+    require(bodies, "bodies", "are farther off or larger than calls and steps allow");
+    const bool shapes =
+        all(w_.forms, [&](const ShapeForm<Real>& each) { return in_reach(each.radius, each.extent); }) &&
+        all(std::get<0>(w_.corners.parts()), [&](const Corner<Real>& each) { return in_reach(each.point); });
+    require(shapes, "shapes", "are larger than calls allow");
   }
 
   // A slot is free and listed once, or in use.
@@ -140,7 +176,7 @@ class Check {
             "are not as many everywhere");
   }
 
-  // Each entry belongs to one body.
+  // Each entry belongs to one body, with numbers that a call may set.
   void uncommon() const {
     Marks taken(w_.uncommon.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
@@ -149,6 +185,11 @@ class Check {
               "bodies", "share what is their own");
     }
     require(taken.count() == w_.uncommon.count(), "bodies", "have not all that is their own");
+    for (const BodyExtras<Real>& each : std::get<0>(w_.uncommon.parts()))
+      validate(BodyDefinition{.name = "snapshot",
+                              .gravity_scale = each.gravity_scale,
+                              .linear_damping = each.linear_damping,
+                              .angular_damping = each.angular_damping});
   }
 
   // Each body's list ends, and every shape is in the list of its body.
@@ -200,6 +241,8 @@ class Check {
     const ShapeRecord<Real>& record = w_.shapes[shape];
     const ShapeForm<Real>& form = w_.forms[shape];
     require(form.radius >= 0 && form.extent >= 0, "shapes", "are of negative size");
+    validate("snapshot",
+             Material{record.friction, record.restitution, record.rolling_resistance, record.surface_speed});
     require(form.chain == (record.chain != kNone), "chains", "have segments that are none");
     require(!form.chain || (record.chain >= 0 && record.chain < w_.chains.size() &&
                             w_.chains.used(record.chain) && w_.chains[record.chain].body == record.body),
@@ -208,6 +251,7 @@ class Check {
     const DynamicTree<Real>& tree =
         w_.bodies[record.body].type == BodyType::Static ? w_.static_tree : w_.dynamic_tree;
     require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
+    require(is_within_reach(tree.box(record.proxy)), "boxes", "are farther off than calls and steps allow");
   }
 
   bool is_out(const ShapeRecord<Real>& record) const {

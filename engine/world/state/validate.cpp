@@ -33,13 +33,6 @@ void require_share(const std::string& subject, const std::string& field, double 
 
 constexpr int kCombineRules = 5, kBodyTypes = 3;
 
-void check(const std::string& subject, const Material& material) {
-  require_not_negative(subject, "friction", material.friction);
-  require_share(subject, "restitution", material.restitution);
-  require_not_negative(subject, "rolling_resistance", material.rolling_resistance);
-  require_finite(subject, "surface_speed", material.surface_speed);
-}
-
 std::string point_field(std::size_t index) { return "points[" + std::to_string(index) + "]"; }
 
 // Builds the field's name only for errors, because chains may have 100,000 points.
@@ -157,7 +150,7 @@ void validate(const ShapeDefinition& definition) {
   if (definition.density != 0 &&
       !(definition.density >= kSmallestNumber && definition.density <= kLargestNumber))
     refuse(subject, "density", definition.density, "must be 0 or a number from 1e-12 to 1e12");
-  check(subject, definition.material);
+  validate(subject, definition.material);
 }
 
 void validate(const ChainDefinition& definition) {
@@ -178,7 +171,7 @@ void validate(const ChainDefinition& definition) {
                   "must be apart from the point before it");
     }
   }
-  check(subject, definition.material);
+  validate(subject, definition.material);
 }
 
 void validate(const JointDefinition& definition) {
@@ -187,6 +180,13 @@ void validate(const JointDefinition& definition) {
   require_not_negative("joint", "report_force", definition.report_force);
   require_not_negative("joint", "report_torque", definition.report_torque);
   require_not_negative("joint", "break_torque", definition.break_torque);
+}
+
+void validate(const std::string& subject, const Material& material) {
+  require_not_negative(subject, "friction", material.friction);
+  require_share(subject, "restitution", material.restitution);
+  require_not_negative(subject, "rolling_resistance", material.rolling_resistance);
+  require_finite(subject, "surface_speed", material.surface_speed);
 }
 
 void validate(BodyType type) { require_one_of("body", "type", type, kBodyTypes); }

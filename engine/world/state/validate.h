@@ -18,6 +18,7 @@ void validate(const ShapeDefinition& definition);
 void validate(const ChainDefinition& definition);
 void validate(const JointDefinition& definition);
 void validate(BodyType type);
+void validate(const std::string& subject, const Material& material);
 
 /// Checks a shape that gives a dynamic body mass by its density: throws Error (Value) if float cannot hold
 /// mass, inertia and their reciprocals. Double can, for all valid input.
@@ -39,6 +40,10 @@ void require_place(const std::string& subject, const std::string& field, Vec2d v
 /// Limits beyond which squares and cubes of a float would not be finite.
 inline constexpr double kLargestNumber = 1e12;
 inline constexpr double kSmallestNumber = 1e-12;
+/// m or rad: farther from the origin, or larger, is nothing that valid calls and steps lead to. Both a
+/// position within 1e12 m and the arms of shapes and centres of mass, of a few 1e12 m, may add up. Squares
+/// fit into a float, and boxes that grow from there stay finite.
+inline constexpr double kFarthest = 100 * kLargestNumber;
 /// A box of 1e-6 m and 1e-12 kg has 1e-25 kg m^2. Inverses, and their products with levers of the body's
 /// size, fit into a float.
 inline constexpr double kSmallestInertia = 1e-30;
