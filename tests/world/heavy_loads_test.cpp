@@ -31,10 +31,21 @@ double energy_of(const BasicWorld<Real>& world, const std::vector<BodyId>& bodie
 
 enum class Chain { LimitedHinges, RodsAndHinges, Ropes };
 
+constexpr double kLink = 0.3;  // m
+
+// Returns joint `i` of a chain, of links whose centres are `distance` apart and that are turned by `turn`.
+JointKind joint_of(Chain chain, int i, double distance, double turn) {
+  const Vec2d end{i == 0 ? 0 : kLink / 2, 0}, start{-kLink / 2, 0};
+  if (chain == Chain::Ropes) return DistanceDefinition{.length = distance, .range = Range{0, distance}};
+  if (chain == Chain::RodsAndHinges && i % 2 == 1) return DistanceDefinition{.length = distance};
+  if (chain == Chain::RodsAndHinges) return RevoluteDefinition{.anchor_a = end, .anchor_b = start};
+  return RevoluteDefinition{
+      .anchor_a = end, .anchor_b = start, .reference_angle = turn, .limits = Range{-1.2, 1.2}};
+}
+
 // Links of 0.3 m and 1 kg, the last one heavy, that swing from a pin. Light links whip: they turn by more
 // than a radian in a substep.
 TYPED_TEST(HeavyLoads, ChainsHoldAHeavyTip) {
-  constexpr double kLink = 0.3;
   std::mt19937_64 random(7);
   const auto draw = [&](double a, double b) { return a + (b - a) * double(random() >> 11) * 0x1p-53; };
   for (const Chain chain : {Chain::LimitedHinges, Chain::RodsAndHinges, Chain::Ropes}) {
@@ -56,12 +67,7 @@ TYPED_TEST(HeavyLoads, ChainsHoldAHeavyTip) {
                                                .angular_velocity = spin,
                                                .mass = MassProperties{m, {}, m * kLink * kLink / 12}});
         const double distance = length(centre - before);
-        RevoluteDefinition hinge{.anchor_a = {i == 0 ? 0 : kLink / 2, 0}, .anchor_b = {-kLink / 2, 0}};
-        if (chain == Chain::LimitedHinges)
-          hinge.limits = Range{-1.2, 1.2}, hinge.reference_angle = angle - last_angle;
-        JointKind kind = hinge;
-        if (chain == Chain::RodsAndHinges && i % 2 == 1) kind = DistanceDefinition{.length = distance};
-        if (chain == Chain::Ropes) kind = DistanceDefinition{.length = distance, .range = Range{0, distance}};
+        const JointKind kind = joint_of(chain, i, distance, angle - last_angle);
         joints.push_back(world.create_joint(last, link, {.kind = kind}));
         bodies.push_back(link), last = link, before = centre, last_angle = angle;
         at = at + 2. * half, mass += m;
