@@ -439,7 +439,7 @@ void BoundedRows::correct(double softening) {
   bool overrun = true;
   for (int round = 0; overrun && round < kRounds; ++round) {
     factorise();
-    find_shifts(static_cast<int>(rows.size()), shifts);
+    find_shifts();
     overrun = false;
     for (BoundedRow& row : rows) {
       if (row.state == BoundedRow::kFree || !(row.upper > 0)) continue;
@@ -453,18 +453,19 @@ void BoundedRows::correct(double softening) {
   }
 }
 
-void BoundedRows::find_shifts(int count, std::pmr::vector<Shift>& out) {
-  out.assign(bodies.size(), {});
+// Finds the shifts that close the gaps of the free rows.
+void BoundedRows::find_shifts() {
+  shifts.assign(bodies.size(), {});
   x_.resize(free_.size());
-  for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = free_[k] < count ? -rows[free_[k]].gap : 0;
+  for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;
   matrix_.solve(x_.data());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const BoundedRow& row = rows[free_[k]];
     const auto add = [&](int body, Vec2d linear, double angular) {
       const BoundedBody& b = bodies[body];
-      out[body].way.x += b.inverse_mass.x * linear.x * x_[k];
-      out[body].way.y += b.inverse_mass.y * linear.y * x_[k];
-      out[body].turn += b.inverse_inertia * angular * x_[k];
+      shifts[body].way.x += b.inverse_mass.x * linear.x * x_[k];
+      shifts[body].way.y += b.inverse_mass.y * linear.y * x_[k];
+      shifts[body].turn += b.inverse_inertia * angular * x_[k];
     };
     add(row.a, row.linear_a, row.angular_a);
     add(row.b, row.linear_b, row.angular_b);

@@ -94,9 +94,6 @@ class BoundedRows {
     double turn = 0;  ///< rad
   };
   std::pmr::vector<Shift> shifts;  ///< by body, set by `correct`
-  /// Finds the shifts that close the gaps of the free ones of the first `count` rows and no others, after
-  /// `correct`.
-  void find_shifts(int count, std::pmr::vector<Shift>& out);
 
  private:
   // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
@@ -120,6 +117,7 @@ class BoundedRows {
   void factorise();
   void gather_free(int from);
   void find_free();
+  void find_shifts();
   bool refine();
   void apply_all();
   double residual(int row) const;

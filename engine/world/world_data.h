@@ -270,7 +270,6 @@ struct JointedIsland {
         last(room),
         allowed(room),
         starts(room),
-        lifts(room),
         bodies(room),
         system(room) {}
 
@@ -281,12 +280,11 @@ struct JointedIsland {
   std::pmr::vector<int> sizes;
   std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
   std::pmr::vector<FrictionCone<Real>> cones;
-  std::pmr::vector<double> impulses;           ///< N s, of the rows in this substep
-  std::pmr::vector<LastImpulses> last;         ///< by contact, of the last step
-  std::pmr::vector<double> allowed;            ///< m or rad, gaps of the rows: joint_gaps.cpp
-  std::pmr::vector<JointedLink> starts;        ///< of a substep that is divided
-  std::pmr::vector<BoundedRows::Shift> lifts;  ///< by which joints close
-  std::pmr::vector<BoundedBody> bodies;        ///< with their own masses, while gaps are closed
+  std::pmr::vector<double> impulses;     ///< N s, of the rows in this substep
+  std::pmr::vector<LastImpulses> last;   ///< by contact, of the last step
+  std::pmr::vector<double> allowed;      ///< m or rad, gaps of the rows: joint_gaps.cpp
+  std::pmr::vector<JointedLink> starts;  ///< of a substep that is divided
+  std::pmr::vector<BoundedBody> bodies;  ///< with their own masses, while gaps are closed
   BoundedRows system;
   int root = kNone;     ///< body that represents it
   int contact_row = 0;  ///< first row of a contact
