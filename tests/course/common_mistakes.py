@@ -421,7 +421,7 @@ def outcome(plumb, warm, starters, mistake):
                     continue
                 if result["mistake"]:
                     return result["mistake"], result["says"]
-                # Where two give one motion, both are described and none is named.
+                # Accepts both descriptions: two mistakes give the same motion, so check names neither.
                 both = [name for name in accepted if f" {name}: " in result["says"]]
                 if both:
                     return both[0], result["says"]

@@ -79,8 +79,6 @@ MUTATIONS = [
              "drift > 1) move_in_parts", "drift > 1e30) move_in_parts", "world", ("world/heavy_loads",)),
     Mutation("world: light bodies move far to spare heavy ones", "engine/world/islands/jointed_islands.cpp",
              "constexpr double kMostRatio = 10;", "constexpr double kMostRatio = 1e30;", "world", ("world/heavy_loads",)),
-    Mutation("world: closing joints lifts loads for nothing", "engine/world/islands/jointed_islands.cpp",
-             "if (!(work < 0 && along < 0)) return;", "return;", "world", ("world/heavy_loads",)),
     Mutation("world: a body falls asleep while its joint closes", "engine/world/state/sleeping.h",
              "moves(motion.moved, motion.turned) <= slow * dt", "true", "world", ("world/waking",)),
     Mutation("closing gaps overruns open limits", "engine/linear_algebra/bounded_rows.cpp",
