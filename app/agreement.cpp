@@ -21,6 +21,7 @@ struct AgreementOptions {
 
 int start_agreement(const AgreementOptions& options) {
   std::vector<harness::Result> rows = harness::sweep::read_rows(options.folder);
+  harness::sweep::require_rows(rows, options.folder);
   if (!options.without.empty())
     std::erase_if(rows,
                   [&](const harness::Result& row) { return harness::matches(options.without, row.engine); });

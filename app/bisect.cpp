@@ -175,7 +175,8 @@ void add_bisect(CLI::App& app, Action& chosen) {
       ->type_name("T");
   add_size(*command, options->size);
   command->footer(
-      "Examples:\n  plumb bisect cradle_energy rapier\n  plumb bisect my_case.json rapier --from 0.17.3 --to "
+      "Examples:\n  plumb bisect elastic_collision/cradle rapier\n  plumb bisect my_case.json rapier --from "
+      "0.17.3 --to "
       "0.21.0\nExit codes: 0 found, 1 no version introduced a miss, 2 usage, 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_bisect(*options); }; });
 }

@@ -191,7 +191,7 @@ void add_compare(CLI::App& app, Action& chosen) {
   command->add_flag("--no-report", options->no_report,
                     "write only results.jsonl; `plumb report` writes the report");
   command->footer(
-      "Examples:\n  plumb compare\n  plumb compare free_fall pendulum_chain --size 20 --engine plumb,box2d\n"
+      "Examples:\n  plumb compare\n  plumb compare free_fall pendulum_chain[20] --engine plumb,box2d\n"
       "  plumb compare elastic_collision/oblique --dt 1/240 --format json --out /tmp/oblique\n"
       "  plumb compare free_fall --engine plumb --engine-command mine='python3 my_engine.py'\n"
       "  plumb compare my_case.json --junit report.xml\n"

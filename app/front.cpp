@@ -23,6 +23,7 @@ struct FrontOptions {
 
 int start_front(const FrontOptions& options) {
   const std::vector<harness::Result> rows = sweep::read_rows(options.folder, options.machine);
+  sweep::require_rows(rows, options.folder);
   const harness::MetricField* metric = options.metric.empty() ? nullptr : &metric_by_name(options.metric);
   if (options.format != "console") {
     print(sweep::trade_data(rows, metric, options.format));

@@ -185,17 +185,17 @@ void add_hunt(CLI::App& app, Action& chosen) {
       ->type_name("FAMILY|CASE");
   options->engines.add_to(*command);
   command->add_option("--seed", options->seed, "seed of the random scenes (default 1)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number(0))
       ->type_name("N");
   command->add_option("--minutes", options->minutes, "duration of the hunt, min (default 10)")
       ->type_name("T");
   command->add_option("--scenes", options->scenes, "stop after this number of scenes")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1))
       ->type_name("N");
   command
       ->add_option("--shrinks", options->shrinks,
                    "number of findings of a judge, engine and family that are shrunk (default 3)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number(0, 1'000'000))
       ->type_name("N");
   command->add_option("--jobs", options->jobs, "number of processes (default: one per core)")
       ->check(CLI::Range(1, 1024))
@@ -211,12 +211,15 @@ void add_hunt(CLI::App& app, Action& chosen) {
       ->type_name("FILE");
   command->add_flag("--list", options->list, "list the parts of which scenes are composed");
   command->add_option("--draw", options->draw, "print the scene with this number, from 0, without running it")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number(0))
       ->type_name("N");
   command->footer(
-      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-float,box2d --seed 7\n  "
-      "plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500\n  plumb hunt my_case.json "
-      "museum --minutes 5\n  plumb hunt --replay hunt/findings/001-energy.json\nThe same seed gives the same "
+      "Examples:\n  plumb hunt --minutes 5\n  plumb hunt star wall --engine plumb-float,box2d --seed 7 --out "
+      "walls\n  "
+      "plumb hunt --engine-command \"mine=python3 my_engine.py\" --scenes 500 --out mine\n  plumb hunt "
+      "my_case.json "
+      "museum --minutes 5 --out varied\n  plumb hunt --replay hunt/findings/001-energy.json\nThe same seed "
+      "gives the same "
       "scenes on every machine. If it is stopped, at most the scenes that run are lost;\nthe same command "
       "continues. See docs/hunting.md. Exit codes: 0 nothing was found; 1 something\nwas; 2 usage; 130 "
       "interrupted.");

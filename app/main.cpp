@@ -58,7 +58,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
+    return say(app, success);
   } catch (const CLI::ExtrasError& error) {
     const std::string unknown = unknown_option(app);
     throw UsageError(unknown.empty() ? error.what() : unknown);
@@ -67,6 +67,7 @@ int parse_and_run(CLI::App& app, Action& action, int argc, char** argv) {
     for (const CLI::App* command : app.get_subcommands()) where += " " + command->get_name();
     throw UsageError(fmt::format("{}; see `{} --help`", error.what(), where));
   }
+  for (const CLI::App* command : app.get_subcommands()) refuse_empty_values(*command);
   return action ? action() : kUsage;
 }
 

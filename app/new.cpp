@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -10,7 +9,7 @@
 #include "app/new_scenario_text.h"
 #include "app/output.h"
 #include "app/usage.h"
-#include "engine/scene/error.h"
+#include "harness/text_file.h"
 
 namespace plumb::app {
 namespace {
@@ -34,10 +33,7 @@ void write_scenario(const std::string& name, const std::string& folder) {
     throw UsageError(fmt::format(
         "there is no folder '{}'; run this in a checkout, or give a folder with --folder", folder));
   if (std::filesystem::exists(path)) throw UsageError(fmt::format("'{}' exists already", path.string()));
-  std::ofstream file(path);
-  file << text;
-  file.flush();
-  if (!file) throw Error(Error::Kind::Io, "file", "", path.string(), "cannot be written");
+  harness::write_whole(path.string(), text);
   print(fmt::format("{}: build, then `plumb compare {}`; see docs/adding-a-scenario.md\n", path.string(),
                     name));
 }

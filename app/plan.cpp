@@ -80,6 +80,7 @@ Given parse(std::vector<std::string> words) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("{}; see `plumb {} --help`", error.what(), command));
   }
+  refuse_empty_values(*parsed);
   Given out{.command = command, .names = {}, .options = {}};
   for (const CLI::Option* option : parsed->get_options()) {
     if (option->count() == 0) continue;
@@ -374,8 +375,11 @@ class Splitter {
         counted ? kScene * std::stod(given_.value("scenes", "0")) * static_cast<double>(engines_.size())
                 : 60 * (given_.has("minutes") ? parse_positive("--minutes", given_.value("minutes", ""))
                                               : kMinutes);
-    const long first = std::stol(given_.value("seed", "1"));
-    for (long seed = first; seed < first + options_.seeds; ++seed) {
+    const std::int64_t first = std::stoll(given_.value("seed", "1"));
+    if (first > std::numeric_limits<std::int64_t>::max() - options_.seeds)
+      throw UsageError(fmt::format("--seed is '{}': give one that leaves room for the seeds of {} units",
+                                   first, options_.seeds));
+    for (std::int64_t seed = first; seed < first + options_.seeds; ++seed) {
       cluster::Unit unit{.number = 0, .arguments = {"hunt"}, .seconds = seconds, .measured = !counted};
       unit.arguments.insert(unit.arguments.end(), given_.names.begin(), given_.names.end());
       for (const std::string& word : shared("")) unit.arguments.push_back(word);
@@ -476,7 +480,7 @@ void add_plan(CLI::App& app, Action& chosen) {
                     "costs of a sweep whose fronts are found, and units that were disturbed");
   command->prefix_command();
   command->footer(
-      "Examples:\n  plumb plan work compare\n  plumb plan work --unit-seconds 30 stress --cell-seconds 60\n  "
+      "Examples:\n  plumb plan work compare\n  plumb plan work --unit-seconds 30 stress --timeout 60\n  "
       "plumb plan work --seeds 100 hunt --minutes 30\n  plumb plan work --next\nAfter the folder and the "
       "options of plan, give a command as for plumb itself: compare, sweep,\nstress, thresholds, hunt or "
       "reality. See docs/cluster.md. Exit codes: 0 planned, 2 usage, 3 --next: no further units.");

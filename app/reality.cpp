@@ -31,15 +31,8 @@ struct RealityOptions {
   bool published = false;
 };
 
-void make_folder(const std::string& folder) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code)
-    throw Error(Error::Kind::Io, fmt::format("'{}'", folder), "", "", "cannot be made: " + code.message());
-}
-
 void write_files(const std::string& folder, const reality::Findings& findings) {
-  make_folder(folder);
+  harness::make_folder(folder);
   const std::filesystem::path path(folder);
   harness::write_whole((path / "reality.html").string(), reality::page_of(findings));
   harness::write_whole((path / "ellipse.svg").string(), reality::ellipse_picture(findings));
@@ -53,7 +46,7 @@ int run_published(const std::vector<const reference::Backend*>& engines, const R
   const std::vector<reality::PublishedFinding> findings =
       reality::examine_published(reality::published_laws(), engines);
   if (!options.out.empty() && !harness::interrupted()) {
-    make_folder(options.out);
+    harness::make_folder(options.out);
     harness::write_whole((std::filesystem::path(options.out) / "published.json").string(),
                          reality::published_json(findings));
   }
@@ -118,7 +111,7 @@ void add_reality(CLI::App& app, Action& chosen) {
   command->add_option("--format", options->format, "console, json or csv")
       ->check(CLI::IsMember({"console", "json", "csv"}));
   command->add_option("--seed", options->seed, "seed of the random halves (default 1)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");
   command->add_flag("--published", options->published,
                     "compare with published laws instead, which need no measurements: bouncing balls, column "

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/error.h"
+#include "harness/text_file.h"
 
 namespace plumb::app {
 namespace {
@@ -35,11 +36,7 @@ void end_last_line(const std::string& path) {
 
 ResultLog::ResultLog(const std::string& folder)
     : path_((std::filesystem::path(folder) / "results.jsonl").string()) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code)
-    throw Error(Error::Kind::Io, fmt::format("folder '{}'", folder), "", "",
-                fmt::format("cannot be created: {}; choose another with --out", code.message()));
+  harness::make_folder(folder);
   end_last_line(path_);
   file_.reset(std::fopen(path_.c_str(), "a"));
   if (!file_)

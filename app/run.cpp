@@ -159,7 +159,8 @@ int start_run(RunOptions options) {
     throw UsageError(fmt::format("engine '{}' is not installed: {}", options.engine, identity.reason));
   const reference::StepSettings settings = options.settings.settings(backend);
   if (const std::string reason = backend.unsupported(source.scene, settings); !reason.empty())
-    throw Error(Error::Kind::Unsupported, fmt::format("engine '{}'", options.engine), "", "", reason);
+    throw Error(Error::Kind::Unsupported, fmt::format("engine '{}'", options.engine), "", "",
+                with_alternative(reason, source.scene));
   const int every = steps_a_sample(options.rate, settings.dt);
   const double duration =
       options.duration.empty() ? source.duration : parse_positive("--duration", options.duration);

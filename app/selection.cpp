@@ -9,6 +9,7 @@
 #include "app/command_line.h"
 #include "app/usage.h"
 #include "harness/case_file/case_file.h"
+#include "harness/text_file.h"
 #include "reference/guests.h"
 #include "reference/process_backend.h"
 
@@ -65,6 +66,14 @@ const reference::Backend& one_engine(const std::string& name,
   return reference::find_backend(name.empty() ? "plumb" : name);
 }
 
+std::string with_alternative(const std::string& reason, const Scene& scene) {
+  if (reason.find("'plumb") != std::string::npos) return reason;
+  for (const char* name : {"plumb", "plumb-precise"})
+    if (reference::find_backend(name).unsupported(scene, {}).empty())
+      return fmt::format("{}; '{}' runs it", reason, name);
+  return reason;
+}
+
 namespace {
 
 /// Returns true if --engine-command defines the engine.
@@ -77,6 +86,8 @@ bool is_given(const std::vector<std::string>& commands, const std::string& name)
 
 std::vector<std::string> case_files(const std::string& name) {
   if (harness::case_file::is_case(name)) return {name};
+  // Says why a case file cannot be read, instead of taking its name for that of a scenario or family.
+  if (name.ends_with(".json")) harness::read_text(name);
   return harness::case_file::cases_in(name);
 }
 

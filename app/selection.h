@@ -32,6 +32,10 @@ std::vector<std::unique_ptr<reference::Backend>> programs_of(const std::vector<s
 const reference::Backend& one_engine(const std::string& name,
                                      const std::vector<std::unique_ptr<reference::Backend>>& programs);
 
+/// Adds to the reason for which an engine refuses a scene the first engine of plumb's own that runs it,
+/// unless the reason names one or there is none.
+std::string with_alternative(const std::string& reason, const Scene& scene);
+
 /// Returns the case files that `name` means: itself, or those in the folder; empty if it means none.
 std::vector<std::string> case_files(const std::string& name);
 

@@ -147,8 +147,9 @@ void add_stress(CLI::App& app, Action& chosen) {
   command->add_option("--cell-seconds", options->cell_seconds)->group("");
   command->footer(
       "Examples:\n  plumb stress --quick\n  plumb stress mass_ratio_stack stack_height --engine "
-      "plumb-float,box2d\n  plumb stress --list\n  plumb stress bullet_circle --engine-command "
-      "\"mine=python3 my_engine.py\"\nEach cell runs in its own process. If it is stopped, at most the cells "
+      "plumb-float,box2d --out tall\n  plumb stress --list\n  plumb stress bullet_circle --engine-command "
+      "\"mine=python3 my_engine.py\" --out mine\nEach cell runs in its own process. If it is stopped, at "
+      "most the cells "
       "that run are lost; the same command\ncontinues. See docs/stress.md. Exit codes: 0 done, whatever the "
       "outcomes; 2 usage; 130\ninterrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_stress(*options); }; });

@@ -165,12 +165,12 @@ void add_submit(CLI::App& app, Action& chosen) {
   command
       ->add_option("--nodes", options->nodes,
                    "slurm: number of units at the same time (default: as many as the queue allows)")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
       ->type_name("N");
   command->add_option("--partition", options->partition, "slurm: partition (default: the cluster's)")
       ->type_name("NAME");
   command->add_option("--memory", options->memory, "slurm: memory of a unit in megabytes (default 4096)")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
       ->type_name("MB");
   command
       ->add_option(

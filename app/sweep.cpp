@@ -196,7 +196,7 @@ void add_sweep(CLI::App& app, Action& chosen) {
   command->footer(
       "Examples:\n  plumb sweep free_fall off_centre_torque elastic_collision pendulum_chain\n  plumb sweep "
       "pendulum_chain --size 20 --engine plumb,box2d --budget 60 --out chain\n  plumb sweep "
-      "my_scene.json\nIf it is stopped, at most the run in progress is lost; the same command "
+      "my_scene.json --out mine\nIf it is stopped, at most the run in progress is lost; the same command "
       "continues.\nSee docs/trade.md. Exit codes: 0 done, 2 usage, 130 interrupted.");
   command->callback([&chosen, options] { chosen = [options] { return start_sweep(*options); }; });
 }

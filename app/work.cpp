@@ -100,7 +100,7 @@ void add_work(CLI::App& app, Action& chosen) {
   command
       ->add_option("--unit", options->unit,
                    "run this unit even if another process claims it; finished units are not run again")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
       ->type_name("K");
   command->add_flag("--next", options->next, "run the longest free unit");
   command->add_flag("--all", options->all, "run one unit after the other until none is left");
@@ -109,7 +109,7 @@ void add_work(CLI::App& app, Action& chosen) {
       ->type_name("NAME");
   command
       ->add_option("--attempts", options->attempts, "skip a unit after this number of failures (default 3)")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
       ->type_name("N");
   command
       ->add_option("--expiry", options->expiry,

@@ -61,6 +61,14 @@ std::string read_text(std::istream& in, const std::string& subject) {
   return text;
 }
 
+void make_folder(const std::string& folder, const char* advice) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code)
+    fail(fmt::format("folder '{}'", folder),
+         fmt::format("cannot be created: {}; {}", code.message(), advice));
+}
+
 void write_whole(const std::string& path, const std::string& text) {
   std::error_code code;
   const std::filesystem::file_status there = std::filesystem::status(path, code);

@@ -67,7 +67,7 @@ void add_options(CLI::App& command, Given& given) {
   command
       .add_option("--measure-frames", given.frames, "draw this number of frames and print the time they took")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1'000'000));
 }
 
 window::Options options_of(const Given& given) {
@@ -273,14 +273,17 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    return reporting_errors([&] { return say(app, success); });
   } catch (const CLI::ParseError& error) {
     return reporting_errors([&]() -> int {
       const std::string where = argc > 1 ? fmt::format("plumb {}", argv[1]) : "plumb";
       throw UsageError(fmt::format("{}; see `{} --help`", error.what(), where));
     });
   }
-  return reporting_errors([&] { return view->parsed() ? run_view(given) : run_demo(given); });
+  return reporting_errors([&] {
+    for (const CLI::App* command : app.get_subcommands()) refuse_empty_values(*command);
+    return view->parsed() ? run_view(given) : run_demo(given);
+  });
 }
 
 }  // namespace

@@ -17,6 +17,10 @@ void require_positive(double value, const char* driver, const char* field, const
               std::string("must be a positive number") + unit + ", from 1e-100 to 1e100");
 }
 
+/// s: limits of a world's step (`World::step`). Checked here as well, so that a run is refused before it
+/// starts.
+constexpr double kShortestStep = 1e-12, kLongestStep = 1e12;
+
 /// Smallest tolerance of Precise: a step's error is limited to a thousandth of it, which is below rounding
 /// for tolerances below 1e-15.
 constexpr double kLeastTolerance = 1e-12;
@@ -79,17 +83,19 @@ std::string_view name_of(MotionMethod method) {
 
 void validate(const Accuracy& accuracy) {
   if (const auto* precise = std::get_if<Precise>(&accuracy)) {
-    require_positive(precise->tolerance, "precise", "tolerance", "");
-    if (precise->tolerance < kLeastTolerance)
+    if (!(precise->tolerance >= kLeastTolerance && precise->tolerance <= kLargest))
       throw Error(Error::Kind::Value, "precise", "tolerance", shortest(precise->tolerance),
-                  "must be 1e-12 or more: further down a step's error cannot be told from rounding");
+                  "must be a number from 1e-12 to 1e100: further down a step's error cannot be told from "
+                  "rounding");
     require_positive(precise->max_dt, "precise", "max_dt", " of seconds");
     require_known(static_cast<int>(precise->method), static_cast<int>(MotionMethod::Symplectic), "method",
                   "precise");
     return;
   }
   const Realtime& realtime = std::get<Realtime>(accuracy);
-  require_positive(realtime.dt, "realtime", "dt", " of seconds");
+  if (!(realtime.dt >= kShortestStep && realtime.dt <= kLongestStep))
+    throw Error(Error::Kind::Value, "realtime", "dt", shortest(realtime.dt),
+                "must be a positive number of seconds, from 1e-12 to 1e12");
   require_at_least_one(realtime.substeps, "substeps");
   require_at_least_one(realtime.iterations, "iterations");
   require_at_least_one(realtime.threads, "threads", Crew::kMostThreads);

@@ -76,13 +76,8 @@ class Lock {
 };
 
 void make_folders(const std::string& folder) {
-  for (const char* part : {"claims", "doing", "done", "failed"}) {
-    std::error_code code;
-    fs::create_directories(fs::path(folder) / part, code);
-    if (code)
-      throw Error(Error::Kind::Io, fmt::format("folder '{}'", folder), "", "",
-                  fmt::format("cannot be created: {}; choose another", code.message()));
-  }
+  for (const char* part : {"claims", "doing", "done", "failed"})
+    make_folder((fs::path(folder) / part).string(), "choose another");
 }
 
 std::vector<Unit> units_in(const std::string& path) {

@@ -23,8 +23,7 @@ std::string second_engine(const Finding& finding) {
 }  // namespace
 
 void write_finding(const Finding& finding, const std::string& folder, const std::string& name) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
+  make_folder(folder);
   const std::string path = folder + "/" + name;
   write_whole(path + ".json", to_json(finding) + "\n");
   // A crash has no motion to draw.

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "engine/scene/error.h"
+#include "harness/text_file.h"
 
 namespace plumb::harness::sweep {
 
@@ -26,9 +27,8 @@ void Journal::fail(std::string_view what) const {
 }
 
 Journal::Journal(const std::string& path) : path_(path) {
-  std::error_code code;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder, code);
+  if (!folder.empty()) make_folder(folder.string());
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) fail("cannot be written");
   // The children of a killed process release the lock a moment later.

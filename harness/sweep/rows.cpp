@@ -152,6 +152,12 @@ std::vector<Result> read_rows(const std::string& folder_or_file, const std::stri
   return rows;
 }
 
+void require_rows(const std::vector<Result>& rows, const std::string& folder_or_file) {
+  if (!rows.empty()) return;
+  throw Error(Error::Kind::Value, fmt::format("'{}'", folder_or_file), "", "",
+              "has no results: `plumb compare --out DIR` or `plumb sweep --out DIR` writes some");
+}
+
 bool holds_rows(const std::string& folder_or_file) {
   std::error_code code;
   return std::filesystem::is_regular_file(file_of(folder_or_file), code);

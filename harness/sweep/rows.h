@@ -39,6 +39,9 @@ void for_each_row(const std::string& folder_or_file, const std::function<void(Re
 /// line. Throws `Error` (Io, Syntax) that names file and line.
 std::vector<Result> read_all_costs(const std::string& folder_or_file);
 
+/// Throws `Error` (Value) if there are no rows: tables of nothing would look like a result.
+void require_rows(const std::vector<Result>& rows, const std::string& folder_or_file);
+
 /// Reads the same, with the costs of one kind of machine a scene.
 std::vector<Result> read_rows(const std::string& folder_or_file, const std::string& machine = "");
 

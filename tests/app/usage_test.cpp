@@ -1,8 +1,11 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 
 #include "tests/app/program.h"
 
@@ -25,6 +28,48 @@ TEST(Usage, HelpAndVersion) {
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.substr(0, 6), "plumb ");
   EXPECT_EQ(plumb({}).code, 2);
+}
+
+TEST(Usage, AFullMediumIsAnErrorForEveryKindOfOutput) {
+  for (const char* arguments : {"--version", "--help", "list", "run --help"}) {
+    const std::string command = "\"" PLUMB_PROGRAM "\" " + std::string(arguments) + " >/dev/full 2>/dev/null";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << arguments;
+  }
+}
+
+// Runs the examples of each --help for half a second, as a shell does, in one folder for each subcommand: an
+// error of usage, or of a folder that another example uses, comes at once. Their files need not exist.
+TEST(Usage, ExamplesInHelpTextsRunAsPrinted) {
+  const std::string bin = std::filesystem::path(PLUMB_PROGRAM).parent_path().string();
+  int examples = 0;
+  for (const std::string& line : lines_of(plumb({"--help"}).out)) {
+    // The names of subcommands are indented by two, their descriptions by more.
+    if (line.size() < 3 || line.substr(0, 2) != "  " || line[2] < 'a' || line[2] > 'z') continue;
+    const std::string name = line.substr(2, line.find(' ', 2) - 2);
+    if (name == "plumb" || name == "bench" || name == "demo" || name == "view") continue;
+    const Folder folder;
+    for (const std::string& text : lines_of(plumb({name, "--help"}).out)) {
+      if (text.substr(0, 8) != "  plumb ") continue;
+      ++examples;
+      for (const char* needed : {"docs", "results-before", "results-after"})
+        std::filesystem::create_directories(folder.path() + "/" + needed);
+      for (const char* results : {"results-before/results.jsonl", "results-after/results.jsonl"})
+        folder.write(results, "");
+      folder.write("example.sh", text);
+      const std::string command = "cd " + folder.path() + " && PATH=" + bin +
+                                  ":$PATH timeout -s KILL 0.5 sh example.sh >/dev/null 2>err </dev/null";
+      const int status = std::system(command.c_str());
+      if (WEXITSTATUS(status) != 2) continue;
+      const std::string said = folder.read("err");
+      bool excused = false;
+      for (const char* missing : {"No such file", "File does not exist", "there is no folder",
+                                  "cannot be read", "give a folder", "has neither"})
+        excused = excused || said.find(missing) != std::string::npos;
+      EXPECT_TRUE(excused) << text << "\n" << said;
+    }
+  }
+  EXPECT_GT(examples, 30);
 }
 
 struct Bad {
@@ -76,7 +121,29 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"dt_infinite", {"run", "free_fall/vacuum", "--dt", "inf"}, {"--dt", "'inf'"}},
         Bad{"dt_by_zero", {"run", "free_fall/vacuum", "--dt", "1/0"}, {"--dt", "'1/0'"}},
         Bad{"dt_words", {"run", "free_fall/vacuum", "--dt", "fast"}, {"--dt", "'fast'"}},
-        Bad{"dt_tiny", {"run", "free_fall/vacuum", "--dt", "1e-90"}, {"too many"}},
+        Bad{"dt_tiny", {"run", "free_fall/vacuum", "--dt", "1e-12"}, {"too many"}},
+        Bad{"dt_too_short", {"run", "free_fall/vacuum", "--dt", "1e-90"}, {"1e-12 to 1e12"}},
+        Bad{"dt_too_long", {"run", "free_fall/vacuum", "--dt", "1e18"}, {"1e-12 to 1e12"}},
+        Bad{"dt_empty", {"run", "free_fall/vacuum", "--dt", ""}, {"--dt", "empty"}},
+        Bad{"duration_empty", {"run", "free_fall/vacuum", "--duration", ""}, {"--duration", "empty"}},
+        Bad{"substeps_empty", {"run", "free_fall/vacuum", "--substeps", ""}, {"--substeps"}},
+        Bad{"engine_empty", {"run", "free_fall/vacuum", "--engine", ""}, {"--engine", "empty"}},
+        Bad{"tolerance_below_rounding",
+            {"run", "free_fall/vacuum", "--engine", "plumb-precise", "--tolerance", "1e-300"},
+            {"1e-12 to"}},
+        Bad{"seed_beyond_64_bits",
+            {"hunt", "--seed", "9223372036854775808"},
+            {"--seed", "0 to 9223372036854775807"}},
+        Bad{"seed_negative", {"hunt", "--seed", "-1"}, {"--seed", "0 to 9223372036854775807"}},
+        Bad{"no_scenes", {"hunt", "--scenes", "0"}, {"--scenes", "1 to 9223372036854775807"}},
+        Bad{"agreement_of_nothing", {"agreement", "/dev/null"}, {"no results"}},
+        Bad{"front_of_nothing", {"front", "/dev/null"}, {"no results"}},
+        Bad{"new_without_permission",
+            {"new", "scenario", "rolling_ring", "--folder", "/proc"},
+            {"/proc/rolling_ring.cpp", "cannot be written: "}},
+        Bad{"hunt_without_permission",
+            {"hunt", "--out", "/proc/hunt"},
+            {"/proc/hunt", "cannot be created: "}},
         Bad{"substeps", {"run", "free_fall/vacuum", "--substeps", "0"}, {"--substeps", "'0'"}},
         Bad{"substeps_huge", {"run", "free_fall/vacuum", "--substeps", "99999999999"}, {"--substeps"}},
         Bad{"tolerance",
@@ -119,6 +186,20 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"explain_a_rival", {"explain", "free_fall/vacuum", "--engine", "box2d"}, {"box2d", "plan"}}),
     [](const auto& which) { return which.param.name; });
 
+TEST(Usage, ARefusalNamesAnEngineThatRunsTheScene) {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "weld.json",
+      R"({"bodies": [{"name": "a", "mass": 1, "inertia": 1}], "joints": [{"type": "weld", "name": "j",
+          "body_a": "world", "body_b": "a"}]})");
+  for (const char* engine : {"chipmunk", "ode", "mujoco", "simbody", "bullet-multibody", "box2d"}) {
+    const Ran ran = plumb({"run", scene, "--engine", engine, "--duration", "0.1"});
+    if (ran.code == 0 || ran.err.find("not in this build") != std::string::npos) continue;
+    EXPECT_EQ(ran.code, 2) << engine;
+    EXPECT_NE(ran.err.find("'plumb"), std::string::npos) << ran.err;
+  }
+}
+
 // A broken scene file: the line, the body, the field and the value are named.
 struct Broken {
   const char* name;
@@ -141,7 +222,11 @@ TEST_P(BrokenScene, NamesLineBodyFieldAndValue) {
 
 INSTANTIATE_TEST_SUITE_P(
     plumb, BrokenScene,
-    testing::Values(Broken{"mass",
+    testing::Values(Broken{"mask",
+                           "{\"bodies\": [{\"name\": \"a\", \"shapes\": [{\"type\": \"circle\", "
+                           "\"radius\": 1,\n\"filter\": {\"mask\": -9223372036854775809}}]}]}",
+                           {"line 2", "'a'", "mask", "-2^63"}},
+                    Broken{"mass",
                            "{\"name\": \"s\", \"bodies\": [\n{\"name\": \"ball\",\n \"mass\": -2}]}",
                            {"line 3", "'ball'", "mass", "-2"}},
                     Broken{"syntax", "{\"name\": \"s\",\n\"bodies\": [,]}", {"line 2"}},

@@ -124,6 +124,7 @@ def compare_errors(here, there):
 
 class Slurm:
     """A controller and slurmd of its own, in `folder`."""
+    daemons = {}
 
     def __init__(self, folder, work):
         need("sbatch", "slurmctld", "slurmd", "munged")
@@ -218,6 +219,7 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 
 class Parallel:
     """Two hosts: network namespaces of this machine, each with an sshd."""
+    daemons = ()
 
     def __init__(self, folder, work):
         need("parallel", "sshd", "ssh", "ssh-keygen", "ip")

@@ -169,14 +169,14 @@ double EventFreeIntegrator::try_near_crossing(double end) {
 
 void EventFreeIntegrator::refuse_crossing() const {
   const std::string joint = equations_.weakest_joint();
-  throw Error(
-      Error::Kind::Run, joint.empty() ? "the mechanism" : "joint '" + joint + "'", "hold",
-      shortest(std::sqrt(rank_at_start_.weakest)),
-      "the linkage is all but singular here, and its way on cannot be told to tolerance " +
-          shortest(tolerance_ * kSteps) +
-          ": joints hardly hold a direction that two branches of its motion share; try a larger "
-          "tolerance, give a link that is as long as another a length that is clearly its own, or use "
-          "Realtime");
+  throw Error(Error::Kind::Run, joint.empty() ? "the mechanism" : "joint '" + joint + "'", "hold",
+              shortest(std::sqrt(rank_at_start_.weakest)),
+              "the linkage is all but singular here, and its way on cannot be told to tolerance " +
+                  shortest(tolerance_ * kSteps) +
+                  ": joints hardly hold a direction that two branches of its motion share; try a larger "
+                  "tolerance (1e-9 if cranks are redundant), give a link that need not be as long as another "
+                  "a length "
+                  "that is clearly its own, or use Realtime");
 }
 
 }  // namespace plumb::precise

@@ -107,8 +107,11 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     node.number = static_cast<double>(value), node.bits = value;
     return true;
   }
-  bool number_float(number_float_t value, const string_t&) override {
-    return add(Kind::Number).number = value, true;
+  bool number_float(number_float_t value, const string_t& text) override {
+    // Whole numbers get here if 64 bits do not hold them.
+    Node& node = add(Kind::Number);
+    node.number = value, node.beyond_64_bits = text.find_first_of(".eE") == string_t::npos;
+    return true;
   }
   bool string(string_t& value) override { return add(Kind::String).text = std::move(value), true; }
   bool binary(binary_t&) override { return false; }

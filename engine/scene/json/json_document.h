@@ -21,6 +21,8 @@ struct Node {
   std::string key{};   ///< empty outside objects
   std::string text{};  ///< of a string
   double number = 0;   ///< of a number; 0 or 1 of a boolean
+  bool beyond_64_bits =
+      false;  ///< a whole number that was written without a fraction, but is too large for `bits`
   std::uint64_t bits = 0;  ///< of a whole number that was written without a fraction: exact, two's complement
   std::vector<Node> items{};  ///< of an array or object, in the order of the text
 

@@ -75,7 +75,7 @@ std::uint64_t bits(const View& view) {
   if (value == 0 || view.node().bits != 0) return view.node().bits;
   // Written with a fraction or an exponent, as 4.0 or 1e3.
   constexpr double kLowest = -9223372036854775808.0, kEnd = 18446744073709551616.0;
-  if (!(value >= kLowest && value < kEnd) || value != std::floor(value))
+  if (view.node().beyond_64_bits || !(value >= kLowest && value < kEnd) || value != std::floor(value))
     view.fail(Error::Kind::Value, "must be a whole number from -2^63 to 2^64 - 1");
   return value < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value))
                    : static_cast<std::uint64_t>(value);
