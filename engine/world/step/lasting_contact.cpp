@@ -8,6 +8,7 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/seams.h"
+#include "engine/world/step/common_rotation.h"
 #include "engine/world/step/speculative_contact.h"
 
 namespace plumb {
@@ -95,6 +96,10 @@ bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real 
   if (lasting.manifold.count == 0) return false;
   const Real deepest = std::min({c.now[0], c.count == 2 ? c.now[1] : Real(0), Real(0)});
   prepare_speculative_contact(w, contact, lasting, c, c.now);
+  // The bodies' common rotation curves their paths about each other.
+  const Real common = common_rotation(w, contact, between_bodies(w, contact), Real(0.5) * dt);
+  const Real curve = Real(0.5) * common * common * dot(c.normal, lasting.between);
+  for (int i = 0; i < c.count; ++i) c.separation[i] += curve;
   // Extrapolated back to the start, points deviate from their tangents. An overlap that may be this deviation
   // is not pushed out.
   const auto bend = [&](int body, int shape, Real turn) {

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/math/small_turn.h"
+#include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
+
+/// The rotation that two bodies have in common, as on a carousel or in a drum. It turns their contact's
+/// normal and arms within a step, by far more than they move relative to each other.
+namespace plumb {
+
+/// Returns the rotation that two bodies have in common in a time, rad: both spin, and b circles a's centre of
+/// mass, at no less than this rate. Zero if the directions differ: discs that roll over each other spin, but
+/// their normal follows the line between their centres.
+template <class Real>
+Real common_rotation(const WorldData<Real>& w, const ContactRecord& contact, Vec2<Real> between, Real time) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  if (!(a.angular_velocity * b.angular_velocity > 0)) return 0;
+  const Real spin =
+      std::abs(a.angular_velocity) < std::abs(b.angular_velocity) ? a.angular_velocity : b.angular_velocity;
+  const Real moment = cross(between, b.velocity - a.velocity), square = dot(between, between);
+  if (!(moment * spin > 0)) return 0;
+  return time * (std::abs(moment) < std::abs(spin) * square ? moment / square : spin);
+}
+
+/// Prepares a contact as it is halfway through the bodies' common rotation, with the present separations. On
+/// a wheel of radius r, that turns by x in a step, the plane of the step's start would let a body sink by
+/// r x^2 / 2 in each step. New impulses are written to `impulse`.
+template <class Real>
+void prepare_turning_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                             const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c,
+                             Real (&impulse)[2]) {
+  const Vec2<Real> between = between_bodies(w, contact);
+  const Real turn = common_rotation(w, contact, between, Real(0.5) * dt);
+  const Rotation<Real> q = w.rotation[contact.body_a];
+  if (turn == 0) return prepare_contact(w, contact, manifold, q, between, c, impulse);
+  prepare_contact(w, contact, manifold, turned_by(q, turn), turned_by(Rotation<Real>{1, 0}, turn) * between, c,
+                  impulse);
+}
+
+/// Rebuilds a contact with points whose bodies rotate together, unless they approach by more than their
+/// rotation explains. Returns false, and changes nothing, if they do, or if no point is within `near` m of
+/// touching. New impulses are written to `c.now`.
+template <class Real>
+bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
+                   const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Vec2<Real> between = between_bodies(w, contact);
+  const Real half = Real(0.5) * dt, turn = common_rotation(w, contact, between, half);
+  if (turn == 0) return false;
+  const Real near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
+  // Velocities lie along the last step's contact plane: they lag by up to three half steps behind the middle
+  // of this one.
+  const Real explained = 3 * turn * turn * size_of(between) + near;
+  const Rotation<Real> q = w.rotation[contact.body_a], turned = turned_by(Rotation<Real>{1, 0}, turn);
+  const Vec2<Real> before = q * manifold.normal;
+  const Real closed = half * dot(turned * before, b.velocity - a.velocity);
+  bool touches = false;
+  for (int i = 0; i < manifold.count; ++i) {
+    if (manifold.points[i].separation > near) continue;
+    const Vec2<Real> arm = q * manifold.points[i].point;
+    const Real turning =
+        half * (cross(arm - between, before) * b.angular_velocity - cross(arm, before) * a.angular_velocity);
+    if (closed + turning < -explained) return false;
+    touches = true;
+  }
+  if (touches) prepare_contact(w, contact, manifold, turned_by(q, turn), turned * between, c, c.now);
+  return touches;
+}
+
+}  // namespace plumb
