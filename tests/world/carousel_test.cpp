@@ -37,19 +37,22 @@ double sinks(const Ride& ride) {
   const double out = kRadius - ride.height;
   // Turned about an axis 5 m beside it, the floor moves on a circle, too.
   const Vec2d axis = ride.drive == Drive::FarAxis ? Vec2d{5, 0} : Vec2d{};
-  const auto velocity_at = [&](Vec2d at) { return Vec2d{-ride.rate * (at.y - axis.y), ride.rate * (at.x - axis.x)}; };
+  const auto velocity_at = [&](Vec2d at) {
+    return Vec2d{-ride.rate * (at.y - axis.y), ride.rate * (at.x - axis.x)};
+  };
   BodyDefinition wheel{.type = ride.drive == Drive::FreeWheel ? BodyType::Dynamic : BodyType::Kinematic,
                        .velocity = velocity_at({}),
                        .angular_velocity = ride.rate};
   if (ride.drive == Drive::FreeWheel) wheel.mass = MassProperties{1e6, {}, 4e6};
   std::vector<ShapeDefinition> floors;
   for (const double side : {-1.0, 1.0})
-    floors.push_back({.geometry = Box{4, 0.5}, .position = {0, side * (kRadius + 0.25)}, .material = material});
+    floors.push_back(
+        {.geometry = Box{4, 0.5}, .position = {0, side * (kRadius + 0.25)}, .material = material});
   const BodyId room = world.create_body(wheel, floors);
   const Vec2d start{0, -out};
-  const BodyId rider = world.create_body(
-      {.position = start, .velocity = velocity_at(start), .angular_velocity = ride.rate},
-      ShapeDefinition{.geometry = ride.passenger, .density = 1000, .material = material});
+  const BodyId rider =
+      world.create_body({.position = start, .velocity = velocity_at(start), .angular_velocity = ride.rate},
+                        ShapeDefinition{.geometry = ride.passenger, .density = 1000, .material = material});
   double most = 0;
   for (int step = 0; step < 120; ++step) {
     world.step(kDt, kSubsteps);

@@ -296,7 +296,8 @@ Outcome hinged(std::uint64_t number) {
 }
 
 /// A shaft with a plate that slides along it, and bodies above: plate and bodies fly at each other. None of
-/// them gets below the plate, which reaches into the sides so that there is no gap, and none leaves the shaft.
+/// them gets below the plate, which reaches into the sides so that there is no gap, and none leaves the
+/// shaft.
 template <class Real>
 Outcome plate(std::uint64_t number) {
   Draw draw(number);
@@ -317,14 +318,13 @@ Outcome plate(std::uint64_t number) {
       draw.chance(0.5)
           ? ShapeGeometry{Box{2.4 * half, thickness}}
           : ShapeGeometry{Capsule{{-1.2 * half, 0}, {1.2 * half, 0}, std::min(thickness / 2, 0.03)}};
-  const BodyId board = world.create_body({.type = kinematic ? BodyType::Kinematic : BodyType::Dynamic,
-                                          .position = {0, -2},
-                                          .velocity = {0, own},
-                                          .lock_x = true,
-                                          .lock_rotation = true},
-                                         {.geometry = form,
-                                          .density = 1000 * draw.spread(0.1, 100),
-                                          .filter = {.mask = ~std::uint64_t{kSide}}});
+  const BodyId board = world.create_body(
+      {.type = kinematic ? BodyType::Kinematic : BodyType::Dynamic,
+       .position = {0, -2},
+       .velocity = {0, own},
+       .lock_x = true,
+       .lock_rotation = true},
+      {.geometry = form, .density = 1000 * draw.spread(0.1, 100), .filter = {.mask = ~std::uint64_t{kSide}}});
   const int count = 1 + draw.choose(3), group = draw.chance(0.5) ? -1 : 0;
   std::vector<Passenger> passengers;
   for (int i = 0; i < count; ++i) {

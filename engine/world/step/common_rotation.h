@@ -40,8 +40,8 @@ void prepare_turning_contact(const WorldData<Real>& w, const ContactRecord& cont
   const Real turn = common_rotation(w, contact, between, Real(0.5) * dt);
   const Rotation<Real> q = w.rotation[contact.body_a];
   if (turn == 0) return prepare_contact(w, contact, manifold, q, between, c, impulse);
-  prepare_contact(w, contact, manifold, turned_by(q, turn), turned_by(Rotation<Real>{1, 0}, turn) * between, c,
-                  impulse);
+  prepare_contact(w, contact, manifold, turned_by(q, turn), turned_by(Rotation<Real>{1, 0}, turn) * between,
+                  c, impulse);
 }
 
 /// Rebuilds a contact with points whose bodies rotate together, unless they approach by more than their

@@ -189,10 +189,9 @@ template <class Real>
     return 0;
   }
   if (manifold.count == 0 || at.outlook == Outlook::Misses) return parted;
-  begin_near(w, block, id, dt, false,
-             [&](ContactConstraint<Real>& c) {
-               prepare_turning_contact(w, contact, manifold, dt, c, c.normal_impulse);
-             });
+  begin_near(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+    prepare_turning_contact(w, contact, manifold, dt, c, c.normal_impulse);
+  });
   return 0;
 }
 
