@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "engine/math/small_turn.h"
-#include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 
 /// The rotation that two bodies have in common, as on a carousel or in a drum. It turns their contact's
@@ -42,36 +41,6 @@ void prepare_turning_contact(const WorldData<Real>& w, const ContactRecord& cont
   if (turn == 0) return prepare_contact(w, contact, manifold, q, between, c, impulse);
   prepare_contact(w, contact, manifold, turned_by(q, turn), turned_by(Rotation<Real>{1, 0}, turn) * between,
                   c, impulse);
-}
-
-/// Rebuilds a contact with points whose bodies rotate together, unless they approach by more than their
-/// rotation explains. Returns false, and changes nothing, if they do, or if no point is within `near` m of
-/// touching. New impulses are written to `c.now`.
-template <class Real>
-bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
-                   const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Vec2<Real> between = between_bodies(w, contact);
-  const Real half = Real(0.5) * dt, turn = common_rotation(w, contact, between, half);
-  if (turn == 0) return false;
-  const Real near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
-  // Velocities lie along the last step's contact plane: they lag by up to three half steps behind the middle
-  // of this one.
-  const Real explained = 3 * turn * turn * size_of(between) + near;
-  const Rotation<Real> q = w.rotation[contact.body_a], turned = turned_by(Rotation<Real>{1, 0}, turn);
-  const Vec2<Real> before = q * manifold.normal;
-  const Real closed = half * dot(turned * before, b.velocity - a.velocity);
-  bool touches = false;
-  for (int i = 0; i < manifold.count; ++i) {
-    if (manifold.points[i].separation > near) continue;
-    const Vec2<Real> arm = q * manifold.points[i].point;
-    const Real turning =
-        half * (cross(arm - between, before) * b.angular_velocity - cross(arm, before) * a.angular_velocity);
-    if (closed + turning < -explained) return false;
-    touches = true;
-  }
-  if (touches) prepare_contact(w, contact, manifold, turned_by(q, turn), turned * between, c, c.now);
-  return touches;
 }
 
 }  // namespace plumb
