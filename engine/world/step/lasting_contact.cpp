@@ -141,7 +141,8 @@ bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
   // The contact lets the bodies slide, and keeps them from approaching.
   const Vec2<Real> round = turned * between - between;
   const Real slides = dot(t, closed - round);
-  if (std::abs(slides) > near) {
+  // Arms that are off by `slides` let a body sink by 2 turn slides in a step.
+  if (std::abs(turn * slides) > Real(0.25) * near) {
     const SpeculativeContact<Real> at = contact_at_middle(w, contact, round + slides * t, turn, dt);
     if (at.manifold.count > 0) {
       prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, c.now);
