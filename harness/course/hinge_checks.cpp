@@ -61,7 +61,8 @@ Finding hinged_rod(const Lab& lab) {
     slides_x = std::max(slides_x, std::abs(s.velocity.x - s.angular_velocity * arm.y));
     slides_y = std::max(slides_y, std::abs(s.velocity.y + s.angular_velocity * arm.x));
   }
-  const double less = std::min(slides_x, slides_y), more = std::max(slides_x, slides_y);
+  const double less = std::min(slides_x, slides_y), more = std::max(slides_x, slides_y),
+               slides = std::hypot(slides_x, slides_y);
   // The same rod on a post that it overlaps: joined bodies do not collide.
   const auto gap_on_post = [&] {
     Scene joined = scene;
@@ -101,6 +102,8 @@ Finding hinged_rod(const Lab& lab) {
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
       .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
+      .read("fastest that the hinged end moves, by the velocity and spin of the rod", "m/s", slides, 0,
+            0.1 * lab.coarseness())
       .proven_if(held && at_post > 0.01 * l * lab.coarseness(), "joined_bodies_collide",
                  "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "
                  "collide, unless \"collide\" is true.")

@@ -134,6 +134,9 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The torque is that of an arm half as long: \"point\" is measured from the centre, in m."},
       {"falls_through_boxes", "no_collision", "4",
        "The boxes go through each other: they overlap if they do so along x and along y."},
+      {"contacts_averaged", "one_corner", "45",
+       "The two contacts of a box are merged into one between them, which does not stop it from tipping: "
+       "keep both."},
       {"fixed_rotation_ignored", "fixed_rotation_ignored", "4",
        "A box turns, and the scene says \"fixed_rotation\": its inverse inertia is 0."},
       {"normal_between_centres", "normal_between_centres", "4",

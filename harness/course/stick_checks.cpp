@@ -94,6 +94,16 @@ Scene chain(int links) {
   return scene;
 }
 
+// Returns the fraction of a ball's speed along its stick that is left after a step: 0 for a direction of
+// length 1, at any length of the stick.
+double speed_left(const Lab& lab, double length) {
+  Scene scene =
+      scene_of("one stick", {},
+               {make(Ball{.name = "bob", .position = {length, 0}, .velocity = {1, 0}, .radius = 0.04})});
+  scene.joints.emplace_back(stick("stick", std::string(kWorld), "bob", length));
+  return lab.run(scene, 1.5 * lab.dt()).last(0).velocity.x;
+}
+
 // Returns the largest stretch of any link, of its length, and which link it is.
 std::pair<double, std::size_t> worst_stretch(const Trace& trace) {
   std::pair<double, std::size_t> worst{0, 0};
@@ -306,6 +316,11 @@ Finding chain_swings(const Lab& lab) {
     const Vec2d along = 1 / kLink * one.bodies.front().position;
     return std::abs(dot(t.last(0).velocity, along)) < 0.05 * kGravity * lab.dt();
   };
+  const auto depends_on_length = [&] {
+    const double exact = speed_left(lab, 1);
+    const double half = speed_left(lab, 0.5), fifth = speed_left(lab, 0.2);
+    return std::abs(exact) < 1e-6 && half > 1e-6 && fifth > 1.1 * half;
+  };
   double left = 0;
   for (const auto& states : trace.states) left = std::min(left, states.back().position.x);
   const double fallen = trace.last(links - 1).position.y - trace.first(links - 1).position.y;
@@ -320,6 +335,10 @@ Finding chain_swings(const Lab& lab) {
                      "A chain of 2 links holds, and of 10 links number {} stretches by {:.0f} %: go over all "
                      "joints more often in a step, 20 times or more.",
                      where + 1, 100 * worst))
+      .proven_if(worst > most && depends_on_length(), "normal_not_unit",
+                 "A stick of 1 m holds its ball at once, and shorter ones do not: the stick's impulse "
+                 "depends on its "
+                 "length. Divide the way from end to end by its length to get the direction.")
       .mistake_if(left > -1e-9, "joint_ignored", "The chain does not swing through.")
       .finding();
 }

@@ -19,15 +19,14 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   const auto names = ends_of(law);
   const auto index = find_body(scene_, names[1] == kWorld ? names[0] : names[1]);
   Rigid& b = bodies_[index.value_or(bodies_.size() - 1)];
-  const auto add_to = [&](Rigid& body, Vec2d force) {
+  const auto add_to = [&](Name law_name, Rigid& body, Vec2d force) {
     if (is("last_force_only")) body.force = {};
     if (is("first_force_lost") && first && !last) return;
     if (is("last_force_lost") && last && !first) return;
     if (is("first_force_only") && !first) return;
     if (is("force_once") && steps_ > 0) return;
-    body.force += force;
+    act(law_name, body, force);
   };
-  const auto add = [&](Vec2d force) { add_to(b, force); };
   const auto acts = [&](double start, double duration) {
     if (is("push_never_ends")) return time() >= start - dt_ / 2;
     if (is("push_always")) return true;
@@ -44,9 +43,10 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   };
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
-    add(mixed("force", times("force") * push->force) +
-        (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
-    Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
+    add_to("force", b,
+           mixed("force", times("force") * push->force) +
+               (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
+    Vec2d arm = is("point_not_turned") ? push->point : turned("a force's point", b, push->point);
     if (is("lever_from_origin")) arm += b.position;
     if (is("point_ignored")) arm = {};
     if (is("point_turned_backwards"))
@@ -64,6 +64,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   } else if (const auto* drag = std::get_if<LinearDrag>(&law)) {
     const double share = is("drag_not_divided") ? 1 / b.inverse_mass : 1;
     const double speed = length(b.velocity), c = (is("drag_pushes") ? share : -share) * drag->coefficient;
+    const auto add = [&](Vec2d force) { add_to("drag", b, force); };
     if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
@@ -75,7 +76,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
     Rigid& a = bodies_[find_body(scene_, names[0]).value_or(bodies_.size() - 1)];
     Rigid& end = bodies_[find_body(scene_, names[1]).value_or(bodies_.size() - 1)];
-    Vec2d arm_a = a.to_world(spring->anchor_a), arm_b = end.to_world(spring->anchor_b);
+    Vec2d arm_a = turned("a spring's anchors", a, spring->anchor_a),
+          arm_b = turned("a spring's anchors", end, spring->anchor_b);
     const auto ignored = [&](const Rigid& body) {
       return is("spring_anchors_ignored") || (is("spring_anchor_of_world_ignored") && body.body == nullptr);
     };
@@ -106,7 +108,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
       if (body.inverse_mass == 0) return;
       if (is("spring_mass_not_divided")) force *= 1 / body.inverse_mass;
       if (is("spring_divided_by_mass_twice")) force *= body.inverse_mass;
-      add_to(body, force);
+      add_to("spring", body, force);
       body.torque += cross(arm, force);
     };
     if (!is("spring_pulls_the_second_only"))
@@ -148,6 +150,8 @@ void StudentWorld::accelerate() {
     b.touched = false;
     if (is("gravity_divided_by_mass")) fall *= b.inverse_mass;
     if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
+    if (is("gravity_off_while_pushed") && b.force != Vec2d{}) fall = {};
+    if (acting_hash_ == Name("gravity").hash) act("gravity", b, 1 / b.inverse_mass * std::exchange(fall, {}));
     double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
     if (is("mass_multiplied")) inverse = 1 / b.inverse_mass;
     if (is("mass_divided_twice")) inverse *= inverse;

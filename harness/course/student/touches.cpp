@@ -110,8 +110,8 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   const Box size = this->box(b), other = this->box(c);
   const Rotation<double> q = b.rotation();
-  for (const Vec2d sign : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}}) {
-    const Vec2d corner = c.position + c.to_world({sign.x * other.width / 2, sign.y * other.height / 2});
+  for (const Vec2d sign : corner_signs()) {
+    const Vec2d corner = c.position + this->corner(c, {sign.x * other.width / 2, sign.y * other.height / 2});
     const Vec2d local = q.inverse() * (corner - b.position);
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     if (in_x <= 0 || in_y <= 0) continue;

@@ -99,7 +99,8 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
       rigid.position += Vec2d{box->width / 2, -box->height / 2};
     if (body.type == BodyType::Dynamic) {
       rigid.inverse_mass = is("inverse_mass_floored") ? std::floor(1 / body.mass) : 1 / body.mass;
-      if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = 1 / inertia(body);
+      const bool may_turn = !body.fixed_rotation || is("fixed_rotation_ignored");
+      if (manner_.turns && may_turn) rigid.inverse_inertia = 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
     }
@@ -135,6 +136,14 @@ void StudentWorld::read_mistake(const std::string& mistake) {
     factor_ = std::stod(mistake.substr(star + 1));
   }
   if (const auto edit = Edit::read(mistake)) edit_ = *edit;
+  const auto split = [&](char sign, std::uint64_t& what, std::uint64_t& how) {
+    const std::size_t place = mistake.find(sign);
+    if (place == std::string::npos) return;
+    what = Name::of(std::string_view(mistake).substr(0, place));
+    how = Name::of(std::string_view(mistake).substr(place + 1));
+  };
+  split('~', turned_hash_, turned_how_);
+  split('>', acting_hash_, acting_how_);
   const std::size_t at = mistake.find('@'), comma = mistake.find(',');
   if (at == std::string::npos || comma == std::string::npos) return;
   mixed_hash_ = Name::of(std::string_view(mistake).substr(0, at));
