@@ -134,6 +134,10 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The torque is that of an arm half as long: \"point\" is measured from the centre, in m."},
       {"falls_through_boxes", "no_collision", "4",
        "The boxes go through each other: they overlap if they do so along x and along y."},
+      {"friction_bounds_exchanged", "friction_bounds_exchanged", "4",
+       "Friction always acts with its limit in one direction: min and max are exchanged where its sum is "
+       "limited, "
+       "min(max(sum, -most), most)."},
       {"contacts_averaged", "one_corner", "45",
        "The two contacts of a box are merged into one between them, which does not stop it from tipping: "
        "keep both."},

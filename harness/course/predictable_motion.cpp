@@ -8,6 +8,10 @@ namespace {
 constexpr const char* kSlowIsStopped =
     "What is slow is stopped, and so never begins to move: gravity and forces act on a body at rest as well. "
     "Leave out what sets small velocities to 0.";
+constexpr const char* kClampExchanged =
+    "The nearest point of a box is always the same corner: min and max are exchanged where the centre's x "
+    "and y are "
+    "limited to the box, min(max(x, low), high).";
 constexpr const char* kWallMissing =
     "The ball leaves through one wall, which never acts on it: every static box is a wall.";
 constexpr const char* kSpringAtOneEnd =
@@ -186,6 +190,10 @@ std::vector<Predictable> mistakes_of_motion() {
        "send it back."},
       {"along_wall_changed", "along_wall_changed", "1",
        "The bounce changes the speed along the wall as well: only the part along the normal changes."},
+      {"threshold_reversed", "threshold_reversed", "13",
+       "Slow impacts bounce and fast ones do not: restitution is 0 below the threshold, and acts above it."},
+      {"clamp_exchanged", "clamp_exchanged", "134", kClampExchanged},
+      {"clamp_exchanged_below", "clamp_exchanged", "134", kClampExchanged},
       {"threshold_too_high", "threshold_too_high", "13",
        "The ball stops at 2 m/s and bounces when it is faster: the speed below which restitution is 0 is too "
        "high. It is 2 g dt, or the scene's \"restitution_threshold\"."},
@@ -281,6 +289,8 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it acts in all steps that begin from start to start + duration."},
       {"push_a_step_late", "push_a_step_late", "2",
        "The force begins a step late: it acts in the step that begins at \"start\" as well."},
+      {"push_outside_its_time", "push_outside_its_time", "2",
+       "The push acts before \"start\" and after its end, and not between: its test is reversed."},
       {"push_from_zero", "push_from_zero", "2",
        "The push acts from 0 to \"duration\": it acts from \"start\" to \"start\" + \"duration\"."},
       {"drag*0", "drag_ignored", "2", "Drag does nothing."},

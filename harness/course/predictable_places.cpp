@@ -9,30 +9,32 @@ namespace {
 
 struct Points {
   const char *points, *chapters, *what;
+  bool may_stay;  ///< no other list has these points not turned
 };
 
 constexpr Points kPoints[] = {
-    {"a force's point", "4", "the point of a force"},
-    {"a spring's anchors", "4", "a spring's anchors"},
-    {"a box", "45", "the sides and corners of a box"},
-    {"a box's sides", "45", "the directions of a box's sides"},
-    {"a box's corners", "45", "the corners of a box"},
-    {"a joint's anchors", "5", "the anchors of a joint"},
-    {"a joint's first anchor", "5", "a joint's anchor on its first body"},
-    {"a joint's second anchor", "5", "a joint's anchor on its second body"},
+    {"a force's point", "4", "the point of a force", false},
+    {"a spring's anchors", "4", "a spring's anchors", false},
+    {"a box", "45", "the sides and corners of a box", true},
+    {"a box's sides", "45", "the directions of a box's sides", true},
+    {"a box's corners", "45", "the corners of a box", true},
+    {"a joint's anchors", "5", "the anchors of a joint", false},
+    {"a joint's first anchor", "5", "a joint's anchor on its first body", false},
+    {"a joint's second anchor", "5", "a joint's anchor on its second body", false},
 };
 
 struct Turn {
   const char *how, *name, *says;
 };
 
+constexpr const char* kStay = "not";
 constexpr Turn kTurns[] = {
-    {"not", "not_turned", "are not turned with the body"},
-    {"backwards", "turned_backwards", "turn against the body, as by minus its angle"},
+    {kStay, "not_turned", "not with the body"},
+    {"backwards", "turned_backwards", "against the body, as by minus its angle"},
     {"overwriting x", "turn_overwrites_x",
-     "are turned with the new x in the new y: keep the old x until both are known"},
-    {"exchanging sin and cos", "sin_and_cos_exchanged", "are turned with sin and cos exchanged"},
-    {"without the minus", "turn_sign_lost", "are turned without the minus"},
+     "with the new x in the formula of y, so keep the old x until both are known"},
+    {"exchanging sin and cos", "sin_and_cos_exchanged", "with sin and cos exchanged"},
+    {"without the minus", "turn_sign_lost", "without the minus in x"},
 };
 
 struct Law {
@@ -63,13 +65,15 @@ constexpr const char* kCorners[] = {"lower left", "lower right", "upper right", 
 std::vector<Predictable> mistakes_of_places() {
   std::vector<Predictable> out;
   for (const Points& points : kPoints)
-    for (const Turn& turn : kTurns)
+    for (const Turn& turn : kTurns) {
+      if (turn.how == kStay && !points.may_stay) continue;
       out.push_back(
           {fmt::format("{}~{}", points.points, turn.how), turn.name, points.chapters,
-           fmt::format("Turned wrongly: {} {}. Turned by the angle a, (x, y) becomes (x cos a - y sin "
-                       "a, x sin a + y cos a).",
+           fmt::format("Turned wrongly: {}, {}. Turned by the angle a, (x, y) becomes (x cos a - y sin a, "
+                       "x sin a + y cos a).",
                        points.what, turn.says),
            true});
+    }
   for (const Law& law : kLaws)
     for (const Act& act : kActs)
       out.push_back({fmt::format("{}>{}", law.law, act.how), act.name, law.chapters,

@@ -138,6 +138,12 @@ Finding stick_keeps_its_length(const Lab& lab) {
     worst = std::max(worst, std::abs(length(states[1].position - states[0].position) - d));
   const double t = trace.duration(), w = 2 * v / d, wh = w * lab.dt();
   const double end = length(trace.last(1).position - trace.last(0).position);
+  double along = 0;
+  for (std::size_t k = 1; k < trace.states.size(); ++k) {
+    const auto& [a, b] = std::pair(trace.states[k][0], trace.states[k][1]);
+    const Vec2d way = b.position - a.position;
+    along = std::max(along, std::abs(dot(b.velocity - a.velocity, way)) / length(way));
+  }
   // Each step leaves the circle by (w h)^2 d/2; ten times that may accumulate before it is corrected.
   const double tolerance = (5 * wh * wh + 0.005) * d;
   // Without correction, the tangent step lengthens d^2 by (v h)^2 while d v is constant: d^4 grows by 2 d0^2
@@ -153,6 +159,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
       .read("largest change of length", "m", worst, 0, tolerance)
       .read("spin after 5 s", "rad/s", spin, by_positions ? slowed : w,
             by_positions ? wh * wh * slowed : w - 0.95 * w * lab.turn_kept(w, t))
+      .read("fastest that the ends part or close, by their velocities", "m/s", along, 0, 6 * v * wh + 0.01)
       .mistake("joint_ignored", {std::hypot(d, 2 * v * t) - d, kAny},
                "The stick does nothing: the balls fly apart.")
       .mistake("no_position_correction", {drifted - d, kAny},

@@ -67,7 +67,8 @@ void StudentWorld::prepare(Touch& touch) const {
       mixed("velocity before a bounce", mixed("velocity in a contact", relative_velocity(touch)));
   const double closing = dot(coming, touch.normal);
   const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
-  if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
+  const bool fast = is("threshold_reversed") ? closing < 0 && closing >= -slow : closing < -slow;
+  if (fast || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
   if (is("closing_test_reversed_with_bounce"))
     touch.bounce = closing > slow ? -restitution(touch) * closing : 0;
   if (is("bounce_without_speed") && touch.bounce > 0) touch.bounce = restitution(touch);
@@ -322,6 +323,7 @@ void StudentWorld::rub(Touch& touch) {
   double sum = std::clamp(touch.sum_across - against / k, -most, most);
   if (above_only || is("rough_limited_above_only")) sum = std::min(touch.sum_across - against / k, most);
   if (below_only || is("rough_limited_below_only")) sum = std::max(touch.sum_across - against / k, -most);
+  if (is("friction_bounds_exchanged")) sum = most;
   if (is("friction_at_its_limit")) sum = sliding > 0 ? -most : sliding < 0 ? most : 0;
   if (is("friction_each_limited")) sum = touch.sum_across + std::clamp(-against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);

@@ -38,6 +38,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     }
     if (is("push_for_one_step")) return time() >= start - 1e-9 && time() < start + dt_ - 1e-9;
     if (is("push_a_step_late")) return time() >= start + dt_ / 2 && time() < start + duration - 1e-9;
+    if (is("push_outside_its_time")) return time() < start - 1e-9 || time() >= start + duration - 1e-9;
     if (is("push_from_zero")) return time() < duration - 1e-9;
     return time() >= start - 1e-9 && time() < start + duration - 1e-9;
   };

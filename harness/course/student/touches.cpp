@@ -34,7 +34,8 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (wrong("first_radius_twice")) reach = 2 * ra;
   if (wrong("second_radius_twice")) reach = 2 * rb;
   if (is("no_detection")) reach = 0;
-  if (d <= 0 || (is("square_of_distance") ? d * d : d) >= reach) return;
+  const bool apart = (is("square_of_distance") ? d * d : d) >= reach;
+  if (d <= 0 || apart != is("overlap_test_reversed")) return;
   Vec2d n = 1 / d * way, rim = way;
   if (is("normal_not_unit")) n = way;
   if (is("normal_over_square")) n = 1 / (d * d) * way;
@@ -75,8 +76,10 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const bool backwards = is("centre_turned_backwards");
   const Vec2d local = (backwards ? q : q.inverse()) * (c.position - b.position);
-  const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
-                      std::clamp(local.y, -size.height / 2, size.height / 2)};
+  Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
+                std::clamp(local.y, -size.height / 2, size.height / 2)};
+  if (is("clamp_exchanged")) nearest = {size.width / 2, size.height / 2};
+  if (is("clamp_exchanged_below")) nearest = {-size.width / 2, -size.height / 2};
   Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   if (backwards) way = b.position + q * nearest - c.position;
   const double d = length(way);
