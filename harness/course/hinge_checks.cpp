@@ -114,7 +114,7 @@ Finding hinged_rod(const Lab& lab) {
       .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
       .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
       .read("fastest that the hinged end moves, by the velocity and spin of the rod", "m/s", slides, 0,
-            0.1 * lab.coarseness())
+            0.5 * lab.coarseness())
       .proven_if(held && at_post > 0.01 * l * lab.coarseness(), "joined_bodies_collide",
                  "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "
                  "collide, unless \"collide\" is true.")

@@ -185,6 +185,9 @@ std::vector<Predictable> mistakes_of_contacts() {
        "contact only if (vb - va) . n < 0, and keep the sum of a contact's impulses from becoming negative."},
       {"closing_test_reversed", "closing_test_reversed", "134", kTestReversed},
       {"closing_test_reversed_with_bounce", "closing_test_reversed", "134", kTestReversed},
+      {"circles_as_squares", "circles_as_squares", "34",
+       "Circles collide when the squares around them overlap: they touch when their distance is below r1 + "
+       "r2."},
       {"overlap_test_reversed", "overlap_test_reversed", "3",
        "Circles that are apart collide, and those that overlap do not: they touch when their distance is "
        "below r1 + r2."},

@@ -93,6 +93,9 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
           {a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
     if (is("middle_of_the_side") || is("first_end_only") || is("second_end_only")) break;
   }
+  if (is("contact_between_centres"))
+    for (auto touch = out.begin() + before; touch != out.end(); ++touch)
+      touch->point = 0.5 * (owner.position + other.position);
   if (std::ssize(out) < before + 2) return;
   if (is("contacts_averaged")) {
     const Touch last = out.back();

@@ -49,6 +49,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
                (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
     Vec2d arm = is("point_not_turned") ? push->point : turned("a force's point", b, push->point);
     if (is("lever_from_origin")) arm += b.position;
+    if (is("point_taken_for_world")) arm = push->point - b.position;
     if (is("point_ignored")) arm = {};
     if (is("point_turned_backwards"))
       arm = Rotation<double>{std::cos(b.angle), -std::sin(b.angle)} * push->point;
@@ -112,9 +113,10 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
       add_to("spring", body, force);
       body.torque += cross(arm, force);
     };
-    if (!is("spring_pulls_the_second_only"))
-      pull(a, arm_a, (is("spring_same_direction") ? -tension : tension) * along);
-    if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -tension * along);
+    Vec2d force = tension * along;
+    if (is("spring_by_component")) force += spring->stiffness * (way - Vec2d{rest, rest} - stretch * along);
+    if (!is("spring_pulls_the_second_only")) pull(a, arm_a, is("spring_same_direction") ? -force : force);
+    if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -force);
   }
 }
 
@@ -145,6 +147,8 @@ void StudentWorld::accelerate() {
   if (is("dt_missing")) dt = 1;
   if (is("milliseconds")) dt *= 1000;
   if (is("per_frame")) dt = 1.0 / 60;
+  if (is("time_for_dt")) dt = time();
+  if (is("next_time_for_dt")) dt = time() + dt_;
   for (Rigid& b : bodies_) {
     if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
     Vec2d fall = is("gravity_off_while_touching") && b.touched ? Vec2d{} : g;
@@ -181,6 +185,8 @@ void StudentWorld::move() {
       const double dt = is("velocity_without_dt")      ? 1
                         : is("velocity_with_dt_twice") ? dt_ * dt_
                         : is("move_per_frame")         ? 1.0 / 60
+                        : is("time_for_dt_in_moves")   ? time()
+                        : is("next_time_in_moves")     ? time() + dt_
                                                        : dt_;
       const Vec2d v =
           scheme_ == reference::Scheme::VelocityVerlet ? 0.5 * (b.velocity + b.before) : b.velocity;

@@ -35,7 +35,8 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (wrong("second_radius_twice")) reach = 2 * rb;
   if (is("no_detection")) reach = 0;
   const bool apart = (is("square_of_distance") ? d * d : d) >= reach;
-  if (d <= 0 || apart != is("overlap_test_reversed")) return;
+  const bool squares_touch = is("circles_as_squares") && std::abs(way.x) < reach && std::abs(way.y) < reach;
+  if (d <= 0 || (!squares_touch && apart != is("overlap_test_reversed"))) return;
   Vec2d n = 1 / d * way, rim = way;
   if (is("normal_not_unit")) n = way;
   if (is("normal_over_square")) n = 1 / (d * d) * way;
@@ -125,7 +126,8 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
     if (const Vec2d way = c.position - b.position; is("normal_between_centres"))
       normal = 1 / length(way) * way;
     if (is("box_normal_not_turned")) normal = n;
-    out.push_back({box, corners, corner, normal, std::min(in_x, in_y)});
+    const Vec2d point = is("contact_between_centres") ? 0.5 * (b.position + c.position) : corner;
+    out.push_back({box, corners, point, normal, std::min(in_x, in_y)});
     if (is("one_corner")) return;
   }
   if (is("other_corner") && std::ssize(out) > before + 1) out.erase(out.begin() + before, out.end() - 1);

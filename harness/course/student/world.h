@@ -85,6 +85,7 @@ class StudentWorld {
   double radius(const Rigid& body) const;
   Box box(const Rigid& body) const;
   double inertia(const Body& body) const;
+  double mass(const Body& body) const;
   void gather_forces();
   void apply(const ForceLaw& law, bool first, bool last);
   void accelerate();
