@@ -188,6 +188,9 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"circles_as_squares", "circles_as_squares", "34",
        "Circles collide when the squares around them overlap: they touch when their distance is below r1 + "
        "r2."},
+      {"static_bodies_not_answered", "static_bodies_not_answered", "134",
+       "A contact with a static body gives no impulse: its inverse mass is 0, and 1/ma + 1/mb is that of the "
+       "other body."},
       {"overlap_test_reversed", "overlap_test_reversed", "3",
        "Circles that are apart collide, and those that overlap do not: they touch when their distance is "
        "below r1 + r2."},

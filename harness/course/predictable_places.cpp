@@ -16,6 +16,7 @@ constexpr Points kPoints[] = {
     {"a force's point", "4", "the point of a force", false},
     {"a spring's anchors", "4", "a spring's anchors", false},
     {"a box", "45", "the sides and corners of a box", true},
+    {"a static box", "4", "the sides and corners of static boxes", true},
     {"a box's sides", "45", "the directions of a box's sides", true},
     {"a box's corners", "45", "the corners of a box", true},
     {"a joint's anchors", "5", "the anchors of a joint", false},

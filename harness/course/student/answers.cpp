@@ -169,6 +169,7 @@ void StudentWorld::answer(Touch& touch) {
   const auto [arm_a, arm_b] = arms_of(touch);
   const double closing =
       dot(mixed("velocity in an impulse", mixed("velocity in a contact", relative_velocity(touch))), n);
+  if (is("static_bodies_not_answered") && (a.inverse_mass == 0 || b.inverse_mass == 0)) return;
   if (is("bounce_each_sweep")) touch.bounce = -restitution(touch) * closing;
   if (is("ignores_slow") && closing > -4 * length(scene_.gravity) * dt_) return;
   if (answer_wrongly(touch, closing)) return;

@@ -8,16 +8,21 @@
 // Finds the contacts of two boxes by separating axes and clipping.
 namespace plumb::course {
 
+// Returns the name of a part of a box, or of all of the box if the mistake turns all of it.
+Name StudentWorld::part_of_box(const Rigid& body, Name part) const {
+  constexpr Name kBox("a box"), kStatic("a static box");
+  if (turned_hash_ == kBox.hash) return kBox;
+  return turned_hash_ == kStatic.hash && body.inverse_mass == 0 ? kStatic : part;
+}
+
 // Returns a direction of a box's sides in the world.
 Vec2d StudentWorld::side(const Rigid& body, Vec2d local) const {
-  return turned_hash_ == Name("a box").hash ? turned("a box", body, local)
-                                            : turned("a box's sides", body, local);
+  return turned(part_of_box(body, "a box's sides"), body, local);
 }
 
 // Returns a corner of a box from its centre in the world.
 Vec2d StudentWorld::corner(const Rigid& body, Vec2d local) const {
-  return turned_hash_ == Name("a box").hash ? turned("a box", body, local)
-                                            : turned("a box's corners", body, local);
+  return turned(part_of_box(body, "a box's corners"), body, local);
 }
 
 // Returns half of a box's extent along an axis.

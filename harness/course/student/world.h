@@ -78,6 +78,7 @@ class StudentWorld {
   void read_mistake(const std::string& mistake);
   Vec2d turned(Name what, const Rigid& body, Vec2d local) const;
   std::array<Vec2d, 4> corner_signs() const;
+  Name part_of_box(const Rigid& body, Name part) const;
   Vec2d side(const Rigid& body, Vec2d local) const;
   Vec2d corner(const Rigid& body, Vec2d local) const;
   void act(Name law, Rigid& body, Vec2d force);
