@@ -118,6 +118,8 @@ void StudentWorld::solve(const Joint& joint) {
     }
     if (stick) break;
   }
+  if (is("hinge_shares_spin") && !stick && a.inverse_inertia > 0 && b.inverse_inertia > 0)
+    a.spin = b.spin = (a.spin + b.spin) / 2;
 }
 
 void StudentWorld::correct(const Joint& joint) {

@@ -113,18 +113,18 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
   const Rigid &b = bodies_[box], &c = bodies_[corners];
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   const Box size = this->box(b), other = this->box(c);
-  const Rotation<double> q = b.rotation();
+  const Vec2d along = side(b, {1, 0}), across = side(b, {0, 1});
   for (const Vec2d sign : corner_signs()) {
     const Vec2d corner = c.position + this->corner(c, {sign.x * other.width / 2, sign.y * other.height / 2});
-    const Vec2d local = q.inverse() * (corner - b.position);
+    const Vec2d way = corner - b.position, local{dot(along, way), dot(across, way)};
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     if (in_x <= 0 || in_y <= 0) continue;
     const Vec2d n = (in_x < in_y) != is("largest_overlap") ? Vec2d{std::copysign(1.0, local.x), 0}
                                                            : Vec2d{0, std::copysign(1.0, local.y)};
-    Vec2d normal = q * n;
+    Vec2d normal = n.x * along + n.y * across;
     if (is("normal_of_the_first_face_only") && corners < box) normal = -normal;
-    if (const Vec2d way = c.position - b.position; is("normal_between_centres"))
-      normal = 1 / length(way) * way;
+    if (const Vec2d line = c.position - b.position; is("normal_between_centres"))
+      normal = 1 / length(line) * line;
     if (is("box_normal_not_turned")) normal = n;
     const Vec2d point = is("contact_between_centres") ? 0.5 * (b.position + c.position) : corner;
     out.push_back({box, corners, point, normal, std::min(in_x, in_y)});
