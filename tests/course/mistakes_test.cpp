@@ -185,7 +185,6 @@ constexpr Seed kSeeds[] = {
     {"mass_from_area", "spring", "mass_from_size"},
     {"time_for_dt", "falls", "time_for_dt"},
     {"spring_by_component", "spring", "spring_by_component"},
-    {"a static box~not", "turned_box", "not_turned"},
     {"static_bodies_not_answered", "post", "static_bodies_not_answered"},
     {"hinge_shares_spin", "hinge_turns_both", "hinge_shares_spin"},
     {"circles_as_squares", "oblique", "circles_as_squares"},
