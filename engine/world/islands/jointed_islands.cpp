@@ -345,8 +345,9 @@ void move_in_parts(WorldData<Real>& w, JointedIsland<Real>& island, const Contac
   starts.assign(island.links.begin(), island.links.end());
   double before = std::numeric_limits<double>::infinity();
   for (int parts = 1; drift > 1 && drift < 0.5 * before && parts < kMostParts;) {
-    // The drift decreases with the square of the number of parts.
-    for (double left = drift; left > 1 && parts < kMostParts; left /= 4) parts *= 2;
+    // The drift decreases with the square of the number of parts, if it does: two parts show that.
+    const bool first = parts == 1;
+    for (double left = drift; left > 1 && parts < (first ? 2 : kMostParts); left /= 4) parts *= 2;
     move_through(w, island, step, parts);
     for (std::size_t k = 0; k < starts.size(); ++k) {
       starts[k].velocity = island.links[k].velocity, starts[k].spin = island.links[k].spin;
