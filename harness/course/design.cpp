@@ -100,6 +100,45 @@ std::optional<double> measured_joint_error(const Lab& lab) try {
   return std::nullopt;
 }
 
+bool turns_bodies(const Lab& lab) try {
+  Body ball = make(Ball{});
+  ball.angular_velocity = 1;
+  return lab.run(scene_of("turning ball", {}, {ball}), 1.5 * lab.dt()).last(0).angle != 0;
+} catch (const std::exception&) {
+  return false;
+}
+
+std::optional<int> measured_corrections(const Lab& lab, Manner like, double left) try {
+  constexpr double kLength = 1, kTooLong = 0.05;  // m
+  constexpr int kMost = 30;
+  Scene scene = scene_of("two sticks too long", {},
+                         {make(Ball{.name = "a", .position = {kLength + kTooLong, 0}, .radius = 0.1}),
+                          make(Ball{.name = "b", .position = {2 * (kLength + kTooLong), 0}, .radius = 0.1})});
+  const auto join = [&](const std::string& a, const std::string& b) {
+    DistanceJoint stick;
+    stick.name = "stick of " + b;
+    stick.body_a = a;
+    stick.body_b = b;
+    stick.length = kLength;
+    scene.joints.emplace_back(stick);
+  };
+  join(std::string(kWorld), "a");
+  join("a", "b");
+  const auto places = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
+  const std::vector<BodyState> due = places(lab);
+  for (like.corrections = 1; like.corrections <= kMost; ++like.corrections) {
+    like.joint_share = std::abs(1 - std::pow(left, 1.0 / like.corrections));
+    const auto student = make_student("", lab.scheme(), like);
+    const std::vector<BodyState> is = places(Lab(*student, lab.plain_settings()));
+    const double off =
+        std::abs(is[0].position.x - due[0].position.x) + std::abs(is[1].position.x - due[1].position.x);
+    if (off < 1e-9) return like.corrections;
+  }
+  return std::nullopt;
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
 std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
   // The centres are 1 m apart, so that a normal that is not normalised changes nothing.
   constexpr double kRadius = 0.505, kDeep = 0.01, kGravity = 9.81;  // m, m, m/s^2
@@ -133,16 +172,20 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
       if (manner.share == Manner{}.share) manner.share = push->share;
       manner.slop = std::max(0.0, push->slop);
     }
+  if (chapter < kBoxes && !turns_bodies(lab))
+    for (Manner& manner : out) manner.turns = false;
   if (chapter >= kCollisions)
     if (const auto sweeps = measured_sweeps(lab, out.front()))
       for (Manner& manner : out)
         if (manner.sweeps == Manner{}.sweeps) manner.sweeps = *sweeps;
   if (chapter <= kBoxes) return out;
-  if (const auto left = measured_joint_error(lab))
+  if (const auto left = measured_joint_error(lab)) {
+    const auto corrections = measured_corrections(lab, out.front(), *left);
     for (Manner& manner : out) {
-      manner.corrections = std::max(1, manner.sweeps / 4);
+      manner.corrections = corrections.value_or(std::max(1, manner.sweeps / 4));
       manner.joint_share = std::abs(1 - std::pow(*left, 1.0 / manner.corrections));
     }
+  }
   return out;
 }
 

@@ -23,6 +23,15 @@ std::optional<Push> measured_push(const Lab& lab);
 /// otherwise.
 std::optional<double> measured_joint_error(const Lab& lab);
 
+/// Returns false if the engine refuses a ball that turns, or does not turn it: its contacts then spin
+/// nothing, along a wrong normal as well.
+bool turns_bodies(const Lab& lab);
+
+/// Returns the number of times that a step goes over the errors of its joints, measured on two balls at rest
+/// on sticks that are too long; each time leaves the same fraction of an error, and a step leaves `left` of a
+/// single one. nullopt if no number up to 30 gives the engine's positions. `like` has the other figures.
+std::optional<int> measured_corrections(const Lab& lab, Manner like, double left);
+
 /// Returns the number of times that a step goes over its contacts, measured on a heavy ball on a light one,
 /// which takes many; nullopt if no number up to 60 gives the engine's velocities. `like` has the other
 /// figures.

@@ -15,6 +15,10 @@ std::vector<Predictable> mistakes_of_joints();
 /// Returns every way to mix up the x and y of a vector, for every vector of an engine.
 std::vector<Predictable> mistakes_of_axes();
 
+/// Returns every point that is turned wrongly, every law that changes the wrong quantity, and every corner
+/// that stands for another.
+std::vector<Predictable> mistakes_of_places();
+
 /// Returns every edit of a formula: a quantity of a body that another one stands for, or that is left out.
 std::vector<Predictable> mistakes_of_edits();
 

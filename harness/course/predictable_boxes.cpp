@@ -134,6 +134,19 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The torque is that of an arm half as long: \"point\" is measured from the centre, in m."},
       {"falls_through_boxes", "no_collision", "4",
        "The boxes go through each other: they overlap if they do so along x and along y."},
+      {"friction_bounds_exchanged", "friction_bounds_exchanged", "4",
+       "Friction always acts with its limit in one direction: min and max are exchanged where its sum is "
+       "limited, "
+       "min(max(sum, -most), most)."},
+      {"contact_between_centres", "contact_between_centres", "4",
+       "The point of contact of two boxes is taken halfway between their centres: contact points lie where "
+       "the sides "
+       "touch, at both ends of what they share."},
+      {"point_taken_for_world", "point_taken_for_world", "4",
+       "The force's point is taken for a point of the world: it is a point of the body, from its centre."},
+      {"contacts_averaged", "one_corner", "45",
+       "The two contacts of a box are merged into one between them, which does not stop it from tipping: "
+       "keep both."},
       {"fixed_rotation_ignored", "fixed_rotation_ignored", "4",
        "A box turns, and the scene says \"fixed_rotation\": its inverse inertia is 0."},
       {"normal_between_centres", "normal_between_centres", "4",

@@ -10,6 +10,11 @@ constexpr const char* kAlongAxis =
 constexpr const char* kPairsLeftOut =
     "Some pairs of bodies are never compared: go over all i < j, the last body included.";
 
+constexpr const char* kTestReversed =
+    "A contact is answered when the two part, and left alone when they close: with the normal from a to b "
+    "they close "
+    "when (vb - va) . n < 0.";
+
 }  // namespace
 
 std::vector<Predictable> mistakes_of_contacts() {
@@ -178,6 +183,21 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"no_test_of_parting", "no_test_of_parting", "3",
        "Two balls that already part get another impulse, and are held together or sent back: answer a "
        "contact only if (vb - va) . n < 0, and keep the sum of a contact's impulses from becoming negative."},
+      {"closing_test_reversed", "closing_test_reversed", "134", kTestReversed},
+      {"closing_test_reversed_with_bounce", "closing_test_reversed", "134", kTestReversed},
+      {"circles_as_squares", "circles_as_squares", "34",
+       "Circles collide when the squares around them overlap: they touch when their distance is below r1 + "
+       "r2."},
+      {"static_bodies_not_answered", "static_bodies_not_answered", "134",
+       "A contact with a static body gives no impulse: its inverse mass is 0, and 1/ma + 1/mb is that of the "
+       "other body."},
+      {"overlap_test_reversed", "overlap_test_reversed", "3",
+       "Circles that are apart collide, and those that overlap do not: they touch when their distance is "
+       "below r1 + r2."},
+      {"each_turned_by_itself", "each_turned", "34",
+       "Each ball turns round as at a wall: reverse the relative velocity, (vb - va) . n, and share the "
+       "impulse by "
+       "the inverse masses."},
       {"static_has_mass", "static_has_mass", "3",
        "The static post has a mass: its inverse mass is 0, so that no impulse changes its velocity."},
       {"correction_split_evenly", "correction_split_evenly", "3",

@@ -109,6 +109,9 @@ std::vector<Predictable> mistakes_of_joints() {
        "The hinge holds its anchor along x and lets go along y: solve both, along (1, 0) and along (0, 1)."},
       {"hinge_along_y_only", "hinge_one_axis", "5",
        "The hinge holds its anchor along y and lets go along x: solve both, along (1, 0) and along (0, 1)."},
+      {"hinge_shares_spin", "hinge_shares_spin", "5",
+       "The hinge makes both bodies turn alike: it holds the two anchors together and leaves the spins "
+       "free."},
       {"joint_never_spins", "joint_never_spins", "5",
        "The hinge's impulse never changes the spin: add r x j/I to w."},
       {"joint_without_rotation", "effective_mass_without_rotation", "5",

@@ -8,6 +8,14 @@ namespace {
 constexpr const char* kSlowIsStopped =
     "What is slow is stopped, and so never begins to move: gravity and forces act on a body at rest as well. "
     "Leave out what sets small velocities to 0.";
+constexpr const char* kMassFromSize =
+    "The mass is computed from the size of the body: take \"mass\" from the scene.";
+constexpr const char* kTimeForStep =
+    "A step multiplies by the time since the start, which grows: it multiplies by dt, the length of a step.";
+constexpr const char* kClampExchanged =
+    "The nearest point of a box is always the same corner: min and max are exchanged where the centre's x "
+    "and y are "
+    "limited to the box, min(max(x, low), high).";
 constexpr const char* kWallMissing =
     "The ball leaves through one wall, which never acts on it: every static box is a wall.";
 constexpr const char* kSpringAtOneEnd =
@@ -57,6 +65,10 @@ std::vector<Predictable> mistakes_of_motion() {
       {"milliseconds", "milliseconds", "1", "A thousand times too fast: dt is in seconds, not milliseconds."},
       {"per_frame", "per_frame", "1",
        "Something is added once a step and does not depend on dt. Multiply it by dt."},
+      {"time_for_dt", "time_for_dt", "12", kTimeForStep},
+      {"next_time_for_dt", "time_for_dt", "12", kTimeForStep},
+      {"time_for_dt_in_moves", "time_for_dt", "1", kTimeForStep},
+      {"next_time_in_moves", "time_for_dt", "1", kTimeForStep},
       {"move_per_frame", "per_frame", "1",
        "A position changes by v/60 a step, whatever dt is: by v dt, with the dt of the settings."},
       {"explicit_euler", "explicit_euler", "12",
@@ -83,6 +95,9 @@ std::vector<Predictable> mistakes_of_motion() {
        "All motion comes a step late: answer with the states after the step; the start is not a sample."},
       {"first_step_twice", "a_step_ahead", "124",
        "All motion is a step ahead: the first sample comes after \"every\" steps, and not after one more."},
+      {"speed below which bodies stop*0.01", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies stop*0.05", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies stop*0.1", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*0.2", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*0.3", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*0.5", "slow_is_stopped", "1", kSlowIsStopped},
@@ -186,6 +201,10 @@ std::vector<Predictable> mistakes_of_motion() {
        "send it back."},
       {"along_wall_changed", "along_wall_changed", "1",
        "The bounce changes the speed along the wall as well: only the part along the normal changes."},
+      {"threshold_reversed", "threshold_reversed", "13",
+       "Slow impacts bounce and fast ones do not: restitution is 0 below the threshold, and acts above it."},
+      {"clamp_exchanged", "clamp_exchanged", "134", kClampExchanged},
+      {"clamp_exchanged_below", "clamp_exchanged", "134", kClampExchanged},
       {"threshold_too_high", "threshold_too_high", "13",
        "The ball stops at 2 m/s and bounces when it is faster: the speed below which restitution is 0 is too "
        "high. It is 2 g dt, or the scene's \"restitution_threshold\"."},
@@ -236,6 +255,11 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force is not divided by the mass: a = F/m; a ball of 1 kg hides it."},
       {"mass_multiplied", "mass_multiplied", "2", "The force is multiplied by the mass: a = F/m."},
       {"mass_divided_twice", "mass_divided_twice", "2", "The force is divided by the mass twice."},
+      {"mass_from_area", "mass_from_size", "234", kMassFromSize},
+      {"mass_from_density", "mass_from_size", "234", kMassFromSize},
+      {"mass_from_radius", "mass_from_size", "23", kMassFromSize},
+      {"mass_from_square", "mass_from_size", "23", kMassFromSize},
+      {"mass_of_one", "mass_ignored", "2", "Every body has a mass of 1 kg: take \"mass\" from the scene."},
       {"root_of_mass", "mass_root", "2", "The force is divided by the root of the mass: a = F/m."},
       {"gravity_divided_by_mass", "gravity_divided_by_mass", "2",
        "Gravity is divided by the mass: it is an acceleration already. As a force it is m g, and m g/m = g."},
@@ -281,6 +305,8 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it acts in all steps that begin from start to start + duration."},
       {"push_a_step_late", "push_a_step_late", "2",
        "The force begins a step late: it acts in the step that begins at \"start\" as well."},
+      {"push_outside_its_time", "push_outside_its_time", "2",
+       "The push acts before \"start\" and after its end, and not between: its test is reversed."},
       {"push_from_zero", "push_from_zero", "2",
        "The push acts from 0 to \"duration\": it acts from \"start\" to \"start\" + \"duration\"."},
       {"drag*0", "drag_ignored", "2", "Drag does nothing."},
@@ -324,6 +350,10 @@ std::vector<Predictable> mistakes_of_motion() {
        "The spring only pushes: longer than at rest it pulls, with the same stiffness."},
       {"spring_by_sign", "spring_constant", "2",
        "The spring's force does not grow with its stretch: it is stiffness (length - rest_length)."},
+      {"spring_by_component", "spring_by_component", "2",
+       "The rest length is taken off the x and the y of the way from end to end: it is taken off the length "
+       "alone, and "
+       "the force is along the way."},
       {"spring_by_square", "spring_by_square", "2",
        "The spring's force grows with the square of its stretch: it is stiffness (length - rest_length)."},
       {"spring_not_unit", "spring_not_unit", "2",

@@ -231,8 +231,16 @@ Finding lands_flat(const Lab& lab) {
     narrow.shapes.front().geometry = Box{side, 2};
     return right(lab.run(scene_of("narrow", {}, {box, narrow}), 0.8));
   };
+  // On wide ground whose centre is below the box, contact points between the centres are right, and points at
+  // the ends of the ground are as wrong as elsewhere.
+  const auto lands_on_its_centre = [&] {
+    Body centred = ground(e, 0);
+    centred.position.x = box.position.x;
+    return right(lab.run(scene_of("centred", {}, {box, centred}), 0.8));
+  };
   const bool not_clipped = !right(trace) && !trace.still(0) && trace.last(0).velocity.y > -0.99 * v &&
-                           trace.last(0).angular_velocity != 0 && lands_on_its_width();
+                           trace.last(0).angular_velocity != 0 && lands_on_its_width() &&
+                           !lands_on_its_centre();
   return Judgement()
       .read("vy after landing", "m/s", trace.last(0).velocity.y, e * v, 0.005 * v)
       .read("spin after landing", "rad/s", trace.last(0).angular_velocity, 0, 0.02)

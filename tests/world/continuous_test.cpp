@@ -185,12 +185,18 @@ TYPED_TEST(Continuous, RoomsStayClosedInTheirCornersAndForWhatTurnsManyTimesInAS
     EXPECT_EQ(outcome.fault, "") << outcome.what;
   }
 }
-TYPED_TEST(Continuous, FewOnJointsLeaveAClosedRoomThatMoves) {
+// Of 3,000 rooms that move or whose bodies are tied by joints, a thin body left 3.
+TYPED_TEST(Continuous, FewLeaveAClosedRoomThatMoves) {
   hold_all(
-      100, [](std::uint64_t number) { return passages::closed_room<TypeParam>(number, false); }, 5);
+      100, [](std::uint64_t number) { return passages::closed_room<TypeParam>(number, false); }, 1);
 }
-TYPED_TEST(Continuous, FewOnAMotorsHingeGetPastAPin) { hold_all(100, passages::hinged<TypeParam>, 2); }
-TYPED_TEST(Continuous, FewGetPastALoosePlate) { hold_all(100, passages::plate<TypeParam>, 5); }
+// A chain with restitution that flies at slow bodies was not searched: only they would have found it.
+TYPED_TEST(Continuous, AFlyingRoomOfChainsTakesItsBodiesAlong) {
+  const passages::Outcome outcome = passages::closed_room<TypeParam>(1849, false);
+  EXPECT_EQ(outcome.fault, "") << outcome.what;
+}
+TYPED_TEST(Continuous, NothingOnAMotorsHingeGetsPastAPin) { hold_all(100, passages::hinged<TypeParam>); }
+TYPED_TEST(Continuous, NothingGetsPastAPlateThatFliesAtIt) { hold_all(100, passages::plate<TypeParam>); }
 
 }  // namespace
 }  // namespace plumb

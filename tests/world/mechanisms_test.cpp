@@ -54,6 +54,18 @@ TYPED_TEST(Mechanisms, APropellerOfWeldedBladesSpinsOn) {
       }
 }
 
+// Chains of limited hinges that are thrown whip: a hinge may go beyond its limit. It turns back by itself,
+// and all others stay closed meanwhile.
+TYPED_TEST(Mechanisms, ThrownChainsOfLimitedHingesStayClosed) {
+  for (const std::uint64_t seed : {1129, 1821, 2309}) {
+    Draw draw(seed);
+    const Plan plan = test::draw_plan(draw);
+    ASSERT_TRUE(plan.layout == Layout::Chain && plan.ties == Ties::Limits && !plan.floor) << plan.text();
+    Mechanism<TypeParam> m = test::build<TypeParam>(plan, seed);
+    EXPECT_LT(test::run_mechanism(m, 120).gap, 0.02) << plan.text();
+  }
+}
+
 struct Walker {
   int legs = 4;
   double length = 1.5, spread = 0.6;  ///< m, rad between legs

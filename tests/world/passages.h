@@ -295,32 +295,36 @@ Outcome hinged(std::uint64_t number) {
   return outcome;
 }
 
-/// A shaft with a loose plate across it, and bodies above: plate and bodies fly at each other. None of them
-/// gets below the plate, and the plate stays in the shaft.
+/// A shaft with a plate that slides along it, and bodies above: plate and bodies fly at each other. None of
+/// them gets below the plate, which reaches into the sides so that there is no gap, and none leaves the
+/// shaft.
 template <class Real>
 Outcome plate(std::uint64_t number) {
   Draw draw(number);
   BasicWorld<Real> world({.gravity = {0, 0}});
   const double dt = kSteps[draw.choose(5)], half = 1, thickness = draw.spread(0.002, 0.2);
   const bool kinematic = draw.chance(0.3);
+  constexpr unsigned kSide = 2;  // the category of the shaft's sides
   for (int side = 0; side < 4; ++side) {
     const double sign = side < 2 ? -1 : 1;
     const bool flat = side % 2 == 0;
     world.create_body(
         {.type = BodyType::Static, .position = flat ? Vec2d{0, sign * 5.5} : Vec2d{sign * (half + 0.5), 0}},
-        {.geometry = flat ? Box{4, 1} : Box{1, 12}});
+        {.geometry = flat ? Box{4, 1} : Box{1, 12}, .filter = {.category = flat ? 1u : kSide}});
   }
   const double speed = draw.spread(1, 1000);
   const double own = kinematic ? draw.spread(0.5, 60) : draw.spread(0.5, 500);
   const ShapeGeometry form =
       draw.chance(0.5)
-          ? ShapeGeometry{Box{1.98 * half, thickness}}
-          : ShapeGeometry{Capsule{{-0.95 * half, 0}, {0.95 * half, 0}, std::min(thickness / 2, 0.03)}};
-  const BodyId board = world.create_body({.type = kinematic ? BodyType::Kinematic : BodyType::Dynamic,
-                                          .position = {0, -2},
-                                          .velocity = {0, own},
-                                          .lock_rotation = true},
-                                         {.geometry = form, .density = 1000 * draw.spread(0.1, 100)});
+          ? ShapeGeometry{Box{2.4 * half, thickness}}
+          : ShapeGeometry{Capsule{{-1.2 * half, 0}, {1.2 * half, 0}, std::min(thickness / 2, 0.03)}};
+  const BodyId board = world.create_body(
+      {.type = kinematic ? BodyType::Kinematic : BodyType::Dynamic,
+       .position = {0, -2},
+       .velocity = {0, own},
+       .lock_x = true,
+       .lock_rotation = true},
+      {.geometry = form, .density = 1000 * draw.spread(0.1, 100), .filter = {.mask = ~std::uint64_t{kSide}}});
   const int count = 1 + draw.choose(3), group = draw.chance(0.5) ? -1 : 0;
   std::vector<Passenger> passengers;
   for (int i = 0; i < count; ++i) {

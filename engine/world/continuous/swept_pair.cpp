@@ -329,7 +329,6 @@ double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptP
   const bool flies_on = way.flight.impacts > 0;
   if ((pair.contact == nullptr || flies_on) && way.flight.yields &&
       may_rebound(w, pair.shape, pair.other, way.search.dt)) {
-    if (w.forms[pair.shape].chain && !pair.stands) return 1;  // found by the other shape's search
     const Result first = at.meet_closely();
     if (first.state == Result::State::Separated) return 1;
     if (first.state != Result::State::Overlapped) return at.passes_behind(first) ? 1 : at.fraction(first);

@@ -54,17 +54,14 @@ class Mechanism {
     return has_opened();
   }
 
-  // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops, or if
-  // one was beyond limits of its angle when the step began: it is left to turn back.
+  // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops.
   bool collect(int joint) {
     std::vector<char>& marks = w_.scratch.open_joints;
     start();
     start_links(w_, island_);
-    bool turns_back = false;
     const auto add = [&](int slot) {
       if (marks[slot] == kCollected) return;
       marks[slot] = kCollected;
-      turns_back = turns_back || w_.joint_set.began_beyond_limits(slot, Real(2 * tuning::kLimitSlack));
       island_.joints.push_back(slot);
     };
     add(joint);
@@ -82,7 +79,7 @@ class Mechanism {
       }
     }
     tied_ = island_.links.size();
-    return !turns_back && static_cast<int>(island_.joints.size() - tied_) <= kLoops;
+    return static_cast<int>(island_.joints.size() - tied_) <= kLoops;
   }
 
   void close() {
@@ -129,7 +126,8 @@ class Mechanism {
     return island_.system.order(island_.blocks, island_.sizes);
   }
 
-  // Adds a joint's rows: rigid ones and limits, and motors, which are not to be turned.
+  // Adds a joint's rows: rigid ones and limits, and motors, which are not to be turned. An angle that was
+  // beyond a limit when the step began is left to turn back: it goes no farther meanwhile.
   void make_joint_rows(Of of) {
     island_.system.rows.clear(), island_.allowed.clear();
     std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
@@ -137,6 +135,8 @@ class Mechanism {
       rows.clear();
       w_.joint_set.solver_rows(island_.joints[block], w_.solver_bodies(), rows);
       const auto [link_a, link_b] = island_.blocks[block];
+      const bool turns_back =
+          w_.joint_set.began_beyond_limits(island_.joints[block], Real(2 * tuning::kLimitSlack));
       for (const JointSolverRow<Real>& from : rows) {
         if (from.role == RowRole::Spring) continue;
         if (from.role == RowRole::Motor && of == Of::Velocities) continue;
@@ -146,7 +146,8 @@ class Mechanism {
         row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
         row.block = block;
         island_.allowed.push_back(opening_ * link_length(island_, row, from.length));
-        const double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
+        double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
+        if (turns_back && from.role == RowRole::Limit && is_angular(row)) gap = std::max(gap, 0.0);
         from.role == RowRole::Limit ? add_one_sided(row, gap, of) : add_rigid(row, gap, of);
       }
     }
@@ -213,7 +214,8 @@ class Mechanism {
     return false;
   }
 
-  static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && row.linear_b == Vec2d{}; }
+  static bool is_angular(const BoundedRow& row) { return row.linear_b == Vec2d{}; }
+  static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && is_angular(row); }
 
   // Returns true if the step has opened a row by more than it may be open: what was open before is left to
   // the solver, as a load may hold it open.

@@ -99,14 +99,6 @@ void find_carry(WorldData<Real>& w, JointedIsland<Real>& island) {
 // at 100 0.4 %, at 1000 1.3 %.
 constexpr double kMostRatio = 10;
 
-// Returns true for an island without contacts. With them, shocks open joints however short a part of a
-// substep is, and heaps of jointed bodies took six times as long where corrections lifted heavy bodies off
-// others.
-template <class Real>
-bool is_apart(const JointedIsland<Real>& island) {
-  return island.contacts.empty();
-}
-
 // Raises the masses of light bodies for a correction of positions, so that none moves far to spare a heavy
 // one a short way.
 template <class Real>
@@ -154,25 +146,60 @@ void pay_for_shift(JointedIsland<Real>& island, double share, double per_push) {
   }
 }
 
-// Moves bodies to close a fraction of the gaps. `h`: of the substep in which forces `push` them, s.
+// Fraction of joints' gaps that a correction closes, and the relative compliance of its rows.
+struct Closing {
+  double share = 0, softness = 0;
+};
+
 template <class Real>
-void close_gaps(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double h) {
+Closing closing_of(const WorldData<Real>& w) {
+  if (w.settings.solver == Solver::Direct) return {tuning::kDirectJointShare, tuning::kDirectCloseSoftness};
+  return {tuning::kJointShare, tuning::kCloseSoftness};
+}
+
+// Makes the rows of a correction. Returns false if there is nothing to close: of joints (`joints`), or of
+// contacts.
+template <class Real>
+bool make_closing_rows(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step,
+                       bool joints, double share) {
   RowMaker<Real>(w, island, step, Stage::Close).make();
-  BoundedRows& system = island.system;
-  const bool direct = w.settings.solver == Solver::Direct;
-  const double joint_share = direct ? tuning::kDirectJointShare : tuning::kJointShare;
-  for (std::size_t i = 0; i < system.rows.size(); ++i) {
-    BoundedRow& row = system.rows[i];
-    if (row.state != BoundedRow::kFree) continue;
-    row.gap *= static_cast<int>(i) >= island.contact_row ? 4 * tuning::kPushShare : joint_share;
+  bool open = false;
+  for (std::size_t i = 0; i < island.system.rows.size(); ++i) {
+    BoundedRow& row = island.system.rows[i];
+    const bool of_joint = static_cast<int>(i) < island.contact_row;
+    if (row.state == BoundedRow::kFree) {
+      row.gap *= of_joint == joints ? share : 0;
+      open = open || row.gap != 0;
+    } else if (of_joint != joints) {
+      row.gap = std::max(row.gap, 0.0);
+    }
   }
+  return open;
+}
+
+// Moves bodies to close a fraction of the gaps of joints, with limited mass ratios; what presses goes along.
+// What that lifts is paid for. `h`: of the substep in which forces `push` the bodies, s.
+template <class Real>
+void close_joints(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double h,
+                  const Closing& closing) {
+  if (!make_closing_rows(w, island, step, true, closing.share)) return;
+  BoundedRows& system = island.system;
   std::pmr::vector<BoundedBody>& own = island.bodies;
   own.assign(system.bodies.begin(), system.bodies.end());
-  if (is_apart(island)) raise_masses(island);
-  system.correct(direct ? tuning::kDirectCloseSoftness : tuning::kCloseSoftness);
+  raise_masses(island);
+  system.correct(closing.softness);
   std::copy(own.begin(), own.end(), system.bodies.begin());
-  const double share = shift_links(w, island, tuning::kLinkTurn);
-  if (is_apart(island)) pay_for_shift(island, share, 1 / h);
+  pay_for_shift(island, shift_links(w, island, tuning::kLinkTurn), 1 / h);
+}
+
+// Pushes overlapping bodies apart by a fraction of their overlaps, with their own masses, and with joints as
+// they are. Were light bodies to lift heavy ones off others as far as they give way themselves, these would
+// fall back upon them in the next step.
+template <class Real>
+void push_apart(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
+  if (!make_closing_rows(w, island, step, false, 4 * tuning::kPushShare)) return;
+  island.system.correct(closing_of(w).softness);
+  shift_links(w, island, tuning::kLinkTurn);
 }
 
 // ---- Motion
@@ -282,6 +309,7 @@ void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
   for (JointedLink& start : island.starts) start.way = {}, start.turn = 0;
   for (JointedLink& link : island.links) link.velocity = link.before, link.spin = link.spin_before;
   const double share = 1.0 / parts;
+  for (double& impulse : island.impulses) impulse *= share;
   std::pmr::vector<double>& total = island.allowed;
   for (int i = 0; i < parts; ++i) {
     note_starts(w, island);
@@ -291,7 +319,8 @@ void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
     }
     hold(w, island, part);
     shift_all(w, island, part.h);
-    close_gaps(w, island, part, step.h);
+    // Whole gaps at once would open joints again by ten times as much, as taut links turn far for little.
+    close_joints(w, island, part, step.h, {tuning::kJointShare, tuning::kCloseSoftness});
     relax(w, island, part);
     for (std::size_t k = 0; k < island.links.size(); ++k) {
       const JointedLink& link = island.links[k];
@@ -307,21 +336,24 @@ void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
 }
 
 // Moves an island through a substep in as many parts as keep the drift small, from `drift`, that of the
-// whole. The bodies are at its start, before and after.
+// whole. The bodies are at its start, before and after. Ends where more parts do not halve the drift: it is
+// none of the motion then, but of what contradicts the joints.
 template <class Real>
 void move_in_parts(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step,
                    double drift) {
   std::pmr::vector<JointedLink>& starts = island.starts;
   starts.assign(island.links.begin(), island.links.end());
-  for (int parts = 1; drift > 1 && parts < kMostParts;) {
-    // The drift decreases with the square of the number of parts.
-    for (double left = drift; left > 1 && parts < kMostParts; left /= 4) parts *= 2;
+  double before = std::numeric_limits<double>::infinity();
+  for (int parts = 1; drift > 1 && drift < 0.5 * before && parts < kMostParts;) {
+    // The drift decreases with the square of the number of parts, if it does: two parts show that.
+    const bool first = parts == 1;
+    for (double left = drift; left > 1 && parts < (first ? 2 : kMostParts); left /= 4) parts *= 2;
     move_through(w, island, step, parts);
     for (std::size_t k = 0; k < starts.size(); ++k) {
       starts[k].velocity = island.links[k].velocity, starts[k].spin = island.links[k].spin;
       island.links[k] = starts[k];
     }
-    drift = drift_of(w, island);
+    before = drift, drift = drift_of(w, island);
   }
 }
 
@@ -404,10 +436,8 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
     for (JointedLink& link : island.links)
       link.push = link.velocity - link.before, link.twist = link.spin - link.spin_before;
     hold(w, island, step);
-    if (is_apart(island)) {
-      shift_all(w, island, step.h);
-      if (const double drift = drift_of(w, island); drift > 1) move_in_parts(w, island, step, drift);
-    }
+    shift_all(w, island, step.h);
+    if (const double drift = drift_of(w, island); drift > 1) move_in_parts(w, island, step, drift);
     for (const JointedLink& link : island.links) put_velocity(w.motion[link.body], link.way, link.turn);
   }
 }
@@ -420,7 +450,10 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
     // These impulses replace those of the pass over all contacts.
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->watched != Watch::Off) c->step_impulse -= normal_sum(*c);
-    if (close) close_gaps(w, island, step, step.h);
+    if (close) {
+      close_joints(w, island, step, step.h, closing_of(w));
+      if (!island.contacts.empty()) push_apart(w, island, step);
+    }
     relax(w, island, step);
     for (const JointedLink& link : island.links) put_velocity(w.motion[link.body], link.velocity, link.spin);
     for (ContactConstraint<Real>* c : island.contacts)

@@ -10,6 +10,7 @@
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/seams.h"
+#include "engine/world/step/common_rotation.h"
 #include "engine/world/step/expected_impacts.h"
 #include "engine/world/step/lasting_contact.h"
 #include "engine/world/step/recycled_manifold.h"
@@ -188,8 +189,9 @@ template <class Real>
     return 0;
   }
   if (manifold.count == 0 || at.outlook == Outlook::Misses) return parted;
-  begin_near(w, block, id, dt, false,
-             [&](ContactConstraint<Real>& c) { prepare_contact(w, contact, manifold, c); });
+  begin_near(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+    prepare_turning_contact(w, contact, manifold, dt, c, c.normal_impulse);
+  });
   return 0;
 }
 
@@ -201,6 +203,7 @@ template <class Real>
                                                     ContactConstraint<Real>& c) {
   if (renew_lasting(w, contact, dt, c)) return true;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
+  if (renew_turning(w, contact, manifold, dt, c)) return true;
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.outlook == Outlook::Meets) {
     prepare_meeting(w, contact, at, c, c.now);
@@ -212,7 +215,7 @@ template <class Real>
       w.scratch.found_presses.add(block, {c.body_a, c.body_b});
     }
   } else {
-    prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c, c.now);
+    prepare_turning_contact(w, contact, manifold, dt, c, c.now);
   }
   // The prediction ignores the load that a contact carries: keep a contact that holds a body.
   const bool holds = c.now[0] > 0 || c.now[1] > 0;

@@ -8,6 +8,7 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/seams.h"
+#include "engine/world/step/common_rotation.h"
 #include "engine/world/step/speculative_contact.h"
 
 namespace plumb {
@@ -19,16 +20,18 @@ namespace {
 // bounds, and blocks that tip over and discs that roll off change their errors by less than a factor of 2.
 constexpr double kLastingBend = 1.0 / 64;
 
-// Returns the contact at the middle of the step, if the bodies keep their velocities and rotate little
-// enough.
+// Returns the contact at the middle of the step, if the bodies rotate little enough. `closed`: m,
+// displacement of b relative to a until then; `common`: rad, rotation that they have in common until then.
 template <class Real>
-SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
+SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact,
+                                           Vec2<Real> closed, Real common, Real dt) {
   SpeculativeContact<Real> at;
   const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real half = Real(0.5) * dt;
-  at.closed = half * (b.velocity - a.velocity);
+  at.closed = closed;
   at.turned_a = half * a.angular_velocity, at.turned_b = half * b.angular_velocity;
-  const auto bends = [&](int body, Real turn) {
+  const auto bends = [&](int body, Real turned) {
+    const Real turn = turned - common;
     return w.is_dynamic(body) &&
            Real(0.5) * turn * turn * w.extents[body] > Real(kLastingBend) * w.bodies[body].half_width;
   };
@@ -60,7 +63,7 @@ SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const Contact
     lasts = true;
   }
   if (!lasts) return {};
-  SpeculativeContact<Real> at = contact_at_middle(w, contact, dt);
+  SpeculativeContact<Real> at = contact_at_middle(w, contact, half * (b.velocity - a.velocity), Real(0), dt);
   for (int i = 0; i < at.manifold.count; ++i)
     if (at.manifold.points[i].separation < deepest - near) return {};
   return at;
@@ -95,6 +98,10 @@ bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real 
   if (lasting.manifold.count == 0) return false;
   const Real deepest = std::min({c.now[0], c.count == 2 ? c.now[1] : Real(0), Real(0)});
   prepare_speculative_contact(w, contact, lasting, c, c.now);
+  // The bodies' common rotation curves their paths about each other.
+  const Real common = common_rotation(w, contact, between_bodies(w, contact), Real(0.5) * dt);
+  const Real curve = Real(0.5) * common * common * dot(c.normal, lasting.between);
+  for (int i = 0; i < c.count; ++i) c.separation[i] += curve;
   // Extrapolated back to the start, points deviate from their tangents. An overlap that may be this deviation
   // is not pushed out.
   const auto bend = [&](int body, int shape, Real turn) {
@@ -108,13 +115,53 @@ bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real 
 }
 
 template <class Real>
+bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
+                   const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c) {
+  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Vec2<Real> between = between_bodies(w, contact);
+  const Real half = Real(0.5) * dt, turn = common_rotation(w, contact, between, half);
+  if (turn == 0) return false;
+  const Real near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
+  const Vec2<Real> closed = half * (b.velocity - a.velocity);
+  // Velocities lie along the last step's contact plane: they lag by up to three half steps behind the middle
+  // of this one.
+  const Real explained = 3 * std::abs(turn) * size_of(closed) + near;
+  const Rotation<Real> q = w.rotation[contact.body_a], turned = turned_by(Rotation<Real>{1, 0}, turn);
+  const Vec2<Real> before = q * manifold.normal, n = turned * before, t{n.y, -n.x};
+  bool touches = false;
+  for (int i = 0; i < manifold.count; ++i) {
+    if (manifold.points[i].separation > near) continue;
+    const Vec2<Real> arm = q * manifold.points[i].point;
+    const Real turning =
+        half * (cross(arm - between, before) * b.angular_velocity - cross(arm, before) * a.angular_velocity);
+    if (dot(n, closed) + turning < -explained) return false;
+    touches = true;
+  }
+  if (!touches) return false;
+  // The contact lets the bodies slide, and keeps them from approaching.
+  const Vec2<Real> round = turned * between - between;
+  const Real slides = dot(t, closed - round);
+  // Arms that are off by `slides` let a body sink by 2 turn slides in a step.
+  if (std::abs(turn * slides) > Real(0.25) * near) {
+    const SpeculativeContact<Real> at = contact_at_middle(w, contact, round + slides * t, turn, dt);
+    if (at.manifold.count > 0) {
+      prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, c.now);
+      return true;
+    }
+  }
+  prepare_contact(w, contact, manifold, turned_by(q, turn), turned * between, c, c.now);
+  return true;
+}
+
+template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt) {
   if (w.scratch.loaded[contact.body_a] == 0 && w.scratch.loaded[contact.body_b] == 0) return {};
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   const Real near = Real(tuning::kRecycleDistance) * smaller;
   if (!may_arrive(w, contact, manifold, near, dt)) return {};
-  SpeculativeContact<Real> at = contact_at_middle(w, contact, dt);
+  const Vec2<Real> relative = w.motion[contact.body_b].velocity - w.motion[contact.body_a].velocity;
+  SpeculativeContact<Real> at = contact_at_middle(w, contact, Real(0.5) * dt * relative, Real(0), dt);
   bool touches = false;
   const Vec2<Real> n = at.rotation * at.manifold.normal;
   for (int i = 0; i < at.manifold.count; ++i) {
@@ -131,6 +178,8 @@ SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const Contac
 
 #define PLUMB_FOR(Real)                                                                                      \
   template bool renew_lasting(const WorldData<Real>&, const ContactRecord&, Real, ContactConstraint<Real>&); \
+  template bool renew_turning(const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&,    \
+                              Real, ContactConstraint<Real>&);                                               \
   template SpeculativeContact<Real> arriving_contact(const WorldData<Real>&, const ContactRecord&,           \
                                                      const ContactManifold<Real>&, Real);
 PLUMB_FOR(float)

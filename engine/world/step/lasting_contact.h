@@ -14,6 +14,13 @@ template <class Real>
 bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
                    ContactConstraint<Real>& c);
 
+/// Rebuilds a contact with points whose bodies rotate together (common_rotation.h), unless they approach by
+/// more than their rotation explains. Returns false, and changes nothing, if they do, or if no point touches.
+/// `manifold`: at the start of the step. The new impulses are written to `c.now`.
+template <class Real>
+bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
+                   const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c);
+
 /// Returns the contact with a surface that a loaded body slides onto, at the middle of the step: it then
 /// supports the body together with the lasting contacts of that time. Without points if there is none.
 /// `manifold`: at the start of the step.

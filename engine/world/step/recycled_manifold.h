@@ -24,12 +24,13 @@ template <class Real>
   const Real sine = turn - turn * squared * (Real(1) / 6);
   const Real bend = Real(0.5) * squared * (1 - squared * (Real(1) / 12));
   const Vec2<Real> after{n.x - sine * n.y - bend * n.x, n.y + sine * n.x - bend * n.y};
-  // `middle` is the mean of the normals before and after. Under a common rotation the bodies keep their arms
-  // and move along a chord: `middle` times the chord equals the sine times the difference of the arms.
-  const Vec2<Real> middle = Real(0.5) * (n + after);
+  // The normal is that of the step's middle (common_rotation.h). Under a common rotation the bodies keep
+  // their arms there and move along a chord: the normal times the chord equals the difference of the arms
+  // times twice the sine of half the angle.
+  const Real chord = turn - turn * squared * (Real(1) / 24);
   const Real relative_turn = b.turned - turn;
-  const Real closed = dot(middle, shift) + (c.arm_b[0] - c.arm_a[0]) * sine;
-  const Real slid = cross(middle, shift) - (c.arm_tangent_b - c.arm_tangent_a) * sine;
+  const Real closed = dot(n, shift) + (c.arm_b[0] - c.arm_a[0]) * chord;
+  const Real slid = cross(n, shift) - (c.arm_tangent_b - c.arm_tangent_a) * chord;
   c.recycle_budget -= std::abs(closed) + std::abs(slid) + std::abs(relative_turn) * extent_b;
   if (c.recycle_budget < 0 || std::abs(turn) > Real(kRecycleTurn)) return false;
   c.normal = after;

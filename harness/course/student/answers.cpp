@@ -67,7 +67,10 @@ void StudentWorld::prepare(Touch& touch) const {
       mixed("velocity before a bounce", mixed("velocity in a contact", relative_velocity(touch)));
   const double closing = dot(coming, touch.normal);
   const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
-  if (closing < -slow || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
+  const bool fast = is("threshold_reversed") ? closing < 0 && closing >= -slow : closing < -slow;
+  if (fast || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
+  if (is("closing_test_reversed_with_bounce"))
+    touch.bounce = closing > slow ? -restitution(touch) * closing : 0;
   if (is("bounce_without_speed") && touch.bounce > 0) touch.bounce = restitution(touch);
   if (is("bounce_of_whole_speed") && touch.bounce > 0)
     touch.bounce = restitution(touch) * length(relative_velocity(touch));
@@ -145,6 +148,13 @@ bool StudentWorld::answer_wrongly(Touch& touch, double closing) {
     a.velocity -= (1 + restitution(touch)) * dot(a.velocity, n) * n;
     return true;
   }
+  if (is("each_turned_by_itself") && a.inverse_mass > 0 && b.inverse_mass > 0) {
+    if (closing >= 0) return true;
+    const double turn = 1 + restitution(touch);
+    if (const double speed = dot(a.velocity, n); speed > 0) a.velocity -= turn * speed * n;
+    if (const double speed = dot(b.velocity, n); speed < 0) b.velocity -= turn * speed * n;
+    return true;
+  }
   if (is("each_turned") && closing < 0) {
     a.velocity -= 2 * dot(a.velocity, n) * n;
     b.velocity -= 2 * dot(b.velocity, n) * n;
@@ -159,6 +169,7 @@ void StudentWorld::answer(Touch& touch) {
   const auto [arm_a, arm_b] = arms_of(touch);
   const double closing =
       dot(mixed("velocity in an impulse", mixed("velocity in a contact", relative_velocity(touch))), n);
+  if (is("static_bodies_not_answered") && (a.inverse_mass == 0 || b.inverse_mass == 0)) return;
   if (is("bounce_each_sweep")) touch.bounce = -restitution(touch) * closing;
   if (is("ignores_slow") && closing > -4 * length(scene_.gravity) * dt_) return;
   if (answer_wrongly(touch, closing)) return;
@@ -194,6 +205,8 @@ void StudentWorld::answer(Touch& touch) {
   double j = times("impulse of a contact") * (touch.bounce - closing) / k;
   const auto new_sum = [&](double change) {
     if (is("each_push_clamped")) return touch.sum + std::max(0.0, change);
+    if (is("closing_test_reversed") || is("closing_test_reversed_with_bounce"))
+      return std::min(0.0, touch.sum + change);
     return is("no_test_of_parting") ? touch.sum + change : std::max(0.0, touch.sum + change);
   };
   const double before = touch.sum, sum = new_sum(j);
@@ -311,6 +324,7 @@ void StudentWorld::rub(Touch& touch) {
   double sum = std::clamp(touch.sum_across - against / k, -most, most);
   if (above_only || is("rough_limited_above_only")) sum = std::min(touch.sum_across - against / k, most);
   if (below_only || is("rough_limited_below_only")) sum = std::max(touch.sum_across - against / k, -most);
+  if (is("friction_bounds_exchanged")) sum = most;
   if (is("friction_at_its_limit")) sum = sliding > 0 ? -most : sliding < 0 ? most : 0;
   if (is("friction_each_limited")) sum = touch.sum_across + std::clamp(-against / k, -most, most);
   const double j = sum - std::exchange(touch.sum_across, sum);

@@ -8,11 +8,27 @@
 // Finds the contacts of two boxes by separating axes and clipping.
 namespace plumb::course {
 
+// Returns the name of a part of a box, or of all of the box if the mistake turns all of it.
+Name StudentWorld::part_of_box(const Rigid& body, Name part) const {
+  constexpr Name kBox("a box"), kStatic("a static box");
+  if (turned_hash_ == kBox.hash) return kBox;
+  return turned_hash_ == kStatic.hash && body.inverse_mass == 0 ? kStatic : part;
+}
+
+// Returns a direction of a box's sides in the world.
+Vec2d StudentWorld::side(const Rigid& body, Vec2d local) const {
+  return turned(part_of_box(body, "a box's sides"), body, local);
+}
+
+// Returns a corner of a box from its centre in the world.
+Vec2d StudentWorld::corner(const Rigid& body, Vec2d local) const {
+  return turned(part_of_box(body, "a box's corners"), body, local);
+}
+
 // Returns half of a box's extent along an axis.
 double StudentWorld::extent(const Rigid& body, Vec2d axis) const {
   const Box size = box(body);
-  const Rotation<double> q = body.rotation();
-  const double along = dot(q * Vec2d{1, 0}, axis), across = dot(q * Vec2d{0, 1}, axis);
+  const double along = dot(side(body, {1, 0}), axis), across = dot(side(body, {0, 1}), axis);
   const double w = size.width / 2, h = size.height / 2;
   if (is("extent_sign_lost")) return w * along + h * across;
   if (is("extent_of_the_sum")) return std::abs(w * along + h * across);
@@ -32,7 +48,7 @@ std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std:
     for (const Vec2d local : {Vec2d{1, 0}, Vec2d{0, 1}}) {
       if (is("axes_of_the_width_only") && local.x == 0) continue;
       if (is("axes_of_the_height_only") && local.y == 0) continue;
-      const Vec2d axis = is("axes_not_turned") ? local : bodies_[box].rotation() * local;
+      const Vec2d axis = is("axes_not_turned") ? local : side(bodies_[box], local);
       const double overlap = extent(bodies_[a], axis) + extent(bodies_[b], axis) - std::abs(dot(way, axis));
       if (overlap <= 0) return std::nullopt;
       const bool nearer = is("largest_overlap") ? !best || overlap > best->overlap + 1e-9
@@ -54,9 +70,9 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   const Box size = box(other);
   std::array<Vec2d, 4> corners;
   std::size_t filled = 0;
-  for (const Vec2d sign : {Vec2d{1, 1}, Vec2d{1, -1}, Vec2d{-1, -1}, Vec2d{-1, 1}})
+  for (const Vec2d sign : corner_signs())
     corners[filled++] =
-        other.position + other.to_world({sign.x * size.width / 2, sign.y * size.height / 2}) - owner.position;
+        other.position + corner(other, {sign.x * size.width / 2, sign.y * size.height / 2}) - owner.position;
   std::stable_sort(corners.begin(), corners.end(),
                    [&](Vec2d p, Vec2d q) { return dot(p, outward) < dot(q, outward); });
   const std::size_t first = is("corners_farthest_out") ? 2 : 0;
@@ -82,7 +98,17 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
           {a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
     if (is("middle_of_the_side") || is("first_end_only") || is("second_end_only")) break;
   }
+  if (is("contact_between_centres"))
+    for (auto touch = out.begin() + before; touch != out.end(); ++touch)
+      touch->point = 0.5 * (owner.position + other.position);
   if (std::ssize(out) < before + 2) return;
+  if (is("contacts_averaged")) {
+    const Touch last = out.back();
+    out.pop_back();
+    out.back().point = 0.5 * (out.back().point + last.point);
+    out.back().depth = (out.back().depth + last.depth) / 2;
+    return;
+  }
   const bool first_deeper = out[out.size() - 2].depth >= out.back().depth;
   const double deeper = out[out.size() - 2].depth - out.back().depth;
   if (is("deepest_corner_or_last")) out.erase(deeper > 1e-9 ? out.end() - 1 : out.end() - 2);

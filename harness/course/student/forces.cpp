@@ -19,15 +19,14 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   const auto names = ends_of(law);
   const auto index = find_body(scene_, names[1] == kWorld ? names[0] : names[1]);
   Rigid& b = bodies_[index.value_or(bodies_.size() - 1)];
-  const auto add_to = [&](Rigid& body, Vec2d force) {
+  const auto add_to = [&](Name law_name, Rigid& body, Vec2d force) {
     if (is("last_force_only")) body.force = {};
     if (is("first_force_lost") && first && !last) return;
     if (is("last_force_lost") && last && !first) return;
     if (is("first_force_only") && !first) return;
     if (is("force_once") && steps_ > 0) return;
-    body.force += force;
+    act(law_name, body, force);
   };
-  const auto add = [&](Vec2d force) { add_to(b, force); };
   const auto acts = [&](double start, double duration) {
     if (is("push_never_ends")) return time() >= start - dt_ / 2;
     if (is("push_always")) return true;
@@ -39,15 +38,18 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     }
     if (is("push_for_one_step")) return time() >= start - 1e-9 && time() < start + dt_ - 1e-9;
     if (is("push_a_step_late")) return time() >= start + dt_ / 2 && time() < start + duration - 1e-9;
+    if (is("push_outside_its_time")) return time() < start - 1e-9 || time() >= start + duration - 1e-9;
     if (is("push_from_zero")) return time() < duration - 1e-9;
     return time() >= start - 1e-9 && time() < start + duration - 1e-9;
   };
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
-    add(mixed("force", times("force") * push->force) +
-        (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
-    Vec2d arm = is("point_not_turned") ? push->point : b.to_world(push->point);
+    add_to("force", b,
+           mixed("force", times("force") * push->force) +
+               (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
+    Vec2d arm = is("point_not_turned") ? push->point : turned("a force's point", b, push->point);
     if (is("lever_from_origin")) arm += b.position;
+    if (is("point_taken_for_world")) arm = push->point - b.position;
     if (is("point_ignored")) arm = {};
     if (is("point_turned_backwards"))
       arm = Rotation<double>{std::cos(b.angle), -std::sin(b.angle)} * push->point;
@@ -64,6 +66,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   } else if (const auto* drag = std::get_if<LinearDrag>(&law)) {
     const double share = is("drag_not_divided") ? 1 / b.inverse_mass : 1;
     const double speed = length(b.velocity), c = (is("drag_pushes") ? share : -share) * drag->coefficient;
+    const auto add = [&](Vec2d force) { add_to("drag", b, force); };
     if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
@@ -75,7 +78,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   } else if (const auto* spring = std::get_if<SpringForce>(&law)) {
     Rigid& a = bodies_[find_body(scene_, names[0]).value_or(bodies_.size() - 1)];
     Rigid& end = bodies_[find_body(scene_, names[1]).value_or(bodies_.size() - 1)];
-    Vec2d arm_a = a.to_world(spring->anchor_a), arm_b = end.to_world(spring->anchor_b);
+    Vec2d arm_a = turned("a spring's anchors", a, spring->anchor_a),
+          arm_b = turned("a spring's anchors", end, spring->anchor_b);
     const auto ignored = [&](const Rigid& body) {
       return is("spring_anchors_ignored") || (is("spring_anchor_of_world_ignored") && body.body == nullptr);
     };
@@ -106,12 +110,13 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
       if (body.inverse_mass == 0) return;
       if (is("spring_mass_not_divided")) force *= 1 / body.inverse_mass;
       if (is("spring_divided_by_mass_twice")) force *= body.inverse_mass;
-      add_to(body, force);
+      add_to("spring", body, force);
       body.torque += cross(arm, force);
     };
-    if (!is("spring_pulls_the_second_only"))
-      pull(a, arm_a, (is("spring_same_direction") ? -tension : tension) * along);
-    if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -tension * along);
+    Vec2d force = tension * along;
+    if (is("spring_by_component")) force += spring->stiffness * (way - Vec2d{rest, rest} - stretch * along);
+    if (!is("spring_pulls_the_second_only")) pull(a, arm_a, is("spring_same_direction") ? -force : force);
+    if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -force);
   }
 }
 
@@ -142,12 +147,16 @@ void StudentWorld::accelerate() {
   if (is("dt_missing")) dt = 1;
   if (is("milliseconds")) dt *= 1000;
   if (is("per_frame")) dt = 1.0 / 60;
+  if (is("time_for_dt")) dt = time();
+  if (is("next_time_for_dt")) dt = time() + dt_;
   for (Rigid& b : bodies_) {
     if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
     Vec2d fall = is("gravity_off_while_touching") && b.touched ? Vec2d{} : g;
     b.touched = false;
     if (is("gravity_divided_by_mass")) fall *= b.inverse_mass;
     if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
+    if (is("gravity_off_while_pushed") && b.force != Vec2d{}) fall = {};
+    if (acting_hash_ == Name("gravity").hash) act("gravity", b, 1 / b.inverse_mass * std::exchange(fall, {}));
     double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
     if (is("mass_multiplied")) inverse = 1 / b.inverse_mass;
     if (is("mass_divided_twice")) inverse *= inverse;
@@ -176,6 +185,8 @@ void StudentWorld::move() {
       const double dt = is("velocity_without_dt")      ? 1
                         : is("velocity_with_dt_twice") ? dt_ * dt_
                         : is("move_per_frame")         ? 1.0 / 60
+                        : is("time_for_dt_in_moves")   ? time()
+                        : is("next_time_in_moves")     ? time() + dt_
                                                        : dt_;
       const Vec2d v =
           scheme_ == reference::Scheme::VelocityVerlet ? 0.5 * (b.velocity + b.before) : b.velocity;

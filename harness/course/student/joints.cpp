@@ -22,11 +22,18 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
           const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
           const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
           const Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
-          const bool neither = is("anchor_not_turned");
+          const bool neither = is("anchor_not_turned"), both = turned_hash_ == Name("a joint's anchors").hash;
+          const auto to_world = [&](std::string_view which, const Rigid& body, Vec2d anchor) {
+            if (both) return turned("a joint's anchors", body, anchor);
+            return which == "first" ? turned("a joint's first anchor", body, anchor)
+                                    : turned("a joint's second anchor", body, anchor);
+          };
           const Rigid& turns_a = is("first_anchor_turned_by_the_second") ? b : a;
           const Rigid& turns_b = is("second_anchor_turned_by_the_first") ? a : b;
-          out.arm_a = neither || is("first_anchor_not_turned") ? anchor_a : turns_a.to_world(anchor_a);
-          out.arm_b = neither || is("second_anchor_not_turned") ? anchor_b : turns_b.to_world(anchor_b);
+          out.arm_a =
+              neither || is("first_anchor_not_turned") ? anchor_a : to_world("first", turns_a, anchor_a);
+          out.arm_b =
+              neither || is("second_anchor_not_turned") ? anchor_b : to_world("second", turns_b, anchor_b);
           out.raw_a = anchor_a;
           out.raw_b = anchor_b;
           out.gap = b.position + out.arm_b - a.position - out.arm_a;
@@ -111,6 +118,8 @@ void StudentWorld::solve(const Joint& joint) {
     }
     if (stick) break;
   }
+  if (is("hinge_shares_spin") && !stick && a.inverse_inertia > 0 && b.inverse_inertia > 0)
+    a.spin = b.spin = (a.spin + b.spin) / 2;
 }
 
 void StudentWorld::correct(const Joint& joint) {

@@ -22,6 +22,7 @@ struct Manner {
   bool turning_push = false;  ///< an overlap is corrected at the point of contact, which turns bodies as well
   double joint_share = 0.5;   ///< fraction of a joint's error that a correction removes
   int corrections = 0;        ///< corrections of joints in a step; 0: a quarter of the sweeps
+  bool turns = true;          ///< contacts spin bodies; engines of the first three chapters need not
   double fed = 0;  ///< fraction of a joint's error that velocities close in a step, instead of positions
 };
 

@@ -34,7 +34,9 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (wrong("first_radius_twice")) reach = 2 * ra;
   if (wrong("second_radius_twice")) reach = 2 * rb;
   if (is("no_detection")) reach = 0;
-  if (d <= 0 || (is("square_of_distance") ? d * d : d) >= reach) return;
+  const bool apart = (is("square_of_distance") ? d * d : d) >= reach;
+  const bool squares_touch = is("circles_as_squares") && std::abs(way.x) < reach && std::abs(way.y) < reach;
+  if (d <= 0 || (!squares_touch && apart != is("overlap_test_reversed"))) return;
   Vec2d n = 1 / d * way, rim = way;
   if (is("normal_not_unit")) n = way;
   if (is("normal_over_square")) n = 1 / (d * d) * way;
@@ -75,8 +77,10 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const bool backwards = is("centre_turned_backwards");
   const Vec2d local = (backwards ? q : q.inverse()) * (c.position - b.position);
-  const Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
-                      std::clamp(local.y, -size.height / 2, size.height / 2)};
+  Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
+                std::clamp(local.y, -size.height / 2, size.height / 2)};
+  if (is("clamp_exchanged")) nearest = {size.width / 2, size.height / 2};
+  if (is("clamp_exchanged_below")) nearest = {-size.width / 2, -size.height / 2};
   Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   if (backwards) way = b.position + q * nearest - c.position;
   const double d = length(way);
@@ -109,20 +113,21 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
   const Rigid &b = bodies_[box], &c = bodies_[corners];
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   const Box size = this->box(b), other = this->box(c);
-  const Rotation<double> q = b.rotation();
-  for (const Vec2d sign : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}}) {
-    const Vec2d corner = c.position + c.to_world({sign.x * other.width / 2, sign.y * other.height / 2});
-    const Vec2d local = q.inverse() * (corner - b.position);
+  const Vec2d along = side(b, {1, 0}), across = side(b, {0, 1});
+  for (const Vec2d sign : corner_signs()) {
+    const Vec2d corner = c.position + this->corner(c, {sign.x * other.width / 2, sign.y * other.height / 2});
+    const Vec2d way = corner - b.position, local{dot(along, way), dot(across, way)};
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     if (in_x <= 0 || in_y <= 0) continue;
     const Vec2d n = (in_x < in_y) != is("largest_overlap") ? Vec2d{std::copysign(1.0, local.x), 0}
                                                            : Vec2d{0, std::copysign(1.0, local.y)};
-    Vec2d normal = q * n;
+    Vec2d normal = n.x * along + n.y * across;
     if (is("normal_of_the_first_face_only") && corners < box) normal = -normal;
-    if (const Vec2d way = c.position - b.position; is("normal_between_centres"))
-      normal = 1 / length(way) * way;
+    if (const Vec2d line = c.position - b.position; is("normal_between_centres"))
+      normal = 1 / length(line) * line;
     if (is("box_normal_not_turned")) normal = n;
-    out.push_back({box, corners, corner, normal, std::min(in_x, in_y)});
+    const Vec2d point = is("contact_between_centres") ? 0.5 * (b.position + c.position) : corner;
+    out.push_back({box, corners, point, normal, std::min(in_x, in_y)});
     if (is("one_corner")) return;
   }
   if (is("other_corner") && std::ssize(out) > before + 1) out.erase(out.begin() + before, out.end() - 1);

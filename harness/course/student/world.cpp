@@ -70,6 +70,19 @@ double StudentWorld::inertia(const Body& body) const {
   return mass * (w * w + h * h) / 12 * (is("inertia_sixth") ? 2 : 1) * times("inertia of a box");
 }
 
+// Returns a body's mass, or what the mistake takes for it.
+double StudentWorld::mass(const Body& body) const {
+  const auto* circle = std::get_if<Circle>(&body.shapes.at(0).geometry);
+  const Box sides = circle != nullptr ? Box{2 * circle->radius, 2 * circle->radius}
+                                      : std::get<Box>(body.shapes.at(0).geometry);
+  const double fills = circle != nullptr ? std::numbers::pi / 4 : 1;  // of the box around it
+  if (is("mass_from_area")) return fills * sides.width * sides.height;
+  if (is("mass_from_density")) return body.mass * fills * sides.width * sides.height;
+  if (is("mass_from_radius") && circle != nullptr) return circle->radius;
+  if (is("mass_from_square") && circle != nullptr) return circle->radius * circle->radius;
+  return is("mass_of_one") ? 1 : body.mass;
+}
+
 StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, reference::Scheme scheme,
                            const Manner& manner)
     : scene_(scene), dt_(dt), mistake_(std::move(mistake)), scheme_(scheme), manner_(manner) {
@@ -98,8 +111,9 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     if (const auto* box = std::get_if<Box>(&body.shapes.at(0).geometry); box && is("upper_corner_for_centre"))
       rigid.position += Vec2d{box->width / 2, -box->height / 2};
     if (body.type == BodyType::Dynamic) {
-      rigid.inverse_mass = is("inverse_mass_floored") ? std::floor(1 / body.mass) : 1 / body.mass;
-      if (!body.fixed_rotation || is("fixed_rotation_ignored")) rigid.inverse_inertia = 1 / inertia(body);
+      rigid.inverse_mass = is("inverse_mass_floored") ? std::floor(1 / body.mass) : 1 / mass(body);
+      const bool may_turn = !body.fixed_rotation || is("fixed_rotation_ignored");
+      if (manner_.turns && may_turn) rigid.inverse_inertia = 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
     }
@@ -135,6 +149,14 @@ void StudentWorld::read_mistake(const std::string& mistake) {
     factor_ = std::stod(mistake.substr(star + 1));
   }
   if (const auto edit = Edit::read(mistake)) edit_ = *edit;
+  const auto split = [&](char sign, std::uint64_t& what, std::uint64_t& how) {
+    const std::size_t place = mistake.find(sign);
+    if (place == std::string::npos) return;
+    what = Name::of(std::string_view(mistake).substr(0, place));
+    how = Name::of(std::string_view(mistake).substr(place + 1));
+  };
+  split('~', turned_hash_, turned_how_);
+  split('>', acting_hash_, acting_how_);
   const std::size_t at = mistake.find('@'), comma = mistake.find(',');
   if (at == std::string::npos || comma == std::string::npos) return;
   mixed_hash_ = Name::of(std::string_view(mistake).substr(0, at));

@@ -52,8 +52,9 @@ struct Touch {
 class StudentWorld {
  public:
   /// `mistake` is a name, a quantity and the factor by which it is wrong ("radius*0.5"), or a vector and
-  /// what stands for its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"), or an edit as text (edit.h). `scheme`
-  /// is semi-implicit Euler, explicit Euler or velocity Verlet.
+  /// what stands for its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"), or points and how they are turned
+  /// ("a force's point~backwards"), or a law and what its force changes ("drag>position by dt"), or an edit
+  /// as text (edit.h). `scheme` is semi-implicit Euler, explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -75,10 +76,17 @@ class StudentWorld {
   double times(Name quantity) const { return scales(quantity) ? factor_ : 1; }
   Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with its x and y as the mistake changes them
   void read_mistake(const std::string& mistake);
+  Vec2d turned(Name what, const Rigid& body, Vec2d local) const;
+  std::array<Vec2d, 4> corner_signs() const;
+  Name part_of_box(const Rigid& body, Name part) const;
+  Vec2d side(const Rigid& body, Vec2d local) const;
+  Vec2d corner(const Rigid& body, Vec2d local) const;
+  void act(Name law, Rigid& body, Vec2d force);
   double shown(double angle) const;
   double radius(const Rigid& body) const;
   Box box(const Rigid& body) const;
   double inertia(const Body& body) const;
+  double mass(const Body& body) const;
   void gather_forces();
   void apply(const ForceLaw& law, bool first, bool last);
   void accelerate();
@@ -138,7 +146,9 @@ class StudentWorld {
   std::uint64_t mistake_hash_ = 0, scaled_hash_ = 0, mixed_hash_ = 0;
   double factor_ = 1;
   Edit edit_;
-  std::array<Vec2d, 2> axes_;  ///< give the x and the y of a mixed vector
+  std::uint64_t turned_hash_ = 0, turned_how_ = 0;  ///< whose points are turned wrongly, and how
+  std::uint64_t acting_hash_ = 0, acting_how_ = 0;  ///< which law acts wrongly, and on what
+  std::array<Vec2d, 2> axes_;                       ///< give the x and the y of a mixed vector
   reference::Scheme scheme_;
   Manner manner_;
   bool touched_ = false;  ///< there was a contact
