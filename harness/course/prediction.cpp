@@ -135,7 +135,8 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
     out.back().generated = mistake.generated;
     predictions.refute(planted, check, out.back());
     out.back().exact = share <= kEqual && moves(wrong->runs) && same_figures(outcome.finding, wrong->finding);
-    if (out.back().refuted) out.pop_back();
+    // A mistake made in some cases only is still named where its motion is exactly this.
+    if (out.back().refuted && !out.back().exact) out.pop_back();
   }
 }
 
