@@ -270,7 +270,7 @@ MUTATIONS = [
              "arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0]",
              "c.count == 2 ? Real(0.5) * (arms_a[0] + arms_a[1]) : arms_a[0]", "world", ("world/pivots",)),
     Mutation("world: lasting contacts have the normals of the step's start", "engine/world/step/lasting_contact.cpp",
-             "const Real half = Real(0.5) * dt,", "const Real half = Real(0) * dt,", "world", ("world/pivots",)),
+             "const Real half = Real(0.5) * dt, near", "const Real half = Real(0) * dt, near", "world", ("world/pivots",)),
     Mutation("world: gaps brake before they close", "engine/world/contact_solver/contact_passes.h",
              "select(c.normal_impulse[i] > Number(0), Number(0), gap)}", "Number(0)}", "world", ("world/pivots",)),
     Mutation("world: an impact at its time moves bodies from the substep's start", "engine/world/contact_solver/impact_round.cpp",
