@@ -177,8 +177,9 @@ bool make_closing_rows(WorldData<Real>& w, JointedIsland<Real>& island, const Co
   return open;
 }
 
-// Moves bodies to close a fraction of the gaps of joints, with limited mass ratios; what presses goes along.
-// What that lifts is paid for. `h`: of the substep in which forces `push` the bodies, s.
+// Moves bodies to close a fraction of the gaps of joints, with limited mass ratios, and with them the bodies
+// that press on them. Takes the work that this does against the forces from the velocities. `h`: s, length of
+// the substep in which the forces act.
 template <class Real>
 void close_joints(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double h,
                   const Closing& closing) {
