@@ -30,12 +30,11 @@ struct BoundedRow {
   int a = 0, b = 0;              ///< bodies of the system
   Vec2d linear_a{}, linear_b{};  ///< J
   double angular_a = 0, angular_b = 0;
-  double wanted = 0;              ///< m/s, target velocity
-  double compliance = 0;          ///< 1/kg
-  double coupled_compliance = 0;  ///< 1/kg, with the impulse of the row before it
-  double lower = 0, upper = 0;    ///< N s
-  double softening = 0;           ///< fraction of its own mobility that is added to the compliance
-  double gap = 0;                 ///< m or rad: closed by `correct`
+  double wanted = 0;            ///< m/s, target velocity
+  double compliance = 0;        ///< 1/kg
+  double lower = 0, upper = 0;  ///< N s
+  double softening = 0;         ///< fraction of its own mobility that is added to the compliance
+  double gap = 0;               ///< m or rad: closed by `correct`
   /// N s. Initially a guess: of the solutions that redundant rows leave, the one next to it is found (next to
   /// 0, the one that shares loads evenly). After solving, the solution.
   double impulse = 0;
