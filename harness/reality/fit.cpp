@@ -86,7 +86,7 @@ Fit minimise(std::span<const Parameter> parameters, int evaluations,
   for (const Parameter& parameter : parameters) start.push_back(parameter.start);
   Fit best;
   for (int i = 0; i < kStarts; ++i) {
-    // Each simplex is smaller than the one before, and points the other way.
+    // Each new simplex is smaller than the previous one, and points in the opposite direction.
     const double scale = (i % 2 == 0 ? 1.0 : -1.0) / (1 << (i / 2));
     const Fit found =
         Simplex(parameters, evaluations / kStarts, loss).search(i == 0 ? start : best.values, scale);
