@@ -58,9 +58,9 @@ class WorldDemo : public Demo {
   void write(Encoder& out) const final;
   void read(Decoder& in) final;
 
-  // A body held by the pointer at a point, as by a rubber band. `grab` takes the dynamic body at `point`, or
-  // the nearest one within `reach` m; it returns false if there is none. `strength` is the maximum force of
-  // the band, in weights of the body.
+  // A body held by the pointer at a point, as by a rubber band.
+  /// Grabs the dynamic body at `point`, or the nearest one within `reach` m; returns false if there is none.
+  /// `strength` is the maximum force of the band, in weights of the body.
   bool grab(Vec2d point, double reach, double strength = 100);
   /// Grabs this dynamic body.
   void hold(BodyId body, Vec2d point, double strength = 100);

@@ -52,8 +52,7 @@ class Simplex {
   }
 
  private:
-  /// Evaluates a point on the line from the worst corner through the middle of the others, at `factor`
-  /// times the worst one's distance beyond it.
+  /// Evaluates middle + factor (middle - worst), with the worst corner and the middle of the others.
   Fit beyond(const std::vector<Fit>& corners, double factor) {
     std::vector<double> point(parameters_.size());
     const double others = static_cast<double>(corners.size() - 1);
