@@ -59,8 +59,8 @@ inline constexpr int kFewBoundedRows = 16;
 inline constexpr int kFewContacts = 16;
 inline constexpr double kFewCost = 1000;
 /// Limits up to which an island with joints is solved as one system: joints, contacts, and multiplications to
-/// factorise its rows. With 2e6 multiplications, a step of four substeps takes some 20 ms. Larger islands are
-/// solved by iterations.
+/// factorise its rows. Larger islands are solved by iterations. With a limit of 2e6 multiplications, a step
+/// of four substeps would take some 20 ms.
 inline constexpr int kJointedJoints = 4096;
 inline constexpr int kJointedContacts = 512;
 inline constexpr double kJointedCost = 2e5;
