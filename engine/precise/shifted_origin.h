@@ -7,8 +7,8 @@
 
 namespace plumb::precise {
 
-/// Returns a point near the scene if it lies so far from the origin that coordinates would lose digits;
-/// otherwise zero.
+/// Returns a point near the scene if the scene lies so far from the origin that coordinates would lose
+/// digits; otherwise zero.
 Vec2d local_origin(const Scene& scene);
 
 /// Returns the scene relative to `origin`, which is subtracted from all positions in the world's frame.

@@ -21,7 +21,7 @@ struct FieldRule {
   double none = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// True for a part of a scene of this kind, and for the definition of such a joint.
+/// True if J is the Kind of joint, either as a part of a scene or as a joint's definition.
 template <class J, class Kind>
 concept Is = std::is_same_v<std::remove_cvref_t<J>, Kind> ||
     std::is_same_v<typename std::remove_cvref_t<J>::SceneJoint, Kind>;

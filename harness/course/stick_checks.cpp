@@ -94,8 +94,8 @@ Scene chain(int links) {
   return scene;
 }
 
-// Returns the fraction of a ball's speed along its stick that remains after a step. It is 0 for a normalised
-// direction, whatever the length of the stick.
+// Returns the fraction of a ball's speed along its stick that remains after a step. It is 0 if the direction
+// is normalised, for every length of the stick.
 double speed_left(const Lab& lab, double length) {
   Scene scene =
       scene_of("one stick", {},

@@ -26,7 +26,7 @@ inline MeasuredPose pose_of(const BodyState& state) { return {state.position, st
 /// Returns the exact motion under a law, to a tolerance.
 Poses solve(const DropStart& start, const DropLaw& law, std::span<const double> values, double tolerance);
 
-/// Derivatives of a pose by the law's parameters; empty if one does not exist.
+/// Derivatives of a pose with respect to the law's parameters; empty if one does not exist.
 using PoseDerivatives = std::optional<std::vector<MeasuredPose>>;
 
 /// The exact motion with its derivatives, by time.

@@ -17,7 +17,8 @@ constexpr double kSamplesARadian = 2.6;
 /// rounding, and more than the difference between a step's polynomial and the step itself.
 constexpr double kForceNoise = 3e-11;
 
-/// Returns the feature of the corner that touches next once a corner on an edge reaches the limit `index`.
+/// Returns the feature of the neighbouring corner that comes down on the edge when the limit `index` of `f`
+/// reaches zero: the previous corner for limit 2, otherwise the next one.
 Feature feature_of_height(const Feature& f, const FeatureShape& a, const FeatureShape& b, int index) {
   Feature other = f;
   int& corner = f.kind == Feature::Kind::CornerOfB ? other.b : other.a;

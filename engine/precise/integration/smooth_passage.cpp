@@ -32,7 +32,7 @@ constexpr double kSoon[] = {0.15, 0.16, 0.14, 0.225, 0.065, 0.03, 0.02, 0.465, 0
 /// positions. From farther away a step ends before the crossing: half a step before it, or beyond kFar at
 /// least kFar / 2 steps before it.
 constexpr double kFar = 1.1, kPass = 0.75, kClose = 0.3;
-/// The shortest and the longest step across a crossing, in steps.
+/// Shortest and longest step across a crossing, as multiples of the proposed step.
 constexpr double kShortestOver = 0.2, kLongestOver = 2.5;
 /// Error bound of steps near crossings, as a fraction of the scene's length or speed, or of one radian: the
 /// motion so far selects the branch, so it must be accurate.

@@ -401,8 +401,8 @@ void begin_jointed_substep(WorldData<Real>& w) {
       link.before = motion.velocity.template as<double>();
       link.spin_before = motion.angular_velocity;
       if (!w.is_dynamic(link.body)) continue;
-      // A body does not move along a locked axis from now on. Reflection would pass its earlier velocity
-      // there on to others.
+      // Sets the velocity along locked axes to zero, because the body does not move there. Otherwise the
+      // reflection would pass this velocity on to other bodies.
       const Vec2d mobility = island.system.bodies[k].inverse_mass;
       if (mobility.x == 0) link.before.x = 0;
       if (mobility.y == 0) link.before.y = 0;

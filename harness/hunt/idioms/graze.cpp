@@ -34,7 +34,7 @@ void build(Draft& draft) {
                         .angular_frequency = rate});
   }
   const double until = (speed - meets) / g, top = speed / g;
-  // The position to which it would return without a ceiling, after a longer fall.
+  // Without the ceiling the body would be back at its start, after a longer fall, by the end of the run.
   const int steps = out.steps = std::max(4, static_cast<int>((until + 2 * (top - until) + 0.3 * top) / dt));
   const double end = steps * dt;
   Expectation& below = draft.expect("is_stopped_by_a_ceiling", made, Quantity::Y);
