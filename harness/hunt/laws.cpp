@@ -127,7 +127,8 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
   const double most = kCost * static_cast<double>(1 + one.scene.bodies.size() + one.scene.joints.size());
   for (std::size_t k = 0; k < motion.costs.size(); ++k) {
     if (motion.costs[k] <= most) continue;
-    // Other processes may have delayed the step: one that is really slow takes as long each time.
+    // Other processes may have delayed the step. It is repeated: a step that is really slow takes as long
+    // each time.
     double least = motion.costs[k];
     for (int again = 0; again < 3 && least > most; ++again) {
       Case part = one;

@@ -195,8 +195,8 @@ std::string StateWatch<Real>::impulses(double dt) const {
     const std::vector<ContactReading> contacts = world_.contacts(body);
     if (contacts.size() != 1 || world_.linear_damping(body) != 0) continue;
     const ContactReading& contact = contacts.front();
-    // Other contacts may have begun and ended within the step. The normal is that of the step's start; it
-    // turns during the step if shapes overlap deeply, so these are skipped.
+    // Other contacts may have begun and ended within the step. Deep overlaps are skipped, because their
+    // normal turns during the step and the reading has that of the step's start.
     const double deepest = std::min(contact.separations[0], contact.separations[contact.count - 1]);
     const Aabb<double> box = world_.box(body);
     if (deepest < -0.05 * length(box.upper - box.lower)) continue;

@@ -90,8 +90,9 @@ int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
   return dot(tangent, point - hull.point(hull.next(edge))) > 0 ? 1 : 0;
 }
 
-/// Returns the edge of `other` at its corner nearest along `normal` that rises less. Compares sines: the
-/// cosines of small angles are all 1 to rounding. Both edges of a segment rise equally; one faces `normal`.
+/// Returns which of the two edges of `other` at `corner`, its corner nearest along `normal`, rises less.
+/// Compares sines: the cosines of small angles are all 1 to rounding. Both edges of a segment rise equally;
+/// one faces `normal`.
 template <class Real>
 int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   const int before = other.previous(corner);

@@ -16,8 +16,8 @@ struct Pair {
   Gap gap(const Feature& f) const { return gap_of(f, a, pose_a, b, pose_b); }
 };
 
-/// Returns the closest corners: beyond the ends of edges, rounded shapes touch with their corners, even where
-/// the line of an edge is equally close up to rounding.
+/// Returns the pair of corners with the least gap. Beyond the ends of their edges, rounded shapes touch with
+/// their corners. The lines of these edges may be equally close up to rounding, but are not used.
 Feature closest_corners(const Pair& pair) {
   Feature best{Kind::Corners, 0, 0};
   double least = std::numeric_limits<double>::infinity();
