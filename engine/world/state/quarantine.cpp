@@ -41,7 +41,7 @@ double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quie
 
 template <class Real>
 void let_go(WorldData<Real>& w, JointRecord& joint) {
-  if (lets_go(w, joint)) return;  // the other body keeps it off
+  if (lets_go(w, joint)) return;  // the joint stays inactive because of the other body
   if (joint.active) w.joint_set.set_active(joint.slot, false), joint.active = false;
   --w.bodies[joint.body_a].constraints, --w.bodies[joint.body_b].constraints;
   w.joint_set.forget(joint.slot);
@@ -49,7 +49,7 @@ void let_go(WorldData<Real>& w, JointRecord& joint) {
 
 template <class Real>
 void hold_again(WorldData<Real>& w, JointRecord& joint) {
-  if (lets_go(w, joint)) return;  // the other body keeps it off
+  if (lets_go(w, joint)) return;  // the joint stays inactive because of the other body
   ++w.bodies[joint.body_a].constraints, ++w.bodies[joint.body_b].constraints;
   w.joint_set.set_dynamic(joint.slot, w.is_dynamic(joint.body_a), w.is_dynamic(joint.body_b));
   w.joint_set.forget(joint.slot);
