@@ -1,4 +1,5 @@
-// Cost of a step of every scenario on every engine at every size: one benchmark each, from the registries.
+// Cost of a step of every scenario on every engine at every size: one benchmark for each, from the
+// registries.
 #include <memory>
 #include <string>
 
@@ -18,7 +19,7 @@ using reference::Backend;
 using scenarios::Instance;
 
 /// Steps from the start of the run to its end, then again from the start. The time is the engine's own
-/// figure, without set-up and, for an engine that runs as a program, without transport.
+/// figure: without set-up and, if the engine runs as a program, without transport.
 void step(benchmark::State& state, const Instance& instance, const Backend& backend) {
   try {
     const reference::Identity identity = backend.identity();

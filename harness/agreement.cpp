@@ -51,8 +51,8 @@ Dissent dissent_of(const Result& result) {
   return out;
 }
 
-/// Finds the maximal cliques of a graph. Source: Bron and Kerbosch 1973, algorithm 2, with Tomita's pivot;
-/// the engines of a case are few.
+/// Finds the maximal cliques of a graph. Source: Bron and Kerbosch 1973, algorithm 2, with Tomita's pivot; a
+/// case has few engines.
 class Cliques {
  public:
   explicit Cliques(const std::map<std::string, std::set<std::string>>& neighbours) : neighbours_(neighbours) {

@@ -27,16 +27,16 @@ std::string times_text(const Miss& miss);
 struct Dissent {
   std::string engine;
   std::vector<Miss> misses;  ///< the largest multiple of its bound first
-  std::string reason;        ///< the declared reasons, joined; says so if there is none
+  std::string reason;        ///< the declared reasons, joined; says so if none is declared
 };
 
 /// An engine without a motion to judge in a case.
 struct Absence {
   std::string engine, why;
-  bool broke = false;  ///< failed, crashed or took too long; false: does not support such a scene
+  bool broke = false;  ///< failed, crashed or took too long; false: does not support the scene
 };
 
-/// Which engines agree on one case, all at the same settings.
+/// Engines that agree on one case, all at the same settings.
 struct Agreement {
   std::string label, truth;
   std::vector<std::string> versions{};  ///< "box2d 2.4.1": of the engines that ran
@@ -58,11 +58,11 @@ struct Agreement {
 std::vector<Agreement> agreements(std::span<const Result> results);
 
 enum class AgreementDetail {
-  Brief,  ///< of each case how many agree, and which miss by how much
-  Full,   ///< also the names of those that agree, with the truth and with each other
+  Brief,  ///< how many engines agree on each case, and which miss by how much
+  Full,   ///< also the names of the engines that agree, with the truth and with each other
 };
 
-/// Formats agreements for people: cases with misses one by one, the others together, each reason once.
+/// Formats agreements for people: cases with misses one by one, the other cases together, each reason once.
 std::string agreement_text(std::span<const Agreement> cases, AgreementDetail detail, const Style& style);
 
 /// Formats a case as one line of JSON. `agreement_from_json` reads it back; it throws `Error` (Syntax).

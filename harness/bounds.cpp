@@ -34,8 +34,8 @@ Tolerances::Tolerances(const scenarios::Problem& problem, const TruthTable& trut
   }
 }
 
-// Returns the number of substeps up to the sample; 1 for an engine with a tolerance, which already covers the
-// errors of its steps and leaves only the rounding of one result.
+// Returns the number of substeps up to the sample. Returns 1 for an engine with a tolerance: its tolerance
+// already covers the errors of its steps, and only the rounding of one result remains.
 double Tolerances::steps(int sample) const {
   return method_.order == 0 ? 1 : sample * truth_.dt() / method_.substep;
 }
@@ -90,7 +90,7 @@ Tolerances::Bound Tolerances::energy(int sample) const {
         body.mass * std::abs(body.gravity_scale) * magnitude(problem_.scene.gravity) * *position(sample, i);
   }
   // The error of a potential is its force times the displacement error, plus half its stiffness times the
-  // square. For the errors of both ends together, (a + b)^2/2 <= a^2 + b^2.
+  // square. If both ends have errors, (a + b)^2/2 <= a^2 + b^2.
   for (const Pull& pull : pulls_in(problem_.scene, truth_.at(sample))) {
     const double off = *position(sample, pull.body) + pull.arm * *angle(sample, pull.body);
     sum += pull.force * off + pull.stiffness * off * off;

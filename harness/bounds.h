@@ -22,8 +22,9 @@ namespace plumb::harness {
 ///                 the energy scale
 ///    momentum     rounding alone: every exchange of momentum is equal and opposite
 ///    ang. mom.    sum m (|x| V + P |v| + P V) + I W, over its scale
-///    joint gap    of a's and b's anchors at r from their centres: P_a + r_a A_a + P_b + r_b A_b; where a
-///                 has an axis, d A_a besides, b's anchor at d from a's; of a pulley b's part by its ratio
+///    joint gap    P_a + r_a A_a + P_b + r_b A_b, with r the distance of each anchor from its body's centre.
+///                 If the joint has an axis on a, d A_a is added, with d the distance between the anchors.
+///                 For a pulley, b's part is multiplied by its ratio
 ///    penetration  twice the largest P + r A over the bodies, r the radius of the circle that holds the body
 class Tolerances {
  public:

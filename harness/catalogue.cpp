@@ -43,7 +43,7 @@ std::string in_cell(std::string text) {
   return text;
 }
 
-// Returns the name of the picture of a case, which stands for its scenario in its topic.
+// Returns the name of the picture of a case. The picture represents its scenario in its topic.
 std::string picture_name(const CatalogueEntry& entry) {
   std::string name = entry.instance.label();
   std::erase(name, ']');
@@ -74,7 +74,8 @@ std::string agreeing_cell(const Agreement& one) {
   return fmt::format("{} of {}{}", one.agree.size(), one.ran(), names);
 }
 
-// Lists the engines that miss: the check missed by the most, how many others they agree with, the reason.
+// Lists the engines that miss: the check with the largest miss, with how many other engines each agrees, and
+// the reason.
 std::string missing_cell(const Agreement& one, Notes& reasons) {
   std::string out;
   for (const Dissent& dissent : one.dissents) {

@@ -29,7 +29,7 @@ struct CatalogueEntry {
 
 /// Which cases to list.
 struct CatalogueFilter {
-  std::string text{};                ///< of the label, the summary or the source, in any case; empty: all
+  std::string text{};                ///< of the label, the summary or the source, ignoring case; empty: all
   std::string truth{};               ///< name of a kind; empty: all
   std::vector<std::string> needs{};  ///< names from `all_needs`: cases that need each of them
 };
@@ -38,8 +38,8 @@ struct CatalogueFilter {
 std::vector<CatalogueEntry> catalogue(const CatalogueFilter& filter = {});
 
 /// Returns docs/scenarios.md: every case with its picture, its source and the engines that agree on it, in
-/// Markdown. `agreement` says which do; cases that it leaves out have none. Second rows of engines, with
-/// names that end in "-default", are left out.
+/// Markdown. `agreement` has the engines that agree; cases that are not in it show none. Second rows of
+/// engines, whose names end in "-default", are left out.
 std::string catalogue_page(std::span<const Agreement> agreement);
 
 /// Returns the pictures that the page shows, by their file names.

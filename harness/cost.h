@@ -9,15 +9,15 @@ namespace plumb::harness {
 
 /// Limits on the time spent on measuring a cost.
 struct CostBudget {
-  int repetitions = 5;       ///< taking turns with the other engines
+  int repetitions = 5;       ///< in turns with the other engines
   double at_most_ns = 50e6;  ///< of stepping, per repetition; longer runs are measured over their first part
-  double at_least_ns = 5e6;  ///< shorter runs are repeated from the start
+  double at_least_ns = 5e6;  ///< shorter runs are repeated
 };
 
 /// One repetition.
 struct CostSample {
   double ns_per_step = 0;
-  double setup_ns = 0;  ///< the shortest of the set-ups in this repetition
+  double setup_ns = 0;  ///< the shortest set-up in this repetition
   int steps = 0;        ///< steps of the run that were made
 };
 

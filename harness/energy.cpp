@@ -8,7 +8,7 @@
 namespace plumb::harness {
 namespace {
 
-// Returns 0 for 0/0: a scale of zero (nothing moves in the truth) would make any figure infinite.
+// Returns 0 for 0/0. If the scale is 0 (nothing moves in the truth), any figure would otherwise be infinite.
 double ratio(double value, double scale) { return value == 0 ? 0 : std::abs(value) / scale; }
 
 std::vector<BodyState> initial_states(const Scene& scene) {

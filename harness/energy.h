@@ -28,7 +28,7 @@ Mechanics mechanics(const Scene& scene, std::span<const BodyState> states);
 struct ConservationScale {
   double energy = 0;    ///< J, largest kinetic + potential energy, the potential from its lowest value
   double momentum = 0;  ///< kg m/s, largest sum of |m v|; total mass * extent / duration if that is 0
-  double angular_momentum = 0;  ///< kg m^2/s; defined as momentum's
+  double angular_momentum = 0;  ///< kg m^2/s; defined like that of momentum
 };
 
 ConservationScale conservation_scale(const Scene& scene, const TruthTable& truth);

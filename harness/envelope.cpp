@@ -62,7 +62,7 @@ StateBound total(const Parts& parts) {
   return {magnitude(parts.position), parts.angle, magnitude(parts.velocity), parts.angular_velocity};
 }
 
-// Groups the dynamic bodies that joints connect, directly or through each other; groups of one are left out.
+// Groups the dynamic bodies that joints connect, directly or through each other. Single bodies are left out.
 std::vector<std::vector<std::size_t>> jointed_groups(const Scene& scene) {
   std::vector<std::size_t> parent(scene.bodies.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -164,7 +164,7 @@ class Growth {
     }
   }
 
-  // Returns the angular acceleration by a force at a lever, per acceleration.
+  // Returns the angular acceleration that a force at a lever arm causes, per linear acceleration.
   double turn_per_push(std::size_t index, double lever) const {
     const Body& body = problem_.scene.bodies[index];
     if (lever == 0 || body.type != BodyType::Dynamic || body.fixed_rotation) return 0;
@@ -227,7 +227,7 @@ class Growth {
     return false;
   }
 
-  // Returns the growth of the bounds due to the method, from one sample of the truth to the next.
+  // Returns the growth of the bounds caused by the method, from one sample of the truth to the next.
   Parts growth_of(std::size_t body, const BodyState& before, const BodyState& after, double from, double to) {
     const double span = to - from, h = substep();
     Differences& last = differences_[body];

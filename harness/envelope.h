@@ -18,9 +18,10 @@ struct StateBound {
 /// Returns the bound of rounding errors in a state: each update of a body rounds at most `kRoundings` times,
 /// each time by half of epsilon relative to the updated value. A rounded velocity moves the body for the rest
 /// of the run:
-///   velocity kRoundings eps n V,  position kRoundings eps n (X + V t)
+///     velocity kRoundings eps n V,  position kRoundings eps n (X + V t)
 /// after n substeps, with X and V the largest coordinate and speed of the scene. The same holds for angles.
-/// Besides, the lever arm of an impact's impulse is a difference of coordinates, so its rounding adds spin.
+/// In addition, the lever arm of an impact's impulse is a difference of coordinates, so its rounding adds
+/// spin.
 StateBound rounding_bound(const Scale& scale, double epsilon, double steps, double time);
 
 inline constexpr double kRoundings = 4;

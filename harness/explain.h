@@ -10,7 +10,7 @@
 
 namespace plumb::harness {
 
-/// Plan of plumb for a scene, its reasons, and the fraction of a step that each stage takes.
+/// Plan of plumb for a scene, its reasons, and each stage's fraction of a step.
 struct Explanation {
   std::string scene;
   std::string engine;

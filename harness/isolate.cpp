@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongest = 1e9;  // s, so that a deadline stays within the clock
+constexpr double kLongest = 1e9;  // s, small enough for a deadline to stay within the clock's range
 
 struct Pipe {
   int read = -1, write = -1;
@@ -75,7 +75,8 @@ void limit_memory(std::size_t bytes) {
 #endif
 }
 
-// Ends in the same way as the engine's program, so that the work is repeated as after a kill of this process.
+// Ends in the same way as the engine's program, so that the work is repeated as if this process had been
+// killed.
 [[noreturn]] void die_with_it(const char* why) {
   std::fprintf(stderr, "%s\n", why);
   std::fflush(stderr);
@@ -155,7 +156,7 @@ struct Child {
   std::string text, printed;
   ChildLimits limits{0};
   Clock::time_point began, deadline;
-  std::size_t memory = 0;  // bytes, known once it has been waited for
+  std::size_t memory = 0;  // bytes, known once the process has been waited for
   bool open = true;
   bool killed = false;  // from outside
 
@@ -166,7 +167,7 @@ struct Child {
     if (process > 0) wait();
   }
 
-  // Kills the process and all that it has started; returns its status.
+  // Kills the process and all processes that it has started; returns its status.
   int wait() {
     if (open) kill(-process, SIGKILL);
     int status = 0;
@@ -204,7 +205,7 @@ void listen(const std::vector<std::unique_ptr<Child>>& children) {
   std::vector<pollfd> files;
   for (const auto& child : children) {
     files.push_back({child->answer.read, POLLIN, 0});
-    files.push_back({child->output.read, POLLIN, 0});  // a closed one is -1, which poll skips
+    files.push_back({child->output.read, POLLIN, 0});  // a closed file is -1, which poll skips
   }
   poll(files.data(), files.size(), 100);
   for (std::size_t i = 0; i < children.size(); ++i) {

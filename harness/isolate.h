@@ -25,13 +25,13 @@ struct Outcome {
 struct ChildLimits {
   ChildLimits(double wall_seconds, std::size_t bytes = 0) : seconds(wall_seconds), memory(bytes) {}
   double seconds;
-  std::size_t memory;  ///< bytes of address space, of the process and of each that it starts; 0: any
+  std::size_t memory;  ///< bytes of address space of the process and each that it starts; 0: no limit
 };
 
-/// Runs `work` in a forked child, in its own process group that is killed at the time limit or at an
-/// interrupt. If another process kills the child, that is no fault of the work, which is repeated, up to
-/// reference::kAttempts times; it is also repeated if its engine's program was killed. The child's output is
-/// discarded, except for the last lines of a crash. Call without threads running.
+/// Runs `work` in a forked child, in its own process group, which is killed at the time limit or at an
+/// interrupt. If the child was killed from outside, or its engine's program was, the work is not at fault and
+/// is repeated, up to reference::kAttempts times. The child's output is discarded, except for the last lines
+/// of a crash. Call this without threads running.
 Outcome isolate(const std::function<std::string()>& work, const ChildLimits& limits);
 
 /// Runs `work(0)` to `work(count - 1)`, at most `jobs` at a time, each as `isolate` does. Calls `done` in

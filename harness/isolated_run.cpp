@@ -104,7 +104,7 @@ std::string work(const RunRequest& request) {
 
 IsolatedRun described(const RunRequest& request) {
   IsolatedRun out;
-  // Described here, so that an engine's program is queried once and not by every child.
+  // Described here, so that an engine's program is queried once, not by every child.
   try {
     out.result = describe(*request.scene_case, *request.backend, request.settings);
   } catch (const std::exception& error) {

@@ -10,7 +10,7 @@
 
 namespace plumb::harness {
 
-/// Result of a run, and the figures needed to go on from it.
+/// Result of a run, and the figures that later runs need.
 struct IsolatedRun {
   Result result;
   double nanoseconds = 0;  ///< wall time that the engine took for the whole run
@@ -24,7 +24,7 @@ struct RunRequest {
   const reference::Backend* backend = nullptr;
   reference::StepSettings settings{};
   Track* track = nullptr;             ///< may be null
-  std::optional<CostBudget> rough{};  ///< measures the cost once, in the same process
+  std::optional<CostBudget> rough{};  ///< if set, measures the cost once, in the same process
 };
 
 /// Calls `run` for each request in a process of its own, at most `jobs` at a time. An error, a crash or a

@@ -20,15 +20,15 @@ class JointGaps {
   /// Others have no rigid constraint: 0.
   double gap(std::size_t joint, std::span<const BodyState> states) const;
 
-  /// Returns the change of the gap per radian of body a's rotation, without that due to its anchor's motion,
-  /// m. If a has the axis, it is the distance between the anchors; otherwise 0.
+  /// Returns the change of the gap per radian of body a's rotation, apart from that due to the motion of its
+  /// anchor, m. If a has the axis, this is the distance between the anchors; otherwise 0.
   double lever(std::size_t joint, std::span<const BodyState> states) const;
 
   /// A joint's end: a body (none: the fixed frame) and the anchor's distance from its centre of mass, m.
   struct End {
     std::optional<std::size_t> body;
     Vec2d anchor{};
-    double gain = 1;  ///< of b: change of the gap per metre of its anchor's error
+    double gain = 1;  ///< of end b: change of the gap per metre of its anchor's error
   };
   const End& end_a(std::size_t joint) const { return joints_[joint].a; }
   const End& end_b(std::size_t joint) const { return joints_[joint].b; }

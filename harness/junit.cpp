@@ -11,7 +11,7 @@
 namespace plumb::harness {
 namespace {
 
-// Returns `text` as it stands in XML 1.0, which has no form for control characters.
+// Returns `text` escaped for XML 1.0, which cannot express control characters.
 std::string escaped(std::string_view raw) {
   std::string out;
   for (const char c : printable(raw, 4000)) {

@@ -6,8 +6,8 @@
 
 namespace plumb::harness {
 
-/// Returns the length of a vector. Bounds of chaotic motions grow beyond the square root of the largest
-/// double: unlike `length`, this does not overflow in between.
+/// Returns the length of a vector. Unlike `length` this does not overflow in between: bounds of chaotic
+/// motions may exceed the square root of the largest double.
 inline double magnitude(Vec2d v) { return std::hypot(v.x, v.y); }
 
 }  // namespace plumb::harness

@@ -13,8 +13,8 @@ const std::vector<std::string>& all_needs();
 
 /// Returns what an engine needs to run `scene`: the kinds of its shapes, joints and forces, and "contacts",
 /// "friction", "restitution", "filters", "kinematic", "fixed_rotation", "locked_axes", "damping",
-/// "gravity_scale", "rolling_resistance", "surface_speed", "limits", "motors", "springs" (of joints). Shapes
-/// that can touch nothing are not needed.
+/// "gravity_scale", "rolling_resistance", "surface_speed", "limits", "motors", "springs" (of joints). Leaves
+/// out shapes that cannot touch anything.
 std::vector<std::string> needs_of(const Scene& scene);
 
 }  // namespace plumb::harness

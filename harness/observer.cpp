@@ -14,7 +14,7 @@ bool finite(const BodyState& s) {
          std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) && std::isfinite(s.angular_velocity);
 }
 
-// Raises `largest` to `value`. NaN counts as larger than all, and stays.
+// Raises `largest` to `value`. NaN counts as larger than any number, and stays.
 void raise(std::optional<double>& largest, double value) {
   if (!largest || std::isnan(value) || value > *largest) largest = value;
 }
@@ -147,8 +147,8 @@ void Observer::expect_at(std::size_t index, double time, std::span<const BodySta
 namespace {
 
 // Interpolates between two samples by the cubic through both positions and velocities, at the fraction `part`
-// of `span` seconds. Its error is of fourth order in the step, below the error of any engine's steps; across
-// an impact it is up to the jump times the span.
+// of `span` seconds. Its error is of fourth order in the step, less than the error of any engine's steps.
+// Across an impact it is up to the jump times the span.
 double between(double a, double va, double b, double vb, double span, double part, double& rate) {
   const double p = part, q = p * p;
   const double slope = b - a - span * va, bend = span * (va + vb) - 2 * (b - a);
@@ -169,8 +169,8 @@ BodyState between(const BodyState& a, const BodyState& b, double span, double pa
 
 }  // namespace
 
-// Drifts are relative to the largest value of the truth or, if there is none, of the whole run. A run whose
-// energy grows without bound then has a drift of 1, above any useful tolerance.
+// Drifts are relative to the largest value of the truth or, if there is none, of the whole run. So a run
+// without a truth whose energy grows without bound has a drift of 1, above any useful tolerance.
 double Observer::measured(scenarios::Expectation::Law law) const {
   using Law = scenarios::Expectation::Law;
   const auto relative = [&](const std::optional<double>& drift, double scale, double largest) {
@@ -226,7 +226,7 @@ void Observer::against_expected(int sample, std::span<const BodyState> states) {
   largest_.sum_of_angular_momenta = std::max(largest_.sum_of_angular_momenta, sums.sum_of_angular_momenta);
 }
 
-// If no step of the run reached a time, that counts as a miss.
+// A time that no step of the run reached counts as a miss.
 void Observer::finish_expected(Result& result) const {
   std::optional<double> ratio;
   for (std::size_t i = 0; i < expected_.size(); ++i) {

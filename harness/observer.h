@@ -61,8 +61,8 @@ class Observer {
   bool derived_;                         // checks the bounds that follow from the method
   std::vector<WorstRatio> expected_;     // by expectation
   std::vector<std::size_t> times_done_;  // by expectation
-  Mechanics largest_;                    // of the run so far, if expectations need them
-  std::vector<BodyState> before_;        // states of the sample before, if expectations need them
+  Mechanics largest_;                    // largest values of the run so far, if expectations need them
+  std::vector<BodyState> before_;        // states of the previous sample, if expectations need them
 };
 
 }  // namespace plumb::harness

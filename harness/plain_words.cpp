@@ -16,7 +16,7 @@ namespace {
 
 using Ink = Style::Ink;
 
-// Returns the name up to the first '-': engines with the same such name share most of their code.
+// Returns the name up to the first '-'. Engines for which it is the same share most of their code.
 std::string_view maker_of(std::string_view engine) { return engine.substr(0, engine.find('-')); }
 
 bool misses_truth(const Result& result) {

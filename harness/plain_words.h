@@ -14,7 +14,8 @@ namespace plumb::harness {
 std::string legend(const Style& style);
 
 /// Returns a line per engine: the number of scenes that it ran, in how many of them it was nearest to the
-/// truth, and in how many it missed bounds of its method. Then the scenes whose truth is suspect, if any.
+/// truth, and in how many it missed bounds of its method. Then lists the scenes whose truth is suspect, if
+/// any.
 std::string conclusion(std::span<const Result> results, const Style& style);
 
 /// Returns the labels of scenes in which the truth itself may be wrong: engines of at least two makers ran,

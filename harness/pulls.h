@@ -9,8 +9,8 @@
 
 namespace plumb::harness {
 
-/// Linearised force of a spring or an attraction on a body, whose change with errors of position and velocity
-/// the bounds need.
+/// Linearised force of a spring or an attraction on a body. The bounds need its change with errors of
+/// position and velocity.
 struct Pull {
   std::size_t body = 0;
   std::optional<std::size_t> partner{};

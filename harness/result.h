@@ -19,7 +19,7 @@ enum class Status {
   Failed,    ///< the engine reported an error
   Crashed,   ///< the engine's process died
   Timeout,   ///< the run exceeded its time limit
-  Diverged,  ///< a state that is non-finite, or a thousand times the scene's extent away from the truth
+  Diverged,  ///< a state is non-finite, or farther from the truth than a thousand extents of the scene
 };
 
 std::string_view name_of(Status status);
@@ -43,7 +43,7 @@ struct Result {
   std::string label;  ///< "elastic_collision/oblique", "pendulum_chain[20]"
   std::string engine, engine_version, precision;
   double dt = 0;                    ///< s
-  double sample = 0;                ///< s, interval between measured states: dt or a multiple
+  double sample = 0;                ///< s, interval between measured states: dt or a multiple of it
   double duration = 0;              ///< s
   std::string truth;                ///< source of the exact answer
   reference::StepSettings asked{};  ///< requested settings, which reproduce the run
@@ -58,12 +58,12 @@ struct Result {
   std::string machine{};       ///< kind of machine that the cost was measured on; empty if unknown
   bool cost_left_out = false;  ///< removed, because the scene's other costs are of another kind of machine
   bool foreign_cost = false;   ///< the cost is that of another platform, never ranked with native ones
-  std::string excused;  ///< reason for which misses of this run are not failures; empty if there is none
+  std::string excused;         ///< reason why misses of this run are not failures; empty if they are
 
   bool ran() const { return status == Status::Ok || status == Status::Diverged; }
   const Check* find_check(std::string_view name) const;
 
-  /// Returns true if it ran and every check is within its bound; nothing if it did not run.
+  /// Returns true if the run ended and every check is within its bound; nullopt if it did not run.
   std::optional<bool> agrees_with_truth() const;
 };
 

@@ -60,7 +60,7 @@ Result describe(const Case& scene_case, const reference::Backend& backend,
 
 namespace {
 
-// Returns the steps of dt from one sample of the truth to the next.
+// Returns the number of steps of dt from one sample of the truth to the next.
 int steps_a_sample(double sample, double dt) {
   const double steps = sample / dt, whole = std::round(steps);
   if (whole < 1 || std::abs(steps - whole) > 1e-6 * whole) {

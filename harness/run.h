@@ -10,7 +10,7 @@
 
 namespace plumb::harness {
 
-/// One instance, with the data that all engines' runs of it share.
+/// One instance, with the data that the runs of all engines share.
 struct Case {
   /// `sample`, in s: distance between the samples that runs are measured on, dt or a multiple.
   Case(const scenarios::Instance& instance, double sample);

@@ -19,9 +19,9 @@ namespace {
 using Poses = std::vector<BodyState>;
 
 constexpr double kWide = 360, kHigh = 220, kMargin = 14;  // px
-constexpr int kMoments = 73;       // points of a path: a few for each turn of a fast body
-constexpr std::size_t kPaths = 8;  // paths, of the bodies that go farthest: more would hide each other
-constexpr double kStill = 1e-6;    // fraction of the picture that counts as motion
+constexpr int kMoments = 73;       // points of a path, so that fast rotation gets a few for each turn
+constexpr std::size_t kPaths = 8;  // paths of the bodies that move farthest; more would hide each other
+constexpr double kStill = 1e-6;    // a smaller fraction of the picture does not count as motion
 constexpr const char* kStyle = R"(
 .back{fill:#fff}.still{fill:#d9d9d4;stroke:#8a8a84}.start{fill:none;stroke:#a0a0a8;stroke-dasharray:3 2}
 .end{fill:#bcd3ec;stroke:#1c4f86}.path{fill:none;stroke:#c2571a}.rod{fill:none;stroke:#1c1c1a}
@@ -59,7 +59,7 @@ Outline outline_of(const Shape& shape) {
     out.corners.push_back({shape.position.x + c * p.x - s * p.y, shape.position.y + s * p.x + c * p.y});
   };
   if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
-    add({0, 0}), add({circle->radius, 0});  // the second is the end of a spoke, which shows how it turns
+    add({0, 0}), add({circle->radius, 0});  // the second point is the end of a spoke
     out.radius = circle->radius;
   } else if (const auto* box = std::get_if<Box>(&shape.geometry)) {
     const double x = box->width / 2, y = box->height / 2;
@@ -124,7 +124,7 @@ std::string shape_svg(const Shape& shape, const BodyState& pose, const View& vie
   return line_through(corners, view, kind, outline.closed);
 }
 
-// Returns the states of all bodies at moments from the start to the end; the start alone without a truth.
+// Returns the states of all bodies at times from the start to the end; only the start if there is no truth.
 std::vector<Poses> motion_of(const scenarios::Problem& problem) {
   Poses start;
   for (const Body& body : problem.scene.bodies) start.push_back(initial_state(body));
@@ -155,7 +155,7 @@ View view_of(const Scene& scene, const std::vector<Poses>& motion) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i, motion.front()[i]);
   if (!bounds.any()) bounds.add({}, 1);
   const double wide = std::max(bounds.x1 - bounds.x0, 1e-9), high = std::max(bounds.y1 - bounds.y0, 1e-9);
-  // A still or straight motion has room around it: at least a fifth of its length.
+  // If the motion is small or straight, the view has additional space: at least a fifth of its length.
   const double room = 0.1 * std::max(wide, high);
   View view;
   view.scale = std::min((kWide - 2 * kMargin) / (wide + 2 * room), (kHigh - 2 * kMargin) / (high + 2 * room));

@@ -8,7 +8,7 @@
 
 namespace plumb::harness {
 
-/// Compares plumb (the world in double) with each rival over all results at the same dt: first the scenes in
+/// Compares plumb (the world in double) with each rival over all results at the same dt. Lists the scenes in
 /// which it is worse, then by how much it is better. Ends with the number of runs that were as expected.
 /// Figures below `kRoundingFloor` count as equal.
 std::string summary(std::span<const Result> results, const Style& style);

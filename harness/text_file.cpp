@@ -23,7 +23,7 @@ constexpr std::size_t kLargest = std::size_t{1} << 30;  // bytes
 
 std::string named(const std::string& path) { return fmt::format("file '{}'", path); }
 
-/// Returns an empty string if all was written, or else the error.
+/// Returns an empty string if everything was written, otherwise the error.
 std::string write_to(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   if (file) file << text;
@@ -55,7 +55,7 @@ std::string read_text(std::istream& in, const std::string& subject) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
     if (text.size() > kLargest) fail(subject, "has more than 1 GiB");
   }
-  // Standard input is read through stdio, whose errors the stream does not show.
+  // Standard input is read through stdio, whose errors the stream does not report.
   if (in.bad() || (&in == &std::cin && std::ferror(stdin) != 0))
     fail(subject, fmt::format("cannot be read completely: {}", std::strerror(errno)));
   return text;
@@ -73,7 +73,7 @@ void write_whole(const std::string& path, const std::string& text) {
   std::error_code code;
   const std::filesystem::file_status there = std::filesystem::status(path, code);
   const bool replaced = !std::filesystem::exists(there) || std::filesystem::is_regular_file(there);
-  // Write to a link's target, so that the link is kept.
+  // Writes to a link's target, so that the link is kept.
   std::filesystem::path place = path;
   if (replaced) place = std::filesystem::weakly_canonical(path, code);
   const std::string target = code ? path : place.string();

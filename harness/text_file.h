@@ -15,7 +15,7 @@ std::string read_text(const std::string& path, const std::string& advice = "");
 /// Reads an open stream in the same way; errors name `subject`.
 std::string read_text(std::istream& in, const std::string& subject);
 
-/// Makes a folder and those above it, unless they exist. Throws `Error` (Io) that says why it cannot.
+/// Creates a folder and its parents, unless they exist. Throws `Error` (Io) that says why it cannot.
 void make_folder(const std::string& folder, const char* advice = "choose another with --out");
 
 /// Writes a file whole or not at all; writes directly to anything else, like a pipe or a device. Throws

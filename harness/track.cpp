@@ -40,7 +40,7 @@ std::optional<Track::Difference> Track::worst_difference(const Track& other) con
                                       {std::abs(a.angle - b.angle), angle_tolerance}};
     for (const Difference& difference : differences) {
       if (difference.tolerance < 0) continue;
-      // NaN in a position or a bound agrees with nothing.
+      // A NaN in a position or a bound agrees with nothing.
       if (std::isnan(difference.distance) || std::isnan(difference.tolerance)) return difference;
       const double share = difference.distance == 0 ? 0 : difference.distance / difference.tolerance;
       if (share <= worst_share) continue;

@@ -6,7 +6,7 @@
 
 namespace plumb::harness {
 
-/// Poses of every body on some of a run's samples, with error bounds, for comparing engines. Lies in memory
+/// Poses of every body at some of a run's samples, with error bounds, for comparing engines. Stored in memory
 /// that a forked child shares with its parent.
 class Track {
  public:
@@ -17,8 +17,8 @@ class Track {
     double angle_bound = 0;  ///< rad, the same for the angle
   };
 
-  /// Allocates room for every `stride`-th of `steps` + 1 samples; the stride is chosen so that it fits into
-  /// `bytes`.
+  /// Allocates memory for every `stride`-th of `steps` + 1 samples; chooses the stride such that they fit
+  /// into `bytes`.
   Track(int steps, std::size_t bodies, std::size_t bytes = std::size_t{16} << 20);
 
   bool keeps(int sample) const { return sample % stride_ == 0; }
@@ -26,11 +26,11 @@ class Track {
 
   struct Difference {
     double distance = 0;   ///< m or rad, at the largest ratio to the tolerance
-    double tolerance = 0;  ///< the sum of the two bounds there
+    double tolerance = 0;  ///< the sum of the two bounds at that ratio
     bool agrees() const;
   };
-  /// Returns the worst difference of two runs; nothing if a bound is unknown. NaN in a position or a bound is
-  /// the worst.
+  /// Returns the worst difference of two runs; nullopt if a bound is unknown. A NaN in a position or a bound
+  /// is the worst.
   std::optional<Difference> worst_difference(const Track& other) const;
 
  private:

@@ -45,7 +45,7 @@ std::span<const BodyState> TruthTable::fine(long index) const {
 }
 
 double TruthTable::fine_time(long index) const {
-  // At a step's sample the time is exactly k * dt, as on the engines' clocks.
+  // At the sample of a step the time is exactly k * dt, as on the engines' clocks.
   const long whole = index / refinement_, part = index % refinement_;
   return static_cast<double>(whole) * dt_ + dt_ * static_cast<double>(part) / refinement_;
 }

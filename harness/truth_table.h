@@ -21,7 +21,7 @@ struct Scale {
   double angle = 0;          ///< rad, largest |angle|, at least pi
   double angular_speed = 0;  ///< rad/s
   double impact_spin =
-      0;  ///< rad/s, spin that the impacts would add if their arms were off by length + extent
+      0;  ///< rad/s, spin that the impacts would add if their lever arms were off by length + extent
   double joint_length =
       0;  ///< m, length + extent if there are joints: their gaps are differences of such coordinates
   double joint_arm = 1;  ///< m, from a body's centre to the nearest of its joints

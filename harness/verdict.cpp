@@ -121,7 +121,7 @@ std::string verdict_json(std::span<const Result> results) {
 std::string verdict_badge(std::span<const Result> results) {
   const Score score = score_of(results);
   const std::string left = "physics", right = fmt::format("{} of {} agree", score.agrees, score.judged());
-  // Width of a character of the badge's font at 11 px, on average, and the margins.
+  // Average width of a character of the badge's font at 11 px, and the margins.
   constexpr int kCharacter = 7, kMargin = 10;
   const int left_width = kCharacter * static_cast<int>(left.size()) + kMargin;
   const int right_width = kCharacter * static_cast<int>(right.size()) + kMargin;

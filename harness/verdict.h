@@ -14,7 +14,7 @@ enum class Ruling {
   Misses,       ///< a check is outside its bound, or the run diverged
   Broke,        ///< the engine reported an error, crashed or hung
   Unsupported,  ///< the engine lacks a feature that the scene needs
-  NotReached,   ///< the time was up before
+  NotReached,   ///< time ran out before it
 };
 std::string_view name_of(Ruling ruling);
 Ruling ruling_on(const Result& result);
@@ -26,11 +26,11 @@ struct Score {
 };
 Score score_of(std::span<const Result> results);
 
-/// Reason for a run that was not made because the time was up.
+/// Reason for a run that was not made because time ran out.
 inline constexpr const char* kOutOfTime = "no time was left";
 
-/// Returns a line per case: first the misses with their sizes, then what broke, what agrees, and what was not
-/// run.
+/// Returns a line per case: first the misses with their sizes, then runs that broke, that agree, and that
+/// were not made.
 std::string verdict_text(std::span<const Result> results, const Style& style);
 
 /// Returns the same as JSON, with each case's checks.

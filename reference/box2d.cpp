@@ -42,7 +42,7 @@ struct Box2dSettings {
   bool continuous = true;
 };
 
-/// The scene's rules in place of Box2D's: which shapes touch, and with which coefficients.
+/// Applies the scene's rules instead of Box2D's: which shapes touch, and with which coefficients.
 class ContactRulesOfScene final : public b2ContactFilter, public b2ContactListener {
  public:
   explicit ContactRulesOfScene(const ContactRules& rules) : rules_(rules) {}
@@ -207,7 +207,7 @@ class Box2dSimulator final : public Simulator {
     return fixed_frame_;
   }
 
-  // Evaluates forces at the step's start and holds them for the step, as users of Box2D do.
+  // Evaluates forces at the step's start and keeps them constant during the step, as users of Box2D do.
   void apply_forces() {
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.exact_substep;
     forces_.apply(

@@ -33,7 +33,7 @@ b2Vec2 to_box2d(Vec2d v) { return {static_cast<float>(v.x), static_cast<float>(v
 struct V3Settings {
   int steps = 1;     // of a dt
   double step = 0;   ///< s
-  int substeps = 4;  // of a step, Box2D's own
+  int substeps = 4;  // per step; Box2D's own default
   bool equalised = true;
 };
 
@@ -132,7 +132,7 @@ class V3Simulator final : public Simulator {
     b2Body_SetMassData(out, mass);
   }
 
-  // A flag became three locks in 3.2.
+  // One flag became three locks in 3.2.
   template <class Def>
   static void fix_rotation(Def& def, bool fixed) {
     if constexpr (requires { def.motionLocks; }) {
@@ -169,7 +169,7 @@ class V3Simulator final : public Simulator {
     return index ? bodies_[*index] : ground_;
   }
 
-  // Joint definitions have their ends in a base since 3.2.
+  // Since 3.2 the ends of joint definitions are in a base.
   template <class Def, class Of>
   void set_ends(Def& def, const Of& joint) const {
     const b2BodyId a = body_called(joint.body_a), b = body_called(joint.body_b);

@@ -3,8 +3,8 @@
 //! guest: yes
 //! missing: Chipmunk was not found; install libchipmunk-dev and build again
 
-// Chipmunk 7 in double. The scene's contact rules replace its own; its slop and its correction of overlaps
-// are options.
+// Chipmunk 7 in double. The scene's contact rules replace its own. Its slop and its overlap correction are
+// options.
 #include <chipmunk/chipmunk.h>
 
 #include <chrono>
@@ -234,7 +234,7 @@ class ChipmunkBackend final : public Backend {
   }
   std::vector<Knob> knobs() const override { return {{"iterations", {"1", "5", "10", "20", "50", "100"}}}; }
 
-  // Positions take the old velocities, velocities the new positions: with the forces of the step's start that
+  // Positions use the old velocities, velocities the new positions: with the forces of the step's start this
   // is the explicit Euler method.
   Method method(const StepSettings& settings) const override {
     return {.scheme = Scheme::ExplicitEuler,

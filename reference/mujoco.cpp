@@ -3,7 +3,7 @@
 //! missing: MuJoCo was not found; install libmujoco-dev and build again
 
 // MuJoCo in double, for mechanisms: trees of hinges become joint angles, so that joints cannot open. Contacts
-// are left to other engines: MuJoCo's are soft and know no coefficient of restitution.
+// are left to other engines, because MuJoCo's contacts are soft and have no coefficient of restitution.
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -39,7 +39,7 @@ struct MujocoSettings {
 };
 
 /// Writes the mechanism as MJCF with all bodies at angle 0, so that its coordinates equal the scene's. The
-/// XML reader nests at most a hundred elements per file, so long chains continue in included files.
+/// XML reader allows at most a hundred nested elements per file, so long chains continue in included files.
 class Writer {
  public:
   Writer(const Scene& scene, const std::vector<Link>& links, const MujocoSettings& settings)
@@ -210,7 +210,7 @@ class MujocoSimulator final : public Simulator {
     return state;
   }
 
-  /// Hinges count whole turns, and so does their sum along the tree.
+  /// Hinges count whole turns, so their sum along the tree does as well.
   double angle_of(std::size_t i) const {
     double sum = 0;
     for (int link = static_cast<int>(i); link >= 0; link = links_[static_cast<std::size_t>(link)].parent) {
@@ -225,7 +225,7 @@ class MujocoSimulator final : public Simulator {
     return sum;
   }
 
-  /// Adds forces at every stage of a step, so that laws which depend on the motion keep the method's order.
+  /// Adds forces at every stage of a step, so that laws that depend on the motion keep the method's order.
   static void add_forces(const mjModel* model, mjData* data) {
     MujocoSimulator& self = *acting_;
     const double start = self.step_start_, end = start + self.settings_.substep;

@@ -6,24 +6,24 @@
 
 #include "reference/backend.h"
 
-/// Engines from npm, run by Node over docs/protocol.md: one script an engine in reference/node. They are
-/// guests (guests.h), run when asked for by name, in any version that is installed.
+/// Engines from npm, run by Node over docs/protocol.md: one script per engine in reference/node. They are
+/// guests (guests.h) and run when they are asked for by name, in any installed version.
 namespace plumb::reference {
 
-/// A script, as the lines at its top describe it.
+/// A script, as described by the lines at its top.
 struct NodeEngine {
   std::string name;     ///< "rapier", after its file
   std::string package;  ///< npm's name
-  std::string version;  ///< that `plumb engines --install NAME` takes
+  std::string version;  ///< the version that `plumb engines --install NAME` installs
   std::string script;   ///< path
 };
 
-/// Returns every script of the folder PLUMB_NODE_SCRIPTS, of `../share/plumb/node` beside the program, or of
-/// the checkout that the program was built in; by name.
+/// Returns every script in the folder PLUMB_NODE_SCRIPTS, in `../share/plumb/node` next to the program, or in
+/// the checkout from which the program was built; by name.
 std::vector<NodeEngine> node_engines();
 
-/// Folder that versions are installed into: PLUMB_ENGINES, else `plumb/engines` in XDG_DATA_HOME or
-/// ~/.local/share.
+/// Returns the folder into which versions are installed: PLUMB_ENGINES, else `plumb/engines` in XDG_DATA_HOME
+/// or ~/.local/share.
 std::string engines_folder();
 
 /// Returns the folder of one version of an engine, installed or not.

@@ -3,8 +3,8 @@
 //! guest: yes
 //! missing: ODE was not found; install libode-dev and build again
 
-// The Open Dynamics Engine in double, held to the plane by a Plane2D joint a body. Contacts are one linear
-// complementarity problem a step, solved exactly.
+// The Open Dynamics Engine in double, kept in the plane by one Plane2D joint per body. The contacts of a step
+// are one linear complementarity problem, solved exactly.
 #include <ode/ode.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace plumb::reference {
 namespace {
 
 constexpr int kMostContacts =
-    8;  // of a pair of shapes; two boxes have four corners of one face, at two depths
+    8;  // contacts of a pair of shapes; two boxes have four corners of one face, at two depths
 
 struct OdeSettings {
   int substeps = 1;
@@ -42,7 +42,7 @@ struct OdeSettings {
   bool equalised = true;
 };
 
-// The library is set up once a process.
+// The library must be set up once per process.
 void start_ode() {
   static const bool started = dInitODE2(0) != 0;
   static_cast<void>(started);
@@ -110,7 +110,7 @@ class OdeSimulator final : public Simulator {
     ++done_;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (bodies_[i] == nullptr) continue;
-      // Takes back what rounding turns a body out of the plane, as ODE's manual advises for Plane2D.
+      // Removes the rotation out of the plane that rounding causes, as ODE's manual advises for Plane2D.
       const dReal* q = dBodyGetQuaternion(bodies_[i]);
       const double norm = std::hypot(q[0], q[3]);
       const dReal flat[4] = {q[0] / norm, 0, 0, q[3] / norm};
@@ -136,7 +136,7 @@ class OdeSimulator final : public Simulator {
       dContact& contact = contacts[static_cast<std::size_t>(i)];
       const dReal x = contact.geom.normal[0], y = contact.geom.normal[1];
       if (std::abs(contact.geom.normal[2]) > 0.5)
-        continue;  // faces of the slabs, which are not in the plane's world
+        continue;  // a face of a slab parallel to the plane: not part of the 2D scene
       const ContactRules& rules = scene_.contact_rules;
       contact.surface.mode = dContactFDir1 | dContactMu2 | dContactBounce | dContactApprox1_1;
       contact.surface.mu = combine(rules.friction, shape_a.friction, shape_b.friction);
@@ -160,7 +160,7 @@ class OdeSimulator final : public Simulator {
   }
 
   void add_body(const Body& body) {
-    dBodyID out = nullptr;  // a static body is geometry alone
+    dBodyID out = nullptr;  // a static body is only geometry
     if (body.type != BodyType::Static) {
       out = dBodyCreate(world_);
       dBodySetPosition(out, body.position.x, body.position.y, 0);
@@ -169,7 +169,7 @@ class OdeSimulator final : public Simulator {
       dBodySetRotation(out, rotation);
       dBodySetLinearVel(out, body.velocity.x, body.velocity.y, 0);
       dBodySetAngularVel(out, 0, 0, body.angular_velocity);
-      dBodySetFiniteRotationMode(out, 1);  // the step's turn is exact, not its first order
+      dBodySetFiniteRotationMode(out, 1);  // integrates the step's rotation exactly, not to first order
       dBodySetFiniteRotationAxis(out, 0, 0, 1);
       if (body.type == BodyType::Kinematic) dBodySetKinematic(out);
     }
@@ -180,7 +180,7 @@ class OdeSimulator final : public Simulator {
       dBodySetMass(out, &mass);
       dJointID plane = dJointCreatePlane2D(world_, nullptr);
       dJointAttach(plane, out, nullptr);
-      if (body.fixed_rotation) {  // a motor that holds the angular velocity at zero
+      if (body.fixed_rotation) {  // a motor that keeps the angular velocity at zero
         dJointSetPlane2DAngleParam(plane, dParamVel, 0);
         dJointSetPlane2DAngleParam(plane, dParamFMax, dInfinity);
       }
@@ -216,7 +216,7 @@ class OdeSimulator final : public Simulator {
     return index ? bodies_[*index] : nullptr;
   }
 
-  // ODE's joints take one place in the world; a joint that starts open cannot be made so.
+  // ODE's joints have one place in the world, so a joint that starts open cannot be created.
   void add_joint(const RevoluteJoint& joint) {
     dBodyID a = body_called(joint.body_a), b = body_called(joint.body_b);
     dJointID out = dJointCreateBall(world_, nullptr);
@@ -339,7 +339,7 @@ class OdeBackend final : public Backend {
     return "";
   }
 
-  // Returns true if the hinge's anchors are apart by more than the rounding of a scene within a kilometre.
+  // Returns true if the hinge's anchors are farther apart than the rounding of a scene within a kilometre.
   static bool starts_open(const Scene& scene, const RevoluteJoint& hinge) {
     const Vec2d gap = anchor_in_world(scene, hinge.body_a, hinge.anchor_a) -
                       anchor_in_world(scene, hinge.body_b, hinge.anchor_b);
@@ -356,7 +356,7 @@ class OdeBackend final : public Backend {
     out.quick = given.choice<bool>("solver", {{"exact", false}, {"quick", true}});
     out.equalised = equalised_;
     if (!equalised_) {
-      out.cfm = 1e-10;  // ODE's own in double
+      out.cfm = 1e-10;  // ODE's own value in double
       return out;
     }
     out.erp = given.number("erp", 0);

@@ -98,7 +98,8 @@ class PlumbBackend : public Backend {
   Precision precision_;
 };
 
-/// The world. Sleeping and the monitor are off by default: every body takes part, and misses are results.
+/// The world. Sleeping and the monitor are off by default, so that every body takes part and misses are
+/// results.
 class WorldBackend final : public PlumbBackend {
  public:
   using PlumbBackend::PlumbBackend;

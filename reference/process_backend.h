@@ -13,8 +13,8 @@ namespace plumb::reference {
 
 /// Limits on an engine's program.
 struct ProcessLimits {
-  double seconds = 30;                 ///< for each line of an answer, and for the program to take a request
-  std::size_t line_bytes = 64u << 20;  ///< longest line of a run, where states grow with the bodies
+  double seconds = 30;  ///< for each line of an answer, and for the program to accept a request
+  std::size_t line_bytes = 64u << 20;  ///< longest line of a run, whose states grow with the number of bodies
   /// Longest line of any other answer. Hello and settings take a few thousand bytes, and their content is
   /// printed.
   std::size_t answer_bytes = 1u << 20;
@@ -28,8 +28,8 @@ class ProcessError : public Error {
     Start,     ///< it cannot be started (kind Io)
     Timeout,   ///< it did not answer in time
     Crash,     ///< it ended by a signal or an exit while an answer was expected
-    Killed,    ///< it ended by a signal from outside, which says nothing about it
-    Time,      ///< a sample's time is not the one that is due
+    Killed,    ///< it was ended by a signal from outside, which says nothing about the program
+    Time,      ///< the time of a sample is not the expected one
     Protocol,  ///< its answer violates docs/protocol.md
     Diverged,  ///< a state that is not finite
   };
@@ -44,11 +44,11 @@ class ProcessError : public Error {
   Fault fault_;
 };
 
-/// An adapter for the program `command` (its name, then its arguments; no shell is involved). A name without
-/// a slash is looked for in the folders of PLUMB_WORKER_PATH, beside the running program, in `../bin` from
-/// there, then in PATH. The program is started when first asked about, once to answer questions and once more
-/// for each simulator; a program that cannot be started, or answers wrongly, makes an adapter that is not
-/// available, with the reason.
+/// Creates an adapter for the program `command` (its name, then its arguments; no shell is involved). A name
+/// without a slash is searched in the folders of PLUMB_WORKER_PATH, in the folder of the running program, in
+/// `../bin` from there, then in PATH. The program is started on the first query, once for all questions, and
+/// once for each simulator. If a program cannot be started, or answers wrongly, the adapter is unavailable,
+/// with the reason.
 std::unique_ptr<Backend> make_process_backend(std::string name, std::vector<std::string> command,
                                               std::string summary = "", ProcessLimits limits = {});
 

@@ -23,7 +23,7 @@ class Simulator {
 
   virtual double time() const = 0;  ///< s since the start
 
-  /// The state of every body, in the scene's order; `out` has one element a body.
+  /// Reads the state of every body, in the scene's order; `out` has one element per body.
   virtual void read(std::span<BodyState> out) const = 0;
 
   /// Returns the engine's own statistics so far, as name/value pairs: steps, events, estimated error.
@@ -34,7 +34,8 @@ class Simulator {
   /// `advance`.
   virtual double record(int samples, int every, std::size_t bodies, const Sink& sink);
 
-  /// The forces of joints and contacts now. Throws `Error` (Unsupported) where the engine has none to show.
+  /// Returns the forces of joints and contacts now. Throws `Error` (Unsupported) if the engine does not
+  /// provide them.
   virtual Reactions forces() const;
 };
 

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""What a scene pays for features, in instructions a step, which repeat exactly.
+"""Measures the cost of features for a scene, in instructions per step, which repeat exactly.
 
     features.py [--check] [--markdown] [--engine NAME]... PROGRAM
 
-PROGRAM is plumb_features. Counted are: nothing, 64 bodies in free fall ("rest"), the same with the feature declared where it
-can have no effect ("declared": shapes, friction, restitution of bodies that nothing can touch), a few bodies that use the
-feature, and these beside the 64. Then
+PROGRAM is plumb_features. It counts five scenes: no bodies ("empty"); 64 bodies in free fall ("rest"); the same bodies with
+the feature declared in a way that has no effect ("declared": shapes, friction, restitution of bodies that nothing can touch);
+a few bodies that use the feature ("feature"); and these together with the 64 ("both"). Then
 
-    unused  = declared - rest                   what a scene pays for a feature that it does not use
-    used    = feature - empty                   what those pay that use it
-    beside  = both - feature - rest + empty     what the 64 pay more because others in their scene use it
+    unused  = declared - rest                   cost of a feature that the scene does not use
+    used    = feature - empty                   cost of the bodies that use it
+    beside  = both - feature - rest + empty     additional cost of the 64, because other bodies use the feature
 
---check exits with 1 where `unused` is more than 1 % of what the rest costs. Without valgrind the exit code is 77.
+--check exits with 1 if `unused` is more than 1 % of the cost of the rest. Without valgrind the exit code is 77.
 """
 
 import argparse
@@ -29,7 +29,7 @@ NOISE = 0.01  # of the rest's own cost
 
 
 def count(program, *arguments):
-    """Instructions a step, or None where the engine skips the scene."""
+    """Returns the instructions per step; None if the engine skips the scene."""
     with tempfile.NamedTemporaryFile(prefix="plumb_features") as out:
         command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out.name}", "--collect-atstart=no",
                    "--toggle-collect=plumb_measured_steps", program, *arguments, str(STEPS)]
@@ -56,7 +56,7 @@ def listed(program):
 
 
 def measure(program, engines, features):
-    """(engine, part, feature) -> instructions a step; `features` says by name whether it can be declared."""
+    """Returns (engine, part, feature) -> instructions per step. `features`: by name, true if it can be declared."""
     runs = [(engine, part) for engine in engines for part in ("empty", "rest")]
     runs += [(engine, part, feature) for engine in engines for feature in features for part in ("feature", "both")]
     runs += [(engine, "declared", name) for engine in engines for name, can in features.items() if can]

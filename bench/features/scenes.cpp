@@ -7,7 +7,7 @@ namespace plumb::bench {
 namespace {
 
 constexpr int kRest = 64;
-constexpr double kFar = 1000;  // m, between the bodies that use a feature and the others
+constexpr double kFar = 1000;  // m, between the bodies that use a feature and the other bodies
 
 // Returns a shape that collides with nothing, for the bodies of all features but contacts.
 Shape ghost() {

@@ -5,7 +5,7 @@
 
 #include "engine/scene/scene.h"
 
-/// Scenes in which a few bodies use a feature beside many that do not.
+/// Scenes in which a few bodies use a feature, next to many that do not.
 namespace plumb::bench {
 
 /// A feature that a scene may use: a name, and a function that adds the few bodies that use it.
@@ -20,7 +20,7 @@ struct Feature {
 const std::vector<Feature>& features();
 
 /// Adds bodies without shapes that fall freely and use no feature. `declared` (may be null) is declared on
-/// each.
+/// each of them.
 void add_rest(Scene& scene, const Feature* declared);
 
 }  // namespace plumb::bench

@@ -8,7 +8,7 @@
 
 namespace plumb::field {
 
-/// Each is defined if its library was found.
+/// Each of these is defined if its library was found.
 std::unique_ptr<FieldWorld> create_box2d(const WorldSettings& settings);
 std::unique_ptr<FieldWorld> create_box2d_v3(const WorldSettings& settings);
 std::unique_ptr<FieldWorld> create_chipmunk(const WorldSettings& settings);

@@ -1,5 +1,5 @@
-// Box2D 2.4, float. Masses are the scene's. Missing features are built from existing ones, as the settings
-// say.
+// Box2D 2.4, float. Masses are the scene's. Features that it lacks are built from existing ones, as the
+// settings say.
 #include <box2d/box2d.h>
 
 #include <cmath>

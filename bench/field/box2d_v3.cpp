@@ -1,5 +1,5 @@
-// Box2D 3, float: soft contacts and joints in substeps. Masses are the scene's. Has all shapes and joints of
-// the scenes but polygons of more than eight corners.
+// Box2D 3, float: soft contacts and joints in substeps. Masses are the scene's. Supports all shapes and
+// joints of the scenes except polygons of more than eight corners.
 #include <box2d/box2d.h>
 
 #include <cstring>
@@ -60,7 +60,7 @@ class Box2dV3World final : public FieldWorld {
     for (const ShapeDefinition& shape : shapes)
       std::visit([&](const auto& geometry) { attach(out, shape, geometry); }, shape.geometry);
     if (body.type == BodyType::Dynamic) {
-      b2Body_ApplyMassFromShapes(out);  // its extents, which the next call leaves
+      b2Body_ApplyMassFromShapes(out);  // sets its extents, which the next call keeps
       b2MassData data{};
       data.mass = narrow(mass.mass);
       data.center = narrow(mass.centre);
@@ -131,7 +131,7 @@ class Box2dV3World final : public FieldWorld {
   }
 
  private:
-  // Ends are in a base since 3.2, and the reference angle is a rotation of the first frame.
+  // Since 3.2 the ends are in a base, and the reference angle is a rotation of the first frame.
   template <class Def>
   static void set_ends(Def& def, b2BodyId a, b2BodyId b, const RevoluteDefinition& joint) {
     if constexpr (requires { def.base; }) {
@@ -150,7 +150,7 @@ class Box2dV3World final : public FieldWorld {
   static b2ShapeDef definition_of(const ShapeDefinition& shape) {
     b2ShapeDef def = b2DefaultShapeDef();
     def.density = narrow(shape.density);
-    def.updateBodyMass = false;  // once, when all are there
+    def.updateBodyMass = false;  // once, when all shapes exist
     def.material.friction = narrow(shape.friction);
     def.material.restitution = narrow(shape.restitution);
     def.filter.categoryBits = shape.category;

@@ -5,7 +5,7 @@
 namespace plumb::field {
 namespace {
 
-/// Adds the time and allocations of its lifetime to a cost.
+/// Adds the time and the allocations of its own lifetime to a cost.
 class Meter {
  public:
   Meter(Cost& cost, clockid_t clock)

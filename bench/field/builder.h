@@ -41,8 +41,8 @@ struct Cost {
   std::int64_t bytes = 0;  ///< allocated and not yet released
 };
 
-/// Builds a scene in a world, and records the bodies and joints built and the cost of the engine's own calls.
-/// Nothing else enters the cost.
+/// Builds a scene in a world. Records the bodies and joints built, and the cost of the engine's own calls;
+/// the cost contains nothing else.
 class Builder {
  public:
   explicit Builder(FieldWorld& world, clockid_t clock = CLOCK_MONOTONIC) : world_(world), clock_(clock) {}

@@ -14,7 +14,7 @@
 namespace plumb::field {
 namespace {
 
-/// Chipmunk's own default of 0.1 is meant for pixels; this is Box2D's, in metres.
+/// Chipmunk's own default of 0.1 is meant for pixels. This is Box2D's value, in metres.
 constexpr double kSlop = 0.005;
 
 cpVect to_chipmunk(Vec2d v) { return {v.x, v.y}; }
@@ -91,7 +91,7 @@ class ChipmunkWorld final : public FieldWorld {
     if (joint.limits)
       add(cpRotaryLimitJointNew(a, b, zero + joint.limits->lower, zero + joint.limits->upper), joint);
     if (joint.motor) {
-      // Its rate is that of a relative to b.
+      // Its rate is that of a relative to b, hence the minus.
       cpConstraint* motor = add(cpSimpleMotorNew(a, b, -joint.motor->speed), joint);
       const bool unlimited = joint.motor->max_torque >= std::numeric_limits<float>::max();
       cpConstraintSetMaxForce(motor, unlimited ? INFINITY : joint.motor->max_torque);

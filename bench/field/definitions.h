@@ -12,7 +12,7 @@
 
 namespace plumb::field {
 
-/// Parts of the scenes, in SI units, y up. Every engine gets the same.
+/// Parts of the scenes, in SI units, y up. Every engine gets the same parts.
 
 struct Circle {
   Vec2d centre{};  ///< m, in the body's frame
@@ -45,10 +45,10 @@ inline Polygon box(double half_width, double half_height, Vec2d centre = {}, dou
 struct ShapeDefinition {
   Geometry geometry;
   double density = 1;          ///< kg/m^2
-  double friction = 0.6;       ///< of a pair: the geometric mean
-  double restitution = 0;      ///< of a pair: the larger one
+  double friction = 0.6;       ///< of a pair the geometric mean is used
+  double restitution = 0;      ///< of a pair the larger one is used
   int group = 0;               ///< shapes of the same group, other than 0, never collide
-  std::uint16_t category = 1;  ///< else two shapes collide if each one's mask has the other's category
+  std::uint16_t category = 1;  ///< else two shapes collide if the mask of each has the other's category
   std::uint16_t mask = std::numeric_limits<std::uint16_t>::max();
 };
 
@@ -86,7 +86,7 @@ struct RevoluteDefinition {
   double reference_angle = 0;    ///< rad
   std::optional<Limits> limits{};
   std::optional<Motor> motor{};
-  std::optional<AngularSpring> spring{};  ///< towards the angle 0
+  std::optional<AngularSpring> spring{};  ///< spring towards the angle 0
   bool collide = false;                   ///< true if the joined bodies collide with each other
 };
 
@@ -107,7 +107,7 @@ struct Counts {
   int touching = 0;  ///< contacts that the engine itself reports as touching
 };
 
-/// Names of a step's stages and what each takes, ns.
+/// Names of a step's stages and the time of each, ns.
 using StageTimes = std::vector<std::pair<std::string, double>>;
 
 /// Names and values of an engine's settings.

@@ -27,7 +27,7 @@ std::span<const Engine> engines();
 /// Returns `engine` with one of its solvers, called "engine:solver".
 Engine with_solver(const Engine& engine, const std::string& solver);
 
-/// Returns `engine` with so many threads, called "engine:2" if there are two.
+/// Returns `engine` with this number of threads, called "engine:2" if there are two.
 Engine with_threads(const Engine& engine, int threads);
 
 }  // namespace plumb::field

@@ -9,18 +9,18 @@
 
 namespace plumb::field {
 
-/// Step settings. Each engine uses those that it has, with the defaults of its documentation.
+/// Step settings. Each engine uses those that it has, and otherwise its documented defaults.
 struct WorldSettings {
   Vec2d gravity{0, -10};                                 ///< m/s^2
   double dt = 1.0 / 60;                                  ///< s
-  int substeps = 4;                                      ///< of engines with substeps
+  int substeps = 4;                                      ///< for engines with substeps
   int velocity_iterations = 8, position_iterations = 3;  ///< of Box2D 2.4
-  int iterations = 10;                                   ///< of Chipmunk, and of plumb's iterative solvers
-  std::string solver{};                                  ///< of plumb, by its name; empty: its default
-  int threads = 1;                                       ///< of engines that share a step among threads
+  int iterations = 10;                                   ///< for Chipmunk, and for plumb's iterative solvers
+  std::string solver{};  ///< for plumb: name of the solver; empty: its default
+  int threads = 1;       ///< for engines that share a step among threads
   bool sleeping = false;
   bool continuous = true;
-  bool profiling = false;  ///< of engines that time their stages
+  bool profiling = false;  ///< for engines that time their stages
 };
 
 /// An engine's world. A call costs one virtual call, which is negligible beside a step.
@@ -28,7 +28,7 @@ class FieldWorld {
  public:
   virtual ~FieldWorld() = default;
 
-  /// Creates a body. Dynamic ones get the given mass, whatever the engine would compute from the densities.
+  /// Creates a body. Dynamic bodies get the given mass, whatever the engine would compute from the densities.
   virtual BodyHandle create_body(const BodyDefinition& body, std::span<const ShapeDefinition> shapes,
                                  const MassProperties& mass) = 0;
   /// Destroys a body with its shapes and joints.
@@ -40,7 +40,8 @@ class FieldWorld {
   virtual BodyState state(BodyHandle body) const = 0;
   virtual Counts counts() const = 0;
   virtual Settings settings() const = 0;
-  /// Returns the mean wall time of each stage of a step, ns, by its name; nothing unless it is measured.
+  /// Returns the mean wall time of each stage of a step, ns, by the stage's name; empty unless it is
+  /// measured.
   virtual StageTimes profile() const { return {}; }
   /// Forgets the times so far.
   virtual void restart_profile() {}

@@ -66,7 +66,7 @@ double gap(const PlacedShape& a, const PlacedShape& b) {
   const double radii = a.radius + b.radius;
   const double separation =
       std::max(separation_along_normals(a.core, b.core), separation_along_normals(b.core, a.core));
-  // Cores that touch at most, or are both points: the shortest distance is that of a corner.
+  // The cores touch at most, or both are points: the shortest distance is that of a corner.
   if (separation >= 0 || (a.core.size() == 1 && b.core.size() == 1))
     return std::min(corners_to_edges(a.core, b.core), corners_to_edges(b.core, a.core)) - radii;
   return separation - radii;

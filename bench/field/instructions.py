@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Instructions a step of six field scenes, by stage, held to bench/field/instructions.txt: they repeat exactly where times do not.
+"""Counts the instructions per step of six field scenes, by stage, and compares them with bench/field/instructions.txt.
+Unlike times, they repeat exactly.
 
-    instructions.py PROGRAM                  compare; exits with 1 where a scene's sum is more than 3 % off
-    instructions.py --why TEXT PROGRAM       write what is counted now, with the reason for the change
+    instructions.py PROGRAM                  compare; exits with 1 if a scene's sum differs by more than 3 %
+    instructions.py --why TEXT PROGRAM       write the present counts, with the reason for the change
     instructions.py --markdown PROGRAM       print the table of docs/speed.md
 
-PROGRAM is plumb_field. Scenes have their small size (--quick), 160 steps each, by callgrind. Less than the reference fails as
-well: the reference would allow as much to come back. Counts depend on the compiler and the processor's vector width, which
-the reference names; with others, or without valgrind, the exit code is 77.
+PROGRAM is plumb_field. Scenes have their small size (--quick) and 160 steps, counted by callgrind. Fewer instructions than
+in the reference fail as well, because otherwise the same increase would later pass. Counts depend on the compiler and the
+processor's vector width, which the reference names; with others, or without valgrind, the exit code is 77.
 """
 
 import argparse
@@ -20,7 +21,7 @@ import tempfile
 
 FILE = pathlib.Path(__file__).with_name("instructions.txt")
 SCENES = ["large_pyramid", "joint_grid", "tumbler", "spinner", "rain", "junkyard"]
-STEPS = 160  # measured; one more warms up. Fewer see no heap yet
+STEPS = 160  # measured; one more warms up. With fewer, no heap has formed yet
 TOLERANCE = 0.03
 STAGES = {"find_pairs": "broad_phase", "update_contacts": "narrow_phase", "solve_motion": "solver",
           "finalize_bodies": "finalize", "solve_continuous": "continuous", "sleep_islands": "sleep"}
@@ -28,7 +29,7 @@ COLUMNS = ["sum", *STAGES.values()]
 
 
 def inclusive(text):
-    """Calls out of step_world of a callgrind file: stage -> instructions, and their sum with step_world's own."""
+    """Returns stage -> instructions for the calls from step_world in a callgrind file, and their sum with its own."""
     names, stages, inside, total = {}, dict.fromkeys(COLUMNS, 0), False, 0
 
     def name_of(field):
@@ -73,7 +74,7 @@ def count(program, scene):
 
 
 def built_for(program):
-    """The compiler of a program, and the registers that its step uses here."""
+    """Returns the compiler of a program, and the vector registers that its step uses on this machine."""
     comment = subprocess.run(["readelf", "-p", ".comment", program], capture_output=True, text=True, check=False).stdout
     compiler = re.search(r"(GCC: \(.*?\) \S+|clang version \S+)", comment)
     cpu = pathlib.Path("/proc/cpuinfo")

@@ -49,7 +49,7 @@ struct Options {
   bool list = false, sleeping = false;
 };
 
-/// Writes to stderr; a failure cannot be reported anywhere.
+/// Writes to stderr; ignores failures, because they cannot be reported anywhere.
 void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 void print(const std::string& text) {
@@ -57,7 +57,8 @@ void print(const std::string& text) {
     throw Stop(errno == EPIPE ? kOk : kOutput, fmt::format("stdout: {}", std::strerror(errno)));
 }
 
-/// Returns the entries of `all` that `names` name, in the order of `all`; all entries if there are no names.
+/// Returns the entries of `all` that `names` contains, in the order of `all`; all entries if there are no
+/// names.
 template <class Entry>
 std::vector<const Entry*> select(std::span<const Entry> all, const std::vector<std::string>& names,
                                  const char* what) {

@@ -27,7 +27,7 @@ void add_triangle(Moments& out, Vec2d a, Vec2d b) {
   out.polar += area / 6 * (dot(a, a) + dot(a, b) + dot(b, b));
 }
 
-/// Adds the sector of a disc between two unit normals: theta is the angle between them, and the arms of its
+/// Adds the sector of a disc between two unit normals. Theta is the angle between them, and the arms of its
 /// moments lie along their bisector.
 void add_sector(Moments& out, Vec2d corner, Vec2d n0, Vec2d n1, double radius) {
   const double theta = std::atan2(cross(n0, n1), dot(n0, n1));

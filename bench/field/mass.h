@@ -12,8 +12,8 @@ struct MassProperties {
   double inertia = 0;  ///< kg m^2, about the centre
 };
 
-/// Returns the mass of a body made of `shapes`, each by its density. Overlapping areas count for each shape.
-/// A polygon's rounding counts; a segment has no mass.
+/// Returns the mass of a body made of `shapes`, each with its density. Overlapping areas count for each
+/// shape. The rounding of a polygon counts; a segment has no mass.
 MassProperties mass_of(std::span<const ShapeDefinition> shapes);
 
 }  // namespace plumb::field

@@ -14,9 +14,9 @@ namespace plumb::field {
 namespace {
 
 constexpr int kSamples = 10;  // quality samples per run
-constexpr int kLarge = 1000;  // bodies, from which on reading the clock is negligible beside a step
+constexpr int kLarge = 1000;  // number of bodies from which on the cost of reading the clock is negligible
 
-/// Thrown if a run takes too long; `what()` says how far it came.
+/// Thrown if a run takes too long; `what()` says how far it got.
 struct TooSlow : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

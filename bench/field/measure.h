@@ -18,8 +18,8 @@ struct Plan {
   std::optional<int> steps;           ///< instead of the scene's
   bool quick = false;                 ///< small scenes, few steps
   std::optional<bool> continuous;     ///< instead of the scene's
-  double limit = 600;                 ///< s of an engine's own time, after which a run is aborted
-  clockid_t clock = CLOCK_MONOTONIC;  ///< that measures the times
+  double limit = 600;                 ///< s of an engine's own time; longer runs are aborted
+  clockid_t clock = CLOCK_MONOTONIC;  ///< clock that measures the times
   WorldSettings settings;
 };
 
@@ -40,15 +40,15 @@ struct Measurement {
   int steps = 0;
   bool continuous = true;
   std::vector<double> step_seconds;  ///< one per repetition: mean time of a step
-  std::vector<double> cpu_share;     ///< one per repetition: processor time over wall time; with one thread,
-                                     ///< below 1 if other programs interfered
+  std::vector<double> cpu_share;     ///< one per repetition: processor time over wall time; below 1 with one
+                                     ///< thread if other programs interfered
   Quality quality;                   ///< at the end; depths and joints over ten samples of the run
-  Speed speed;                       ///< in one more step
-  std::optional<double> height;      ///< smallest ratio of a top's height to its initial height
+  Speed speed;                       ///< in one further step
+  std::optional<double> height;      ///< smallest ratio of the height of a top to its initial height
   int escaped = 0;                   ///< bodies outside the scene's region
-  double bytes_a_body = 0;           ///< allocated since the world was empty, over bodies; 0 if not counted
-  double allocations_a_step = 0;     ///< over the second half of the steps
-  StageTimes stages;                 ///< mean wall time of each stage of a step, ns; if asked for
+  double bytes_a_body = 0;        ///< bytes allocated since the world was empty, per body; 0 if not counted
+  double allocations_a_step = 0;  ///< over the second half of the steps
+  StageTimes stages;              ///< mean wall time of each stage of a step, ns; if asked for
 };
 
 /// Runs every scene on every engine `repeat` times, each time in a new world and a process of its own. Within

@@ -12,7 +12,7 @@ struct Bounds {
 };
 
 /// Calls `visit(i, j)`, i < j, once for each pair of overlapping boxes. Sweeps along x over boxes sorted by
-/// their left sides, so that the result depends on no grid and no engine.
+/// their left sides, so the result depends on no grid and no engine.
 void for_each_meeting(std::span<const Bounds> boxes, const std::function<void(int, int)>& visit);
 
 }  // namespace plumb::field

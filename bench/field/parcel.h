@@ -6,7 +6,8 @@
 
 namespace plumb::field {
 
-/// Serialises one run's figures for the pipe from its process. `first`: all figures; else the times alone.
+/// Serialises one run's figures for the pipe from its process. With `first`, all figures; otherwise only the
+/// times.
 std::string pack(const Measurement& found, bool first);
 
 /// Adds the figures in `text`, written by `pack`, to `out`.

@@ -14,14 +14,14 @@ inline constexpr double kNear = 0.02;  // m
 /// Depth from which shapes count as overlapping; less is rounding, also in float far from the origin.
 inline constexpr double kTouch = 1e-6;  // m
 
-/// Quality of shapes and joints, measured alike for all engines from poses and the shapes that the scene
-/// requested.
+/// Quality of shapes and joints, measured in the same way for all engines, from poses and from the shapes
+/// that the scene requested.
 struct Quality {
   bool finite = true;         ///< true if no pose and no velocity is NaN or infinite
   int near = 0;               ///< pairs that may touch and are nearer than `kNear`
   int overlapping = 0;        ///< pairs that overlap
   double deepest = 0;         ///< m, the deepest penetration
-  double mean_depth = 0;      ///< m, of those that overlap
+  double mean_depth = 0;      ///< m, mean depth of the pairs that overlap
   double worst_joint = 0;     ///< m, the largest distance between a joint's anchors
   double mean_joint = 0;      ///< m
   double kinetic_energy = 0;  ///< J, of dynamic bodies, by the engine's velocities

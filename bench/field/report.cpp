@@ -13,7 +13,7 @@ namespace {
 
 using Ink = harness::Style::Ink;
 
-// Engines that times are compared with: the first of them that was measured.
+// Engines with which times are compared: the first one that was measured.
 constexpr const char* kYardsticks[] = {"box2d-v3", "box2d"};
 
 double least(const Measurement& m) { return *std::ranges::min_element(m.step_seconds); }
@@ -21,7 +21,7 @@ double most(const Measurement& m) { return *std::ranges::max_element(m.step_seco
 
 double least_share(const Measurement& m) { return *std::ranges::min_element(m.cpu_share); }
 
-/// Returns the speed relative to the yardstick; nothing without one.
+/// Returns the speed relative to the yardstick; nullopt if there is none.
 std::optional<double> speed_ratio(const Measurement& m, const Measurement* yardstick) {
   if (yardstick == nullptr || !m.failure.empty()) return std::nullopt;
   return median(yardstick->step_seconds) / median(m.step_seconds);
@@ -59,7 +59,7 @@ std::string range_cell(const Measurement& m, const Measurement*) {
   return fmt::format("{:+.0f}/{:+.0f} %", 100 * (least(m) / middle - 1), 100 * (most(m) / middle - 1));
 }
 
-/// Adds "~" if the repetitions of the two overlap, because noise then hides which is faster.
+/// Adds "~" if the repetitions of the two overlap, because noise then hides which one is faster.
 std::string ratio_cell(const Measurement& m, const Measurement* yardstick) {
   const auto ratio = speed_ratio(m, yardstick);
   if (!ratio) return "";
@@ -108,7 +108,7 @@ const std::vector<Column>& columns() {
 
 bool worked(const Measurement& m) { return m.failure.empty(); }
 
-/// Formats the shares of a step's stages, one a line; nothing if they were not measured.
+/// Formats the fractions of a step's stages, one per line; empty if they were not measured.
 std::string stages_text(const Measurement& m) {
   double sum = 0;
   for (const auto& [name, ns] : m.stages) sum += ns;

@@ -11,7 +11,7 @@ namespace plumb::field {
 /// Formats one scene, one row per engine. Columns without information are left out.
 std::string table(std::span<const Measurement> row, const harness::Style& style);
 
-/// Formats every engine's settings, the build and the machine, for below the tables.
+/// Formats every engine's settings, the build and the machine, for the lines below the tables.
 std::string settings_text(std::span<const Measurement> all, const harness::Style& style);
 
 /// One line per measurement; the header names the columns.
@@ -21,7 +21,7 @@ std::string csv_row(const Measurement& measurement, const Measurement* yardstick
 /// Returns everything, with the environment and the settings.
 std::string json(std::span<const Measurement> all, const Plan& plan);
 
-/// Returns the engine that ratios refer to, in the same scene; null if it is not measured or failed.
+/// Returns the engine of the same scene to which ratios refer; null if it is not measured or failed.
 const Measurement* yardstick_of(std::span<const Measurement> all, const Scene& scene);
 
 }  // namespace plumb::field

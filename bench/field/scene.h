@@ -16,7 +16,7 @@ struct Top {
   double ground = 0;  ///< m, height of the ground below the pile
 };
 
-/// Region that bodies must not leave: those with frames outside have escaped.
+/// Region that bodies must not leave: a body has escaped if the origin of its frame is outside.
 struct Region {
   Vec2d low{}, high{};  ///< m
 };
@@ -38,7 +38,7 @@ struct Scene {
   int warm_up = 1;        ///< steps before the clock starts
   Vec2d gravity{0, -10};  ///< m/s^2
   bool continuous = true;
-  bool on_request = false;  ///< takes long: run only if named
+  bool on_request = false;  ///< takes long: run only if it is named
   Built (*build)(Builder& world, bool quick) = nullptr;
 };
 

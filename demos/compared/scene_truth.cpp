@@ -11,7 +11,7 @@ namespace plumb::demos {
 namespace {
 
 constexpr double kLeast = 10;  // s, minimum duration of other engines' runs
-constexpr int kSamples = 120;  // of the truth, for the view
+constexpr int kSamples = 120;  // samples of the truth from which the view is computed
 constexpr double kRounding = 1e-12;
 
 bool finite(const BodyState& state) {
@@ -72,7 +72,7 @@ std::vector<Figure> SceneTruth::figures(double time, std::span<const BodyState> 
 
 void SceneTruth::draw_paths(DebugDraw& out) const {
   constexpr int kPathSamples = 400;
-  constexpr std::size_t kMostPaths = 3;  // of more bodies the paths would hide the picture
+  constexpr std::size_t kMostPaths = 3;  // with more bodies, paths would hide the picture
   if (!known()) return;
   if (paths_.empty()) {
     std::vector<BodyState> states(scene().bodies.size());

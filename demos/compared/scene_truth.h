@@ -22,19 +22,19 @@ class SceneTruth {
   /// Returns the duration of other engines' runs, s: the scenario's own, and at least 10 s.
   double end() const;
 
-  /// Computes the exact states at `time`; false if they are unknown, and beyond the scenario's duration, for
-  /// which alone a truth holds: a ball may meet another wall after it.
+  /// Computes the exact states at `time`; false if they are unknown, or beyond the scenario's duration. A
+  /// truth holds only for that duration: afterwards a ball may hit another wall.
   bool at(double time, std::span<BodyState> out) const;
 
   /// Returns the energy (J), its drift relative to the truth's largest kinetic energy, and the largest errors
-  /// of position (m) and angle (rad) over the bodies. Only those with a meaning for this scene.
+  /// of position (m) and angle (rad) over the bodies. Leaves out those without a meaning for this scene.
   std::vector<Figure> figures(double time, std::span<const BodyState> states) const;
 
-  /// Draws the true paths of the bodies that move, if they are few.
+  /// Draws the true paths of the moving bodies if there are few.
   void draw_paths(DebugDraw& out) const;
 
-  /// Returns the box around the true motion, with a margin, m; nothing if the truth is unknown, or if the
-  /// bodies would be specks in it: a camera that follows them shows more.
+  /// Returns the box around the true motion, with a margin, m. Returns nullopt if the truth is unknown, or if
+  /// bodies would be mere specks in the box: then a camera that follows them is better.
   std::optional<Aabb<double>> view() const;
 
  private:
@@ -42,7 +42,7 @@ class SceneTruth {
 
   scenarios::Problem problem_;
   double start_ = 0, energy_scale_ = 0;              // J
-  mutable std::vector<std::vector<Vec2d>> paths_{};  // m; made when first drawn
+  mutable std::vector<std::vector<Vec2d>> paths_{};  // m; computed when first drawn
 };
 
 /// Returns the largest distance over the bodies, m.

@@ -18,7 +18,7 @@ void draw_arrow(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role) {
 std::string mass_text(double mass) {
   constexpr int kDigits = 3;
   if (!(mass > 0)) return "0 kg";
-  // A quotient of whole numbers is the double nearest to the decimal.
+  // Dividing whole numbers gives the double nearest to the decimal.
   const int decimals = kDigits - 1 - static_cast<int>(std::floor(std::log10(mass)));
   const double power = std::pow(10, std::abs(decimals));
   const double rounded = decimals > 0 ? std::round(mass * power) / power : std::round(mass / power) * power;

@@ -136,7 +136,8 @@ class BouncingBall final : public Demo {
   void step() override {
     if (held_) {
       simulation_->set_state(kBall, {.position = *held_});
-      // The speed of the hand over about a tenth of a second, so that one jerk of it counts little.
+      // Returns the speed of the hand, averaged over about a tenth of a second so that a single jerk counts
+      // little.
       constexpr double kHand = 0.1;  // s
       const double share = std::min(1.0, dt() / kHand);
       hand_ += share * (1 / dt() * (*held_ - held_before_) - hand_);
@@ -177,9 +178,9 @@ class BouncingBall final : public Demo {
   int integrator_ = 2;
   std::optional<Simulation> simulation_;
   std::optional<Vec2d> held_;  // position of the pointer that holds the ball
-  Vec2d held_before_{};        // the same a step before
+  Vec2d held_before_{};        // the same, a step earlier
   Vec2d hand_{};               // m/s, of the pointer
-  BodyState before_;           // ball before the step
+  BodyState before_;           // the ball before the step
   std::vector<Vec2d> trail_;
 };
 

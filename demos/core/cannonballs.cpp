@@ -17,7 +17,7 @@ constexpr double kRadii[] = {0.2, 0.43};  // m: a volume ratio of 10 to 1
 constexpr double kApart = 0.8;            // m, between two balls fired together
 constexpr std::size_t kMost = 40;         // balls at a time
 constexpr double kLost = 200;             // m from the muzzle, beyond which a ball is removed
-constexpr double kForceScale = 0.03;      // m of arrow for 1 N
+constexpr double kForceScale = 0.03;      // m of arrow per N
 constexpr double kPathStep = 0.05;        // s
 constexpr int kPathSteps = 60;
 
@@ -199,7 +199,7 @@ class Cannonballs final : public WorldDemo {
     }
   }
 
-  // Draws the predicted path of a ball: x = v t + a t^2/2 under thrust, and from there on without.
+  // Draws the predicted path of a ball: x = v t + a t^2/2 under thrust, then without thrust.
   void draw_path(DebugDraw& out, int which) const {
     const double mass = kMasses[which];
     const Vec2d free = world_.gravity() + Vec2d{wind_ / mass, 0};

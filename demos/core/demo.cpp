@@ -158,14 +158,15 @@ struct Interval {
   double low, high;
 };
 
-// Returns the interval to show: `home` together with `moving`, at most twice as long as `home`; if they are
-// farther apart, the part at the far end of `moving`, and of a longer `moving` the end that is nearer to
-// home.
+// Returns the interval to show. It is `home` together with `moving` if that is at most twice as long as
+// `home`. Otherwise it is the part at the far end of `moving`; if `moving` is longer than that, the end that
+// is nearer to home.
 Interval shown_of(Interval home, Interval moving) {
   const double most = 2 * (home.high - home.low);
   const Interval both{std::min(home.low, moving.low), std::max(home.high, moving.high)};
   if (both.high - both.low <= most) return both;
-  // The longest that is shown, in lengths of home: one body of many that flies off is not worth more.
+  // Longest interval that is shown, in lengths of home. Larger would not be worth it for one body that flies
+  // off.
   constexpr double kLongest = 4;
   const double wanted = std::min(moving.high - moving.low, kLongest * (home.high - home.low));
   const double length = std::max(most, wanted);
@@ -184,7 +185,7 @@ Aabb<double> Demo::shown() const {
   std::vector<Moving> all = moving();
   std::erase_if(all, [](const Moving& each) { return !each.awake; });
   if (all.empty()) return home;
-  // A camera that needs a while to get there would lag behind what leaves the view: it aims ahead.
+  // A camera that takes some time to move would lag behind a body that leaves the view, so it aims ahead.
   constexpr double kAhead = 0.25;  // s
   Aabb<double> box = all.front().box;
   for (const Moving& each : all) {
@@ -200,9 +201,9 @@ Aabb<double> Demo::shown() const {
 
 void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
   if (!options.velocities && !options.forces && !options.masses) return;
-  constexpr double kFallen = 1.0 / 3;  // of the view, arrow of a body that has fallen through it
-  constexpr double kHeaviest = 0.1;    // of the view, arrow of the largest weight
-  constexpr double kLongest = 0.5;     // of the view: an arrow out of it tells no more
+  constexpr double kFallen = 1.0 / 3;  // of the view: arrow of a body that has fallen through it
+  constexpr double kHeaviest = 0.1;    // of the view: arrow of the largest weight
+  constexpr double kLongest = 0.5;     // of the view: a longer arrow shows no more
   const std::vector<Moving> all = moving();
   const double size = view().half_perimeter() / 2;
   double heaviest = 0;
@@ -210,7 +211,7 @@ void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
   const double usual = gravity() > 0 ? gravity() : size;                                   // m/s^2
   const double for_speed = options.length * kFallen * size / std::sqrt(2 * usual * size);  // s
   const double for_force = options.length * kHeaviest * size / (usual * heaviest);         // m/N
-  constexpr double kAside = 0.03;  // of the view, from a centre to its mass if an arrow begins there
+  constexpr double kAside = 0.03;  // of the view: from a centre to the mass if an arrow starts there
   const auto arrow = [&](Vec2d from, Vec2d way, DrawRole role) -> Vec2d {
     const double length = std::sqrt(length_squared(way));
     if (!(length > 1e-3 * size)) return {};
@@ -218,7 +219,7 @@ void Demo::draw_motion(DebugDraw& out, const MotionOptions& options) const {
     return (1 / length) * way;
   };
   for (const Moving& each : all) {
-    Vec2d along{};  // the arrows' common direction, which the mass keeps clear of
+    Vec2d along{};  // the arrows' common direction, which the mass must not cover
     if (options.velocities) along += arrow(each.centre, for_speed * each.velocity, DrawRole::Velocity);
     if (options.forces && each.mass > 0) along += arrow(each.centre, for_force * each.force, DrawRole::Force);
     const double length = std::sqrt(length_squared(along));

@@ -57,18 +57,18 @@ struct Moving {
   Aabb<double> box{};  ///< m, around its shapes
   Vec2d centre{};      ///< m, centre of mass
   Vec2d velocity{};    ///< m/s
-  Vec2d force{};       ///< N, all forces together: its mass times the change of its velocity in the last step
+  Vec2d force{};       ///< N, sum of all forces: mass times change of velocity, by the last step
   double mass = 0;     ///< kg
   bool awake = true;
-  bool labelled = false;  ///< the demo itself always labels it with its mass
+  bool labelled = false;  ///< true if the demo itself labels it with its mass
 };
 
 /// Drawings of the motion of bodies, over those of DrawOptions.
 struct MotionOptions {
   bool velocities = false;  ///< arrows
-  bool forces = false;      ///< arrows, of all forces on a body together
+  bool forces = false;      ///< arrows of the sum of all forces on a body
   bool masses = false;      ///< labels
-  double length = 1;        ///< of the arrows, in proportion to their usual length
+  double length = 1;        ///< length of the arrows, relative to the usual one
 };
 
 /// An interactive demo. Time advances in fixed steps at any frame rate: the same calls between the same steps
@@ -86,7 +86,7 @@ class Demo {
   const std::vector<Control>& controls() const { return controls_; }
   const Control& control(std::string_view name) const;  ///< throws Error (Name) with the nearest name
   /// Throws Error (Name) for an unknown control, and Error (Value) for a number out of range or an invalid
-  /// choice; nothing has changed then.
+  /// choice; then nothing has changed.
   void set(std::string_view name, double value);
   void set(std::string_view name, std::string_view choice);
 
@@ -98,9 +98,9 @@ class Demo {
   virtual void key(char) {}     ///< one of about().keys; others are ignored
 
   // Time.
-  /// Advances by `seconds` of real time: takes the due steps, keeps the rest for the next call, and returns
-  /// the number of steps. A call counts for at most `kLongestFrame` s, so that steps slower than real time
-  /// slow the demo down and do not accumulate.
+  /// Advances by `seconds` of real time: makes the due steps, keeps the rest for the next call, and returns
+  /// the number of steps. A call counts for at most `kLongestFrame` s: if steps are slower than real time,
+  /// the demo slows down instead of accumulating steps.
   int advance(double seconds);
   void step_once();
   /// Resets the demo to its start, with the present values of the controls.
@@ -108,33 +108,34 @@ class Demo {
   double dt() const { return dt_; }  ///< s, of a step; a control of each demo
   std::int64_t step_count() const { return steps_; }
   double time() const { return time_; }  ///< s
-  /// Returns the fraction of a step since the last one, 0..1: drawings interpolate between the last two steps
-  /// by it.
+  /// Returns the time since the last step as a fraction of a step, 0..1. Drawings interpolate between the
+  /// last two steps by it.
   double fraction() const;
 
   // Output.
   virtual void draw(DebugDraw& out, const DrawOptions& options = {}) const = 0;
   virtual std::vector<Figure> figures() const = 0;
-  virtual Aabb<double> view() const = 0;  ///< m, the part of the world to show while nothing leaves it
-  /// Returns the bodies that can move, as they are now. None if the demo does not tell.
+  virtual Aabb<double> view() const = 0;  ///< m, the part of the world to show as long as no body leaves it
+  /// Returns the bodies that can move, in their present state. Empty if the demo does not provide them.
   virtual std::vector<Moving> moving() const { return {}; }
   virtual double gravity() const { return 0; }  ///< m/s^2
-  /// Returns the part of the world to show now, m: `view`, made larger to hold what is awake, up to twice as
-  /// large; beyond that it goes along with what is awake.
+  /// Returns the part of the world to show now, m. It is `view`, enlarged up to twice to contain the awake
+  /// bodies; if that is not enough, it moves with them.
   Aabb<double> shown() const;
-  /// Draws arrows and masses of what moves. Arrows have fixed scales, which follow from the view: a body that
-  /// has fallen through it has a velocity's arrow of a third of it; the largest weight, one of a tenth.
-  /// Without gravity the scales are those of one of a view's length a second squared.
+  /// Draws arrows and masses of moving bodies. The scales of the arrows are fixed and follow from the view.
+  /// The velocity of a body that has fallen through the view has an arrow of a third of the view; the largest
+  /// weight has one of a tenth. Without gravity, the scales are those for a gravity of one view length per
+  /// second squared.
   void draw_motion(DebugDraw& out, const MotionOptions& options) const;
-  /// Returns the present state as a scene; nothing if the demo has none. Forces of the player are left out.
+  /// Returns the present state as a scene; nullopt if the demo has none. Forces by the player are left out.
   virtual std::optional<Scene> scene() const { return {}; }
 
   // State.
   /// Returns 64 bits of every body's state: equal on every platform for the same calls.
   virtual std::uint64_t hash() const = 0;
-  /// Saves everything that the future depends on, controls included.
+  /// Saves everything on which the future depends, controls included.
   std::vector<std::byte> save() const;
-  /// Throws Error (Value) for bytes that are damaged or of another demo; nothing has changed then. Releases
+  /// Throws Error (Value) for bytes that are damaged or of another demo; then nothing has changed. Releases
   /// the body that the pointer held.
   void restore(std::span<const std::byte> bytes);
 
@@ -151,7 +152,7 @@ class Demo {
   void add_slider(std::string name, std::string unit, int low, int high, int& target, std::string about);
   void add_choice(std::string name, std::vector<std::string> choices, int& target, std::string about);
   void add_switch(std::string name, bool& target, std::string about);
-  /// Called after the member has its new value.
+  /// Called after the member got its new value.
   virtual void changed(std::string_view /*control*/) {}
 
   virtual void build() = 0;  ///< builds the scene's start from the controls
@@ -171,7 +172,7 @@ class Demo {
   About about_;
   std::vector<Control> controls_;
   std::vector<Target> targets_;  // one per control
-  double waiting_ = 0;           // s, elapsed but not stepped yet
+  double waiting_ = 0;           // s, elapsed but not yet stepped
   double time_ = 0;
   std::int64_t steps_ = 0;
 };

@@ -40,7 +40,7 @@ struct Doll {
     const Vec2d half = 0.5 * (to - from);
     return part(name, from + half, mass, Capsule{-half, half, radius});
   }
-  // Adds a point. Its rotation is fixed, or the figure would roll on its hands and feet.
+  // Adds a point. Its rotation is fixed, because otherwise the figure would roll on its hands and feet.
   BodyId point(const char* name, Vec2d place, double mass, double radius) {
     return part(name, place, mass, Circle{radius}, false);
   }
@@ -96,7 +96,7 @@ void add_stick_doll(DemoWorld& world, Vec2d hip, int group) {
     shoulders[i] = doll.point("shoulder", on_side(side, kShoulder), kShoulderMass, kArmRadius);
     hips[i] = doll.point("hip", on_side(side, kHip), kHipMass, kThighRadius);
   }
-  // The torso is a frame with both diagonals. Sticks to the shoulders carry the head; those to the hips keep
+  // The torso is a frame with both diagonals. Sticks to the shoulders carry the head; sticks to the hips keep
   // it from sinking in.
   add_stick(world, shoulders[0], shoulders[1]), add_stick(world, hips[0], hips[1]);
   for (const int i : {0, 1}) {

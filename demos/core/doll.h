@@ -13,8 +13,8 @@ void add_jointed_doll(DemoWorld& world, Vec2d hip, int group);
 /// length only replace the limits of neck, elbows and knees.
 void add_stick_doll(DemoWorld& world, Vec2d hip, int group);
 
-/// Adds a stick between the centres of two bodies, with their present distance as length. With `least` it
-/// only limits the distance, to at least this fraction of that.
+/// Adds a stick between the centres of two bodies, with their present distance as its length. If `least` is
+/// below 1, it only keeps the distance above that fraction of the length.
 JointId add_stick(DemoWorld& world, BodyId a, BodyId b, double least = 1);
 
 }  // namespace plumb::demos

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLength = 2.54, kWidth = 1.27;     // m, a table of nine feet with its middle at the origin
 constexpr double kRadius = 0.028575, kMass = 0.17;  // m, kg, of a ball
 constexpr double kCushion = 0.1;                    // m, drawn thickness
-constexpr double kPocket = 0.05;                    // m: a ball whose centre is nearer to a pocket falls in
+constexpr double kPocket = 0.05;  // m: a ball falls into a pocket if its centre is nearer than this
 constexpr Vec2d kCueSpot{-kLength / 4, 0}, kFootSpot{kLength / 4, 0};
 constexpr double kGap = 1e-4;                   // m, between the balls of the rack
 constexpr double kHardness = 8, kFastest = 12;  // 1/s, m/s: the cue ball's speed per metre of aim
@@ -192,7 +192,7 @@ class PoolBreak final : public WorldDemo {
           out.circle({x, y}, kPocket, {0, 0}, DrawRole::Sensor);
       }
     }
-    // The cue ball is told apart by its colour and its mass.
+    // The cue ball has its own colour and mass.
     if (world_.valid(cue())) {
       const Vec2d centre = drawn_centre(cue());
       out.circle(centre, kRadius, {0, 0}, DrawRole::Kinematic);

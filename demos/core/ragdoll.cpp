@@ -139,7 +139,7 @@ class Ragdoll final : public WorldDemo {
     }
   }
 
-  // Adds a chain of circles joined by sticks between their centres, for either kind of joints.
+  // Adds a chain of circles joined by sticks between their centres, with either kind of joints.
   void add_chain() {
     BodyId last{};
     for (int i = 0; i < kChainParts; ++i) {
@@ -153,7 +153,7 @@ class Ragdoll final : public WorldDemo {
 
   // Adds another figure at the first free place.
   void add_another() {
-    constexpr Aabb<double> kRoom{{-0.5, -1}, {0.5, 1.1}};  // m, about the hip
+    constexpr Aabb<double> kRoom{{-0.5, -1}, {0.5, 1.1}};  // m, relative to the hip
     for (const double x : {1.5, 0.3, 2.7, -0.9, -3.2}) {
       const Vec2d hip{x, kStart.y};
       std::vector<ShapeId> there;

@@ -12,7 +12,7 @@ namespace plumb::demos {
 namespace {
 
 constexpr double kHalfWidth = 6, kHeight = 7;  // m, of the room
-constexpr double kClick = 0.1;                 // m: a shorter drag is a click, by a shaky hand
+constexpr double kClick = 0.1;                 // m: a shorter drag, as by a shaky hand, counts as a click
 constexpr double kSmallest = 0.1;              // m, width or height of a shape
 constexpr Vec2d kUsual{0.8, 0.6};              // m, of a shape made by a click
 constexpr std::size_t kMost = 400;             // bodies at a time
@@ -139,7 +139,7 @@ class Sandbox final : public WorldDemo {
 
   bool is_click() const { return length_squared(to_ - *from_) < kClick * kClick; }
 
-  // A shape as the drag gives it: its middle, and its geometry about that.
+  // A shape that the drag creates: its middle, and its geometry about the middle.
   struct Made {
     const char* name;
     Vec2d middle;
@@ -171,8 +171,8 @@ class Sandbox final : public WorldDemo {
     add(it.name, it.middle, {.geometry = it.geometry}, it.type);
   }
 
-  // Joins the body at the press to that at the release, or to the background. A click of a hinge or weld
-  // joins the two bodies that lie there over each other.
+  // Joins the body at the press to the body at the release, or to the background. For a hinge or a weld, a
+  // click joins the two bodies that lie above each other there.
   void make_joint() {
     const std::optional<BodyId> a = body_at(*from_);
     const std::optional<BodyId> b = body_at(to_, is_click() && a ? *a : BodyId{});
@@ -225,7 +225,7 @@ class Sandbox final : public WorldDemo {
     world_.set_locks(*body, locks.x, locks.y, !turns_);
   }
 
-  // Removes the body at a point, or else the nearest joint that ends there.
+  // Removes the body at a point; if there is none, the nearest joint that ends there.
   void erase(Vec2d point) {
     if (const std::optional<BodyId> body = body_at(point)) return world_.destroy(*body);
     std::optional<JointId> found;
@@ -256,7 +256,7 @@ class Sandbox final : public WorldDemo {
     if (control == "gravity") world_.set_gravity({0, -gravity_});
   }
 
-  // Draws the shape or joint that the drag would make.
+  // Draws the shape or joint that the drag would create.
   void draw_over(DebugDraw& out) const override {
     if (!from_ || tool_ >= kPaint) return;
     if (tool_ >= kHinge) {

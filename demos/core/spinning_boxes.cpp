@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidth = 12, kHeight = 8;  // m, of the room with its middle at the origin
 constexpr double kMass = 1;                 // kg, of every box
 constexpr double kPush = 0.1;               // s, duration of a push
-constexpr double kForceScale = 0.05;        // m of arrow for 1 N
+constexpr double kForceScale = 0.05;        // m of arrow per N
 constexpr std::size_t kMost = 60;           // boxes at a time
 
 struct Form {
@@ -156,7 +156,7 @@ class SpinningBoxes final : public WorldDemo {
     return *std::ranges::min_element(handles, {}, [&](Vec2d each) { return length_squared(each - point); });
   }
 
-  // Returns the direction of the push: up for a click, else that of the drag.
+  // Returns the direction of the push: up for a click, otherwise that of the drag.
   Vec2d direction() const {
     constexpr double kClick = 0.1;  // m, tolerance for a shaky hand
     const Vec2d way = to_ - from_;
@@ -239,7 +239,7 @@ class SpinningBoxes final : public WorldDemo {
   double strength_ = 20, restitution_ = 0.6, friction_ = 0.2, gravity_ = 0;
   std::vector<Push> pushes_;  // active ones
   Push last_;                 // the last one
-  BodyId aimed_{};            // the box that the pointer is on
+  BodyId aimed_{};            // the box under the pointer
   Vec2d aimed_point_{}, from_{}, to_{};
 };
 

@@ -94,7 +94,7 @@ void draw_body(const Body& body, const BodyState& state, DebugDraw& out, DrawRol
 }
 
 void draw_connections(const Scene& scene, std::span<const BodyState> states, double size, DebugDraw& out) {
-  // A point of a body, or of the world for its end.
+  // Returns the position of a point of a body, or of the world if that is the joint's end.
   const auto at = [&](const std::string& name, Vec2d anchor) {
     const auto body = find_body(scene, name);
     if (!body) return anchor;
@@ -174,8 +174,8 @@ void SceneDemo::read_states(std::span<BodyState> out) const {
 
 double SceneDemo::reach() const { return view_.half_perimeter() / kReach; }
 
-// Grabs a body whose shapes collide with nothing, as the rods of a chain, which queries do not find: the
-// nearest by the bounding box of each in its own frame.
+// Grabs a body whose shapes collide with nothing (such as the rods of a chain), which queries do not find.
+// Takes the nearest one by the bounding box of each body in its own frame.
 bool SceneDemo::grab_else(Vec2d point) {
   BodyId nearest_body{};
   double nearest_distance = reach();

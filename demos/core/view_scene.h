@@ -42,12 +42,12 @@ class SceneDemo final : public WorldDemo {
   int solver_ = 0, iterations_ = 10;
 };
 
-/// Returns the box around a scene's bodies that are not static, or all if there are none, in these states (in
-/// the scene's order), m.
+/// Returns the box around a scene's bodies that are not static (around all if there are none) in these states
+/// (in the scene's order), m.
 Aabb<double> bounds_of(const Scene& scene, std::span<const BodyState> states);
 
-/// Draws what acts between a scene's bodies in these states: springs, sticks, ropes over pulleys, and fixed
-/// centres of attraction, as discs with a radius of a hundredth of `size` m.
+/// Draws the connections between a scene's bodies in these states: springs, sticks, ropes over pulleys, and
+/// fixed centres of attraction, as discs with a radius of a hundredth of `size` m.
 void draw_connections(const Scene& scene, std::span<const BodyState> states, double size, DebugDraw& out);
 
 /// Draws the shapes of one body of a scene in a state.

@@ -42,7 +42,7 @@ std::vector<Moving> WorldDemo::moving() const {
                   .mass = world_.mass(body),
                   .awake = world_.awake(body),
                   .labelled = labelled(body)};
-    // A body that was added since has no past.
+    // A body that was added since then has no earlier velocity.
     const bool known = body.index < velocities_before_.size() &&
                        velocities_before_[body.index].generation == body.generation;
     if (known && step_count() > 0)

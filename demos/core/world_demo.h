@@ -9,11 +9,11 @@
 
 namespace plumb::demos {
 
-/// The key of demos with a pointer play of their own.
+/// The key of demos that use the pointer in their own way.
 inline const Key kGrabKey{'g', "grab and throw, or the demo's own play"};
 
-/// Common parts of the demos that play in a world. The pointer grabs bodies and throws them; a demo with a
-/// play of its own for it has a choice between the two, which the key `g` changes.
+/// Common parts of the demos that play in a world. The pointer grabs bodies and throws them. A demo that also
+/// uses the pointer in its own way offers a choice between the two, which the key `g` changes.
 class WorldDemo : public Demo {
  public:
   void press(Vec2d point) final;
@@ -29,14 +29,14 @@ class WorldDemo : public Demo {
 
  protected:
   explicit WorldDemo(About about) : Demo(std::move(about)) {}
-  /// Gives the pointer a play of the demo's own, `name`, as the first of two choices; call it first.
+  /// Adds the demo's own use of the pointer, called `name`, as the first of two choices. Call it first.
   void add_pointer_play(const char* name);
   // The play of the pointer.
   virtual void begin(Vec2d) {}
   virtual void go_on(Vec2d) {}
   virtual void end(Vec2d) {}
   virtual double reach() const;  ///< m, from the pointer to a body that it grabs
-  /// Called when the pointer misses every body; true if it holds one all the same.
+  /// Called when the pointer misses every body; returns true if it holds one nevertheless.
   virtual bool grab_else(Vec2d) { return false; }
 
   /// Adds the controls that all worlds have; call it after adding the demo's own.
@@ -48,9 +48,9 @@ class WorldDemo : public Demo {
   virtual void after_step() {}   ///< handles the events of the step
   virtual void draw_over(DebugDraw&) const {}
   virtual bool labelled(BodyId) const { return false; }  ///< true if draw_over labels it with its mass
-  /// Returns the demo's own state, beside the world and the controls.
+  /// Returns the demo's own state, apart from the world and the controls.
   virtual std::vector<double> own() const { return {}; }
-  /// Restores the state that `own` returned; the world has been restored before.
+  /// Restores the state that `own` returned, after the world was restored.
   virtual void set_own(std::span<const double>) {}
 
   void build() final;
@@ -59,8 +59,8 @@ class WorldDemo : public Demo {
   void read(Decoder& in) final;
 
   // A body held by the pointer at a point, as by a rubber band.
-  /// Grabs the dynamic body at `point`, or the nearest one within `reach` m; false if there is none.
-  /// `strength`: maximum force of the band, in weights of the body.
+  /// Grabs the dynamic body at `point`, or the nearest one within `reach` m; returns false if there is none.
+  /// `strength` is the maximum force of the band, in weights of the body.
   bool grab(Vec2d point, double reach, double strength = 100);
   /// Grabs this dynamic body.
   void hold(BodyId body, Vec2d point, double strength = 100);

@@ -11,7 +11,7 @@
 namespace plumb::demos {
 namespace {
 
-// Returns the centre of mass in the body's frame, the origin of the frame that scenes use.
+// Returns the centre of mass in the body's frame. It is the origin of the frame that scenes use.
 Vec2d local_centre(const DemoWorld& world, BodyId body) {
   return world.local_point(body, world.centre(body));
 }
@@ -66,10 +66,10 @@ Body body_of(const DemoWorld& world, BodyId body, std::string name) {
   return out;
 }
 
-// One end of a joint: the body's name, and its anchor in the frame that scenes use.
+// One end of a joint: the body's name, and the anchor in the frame that scenes use.
 struct End {
   std::string name;
-  Vec2d origin{};  // m, of that frame, in the frame of the world's body
+  Vec2d origin{};  // m, origin of that frame in the frame of the world's body
 };
 
 class JointOf {

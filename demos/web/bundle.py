@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""One HTML file that needs nothing else: bundle.py PAGE_FOLDER PROGRAM.wasm OUT.html
+"""Writes one self-contained HTML file: bundle.py PAGE_FOLDER PROGRAM.wasm OUT.html
 
-The modules become one script: they are put in the order of their imports, and the lines that import and export are
-taken out. So no two may declare the same name at their top, and an import names what it takes as it is called.
+The modules become one script: they are concatenated in the order of their imports, without the import and export
+lines. So no two modules may declare the same name at top level, and no import may rename what it imports.
 """
 import base64
 import gzip
@@ -17,7 +17,7 @@ DECLARED = re.compile(r"^(?:async )?(?:class|const|let|function\*?) (\w+)", re.M
 
 
 def ordered(folder, name, done):
-    """The modules that `name` needs and then itself, each once."""
+    """Returns the modules that `name` needs, and then `name` itself, each once."""
     if name not in done:
         done[name] = None  # while its imports are read
         text = (folder / name).read_text(encoding="utf-8")

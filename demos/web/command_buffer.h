@@ -8,15 +8,16 @@
 
 namespace plumb::web {
 
-/// Records drawing commands as numbers in a row, for a reader outside C++: each command is its own number,
-/// its role's number (as in DrawRole), and
-///   0 polygon: radius, number of corners, their x and y
-///   1 circle: x, y, radius, x and y of its axis
-///   2 capsule: x and y of both ends, radius
-///   3 segment: x and y of both ends
-///   4 point: x, y
-///   5 text: x, y, and its offset and length in `words`, in bytes
-/// Outlines drawn over the bodies, as of other engines, have kGhost and their own number instead of a role.
+/// Records drawing commands as a sequence of numbers, for a reader outside C++. Each command is its own
+/// number, the number of its role (as in DrawRole), and
+///     0 polygon: radius, number of corners, their x and y
+///     1 circle: x, y, radius, x and y of its axis
+///     2 capsule: x and y of both ends, radius
+///     3 segment: x and y of both ends
+///     4 point: x, y
+///     5 text: x, y, and its offset and length in `words`, in bytes
+/// Outlines drawn over the bodies, such as those of other engines, have kGhost plus their index instead of a
+/// role.
 class CommandBuffer : public DebugDraw {
  public:
   void clear() {

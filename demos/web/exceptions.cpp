@@ -15,7 +15,7 @@ __attribute__((import_module("plumb"), import_name("fail"))) void plumb_fail(con
 void* __cxa_allocate_exception(std::size_t size) throw() { return std::malloc(size); }
 
 [[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*)(void*)) {
-  // Other types only give their name: the offset of their std::exception is unknown.
+  // For other types only the name is known, not the offset of their std::exception.
   const bool known = *type == typeid(plumb::Error);
   plumb_fail(known ? static_cast<const plumb::Error*>(thrown)->what() : type->name());
   std::abort();

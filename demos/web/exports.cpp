@@ -1,6 +1,6 @@
-// Functions called from JavaScript. Texts and bytes pass through one buffer each way: arguments are written
-// to the address from `argument(size)`. Answers lie at `answer()` and are `answer_size()` long, until the
-// next call.
+// Functions called from JavaScript. Texts and bytes pass through one buffer in each direction. Arguments are
+// written to the address that `argument(size)` returns. Answers are at `answer()`, with `answer_size()`
+// bytes, until the next call.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -86,7 +86,7 @@ PLUMB_EXPORT("list") void plumb_list() {
   }
   for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
     for (const plumb::scenarios::Instance& instance : plumb::scenarios::select(scenario.name)) {
-      // Few scenes have rules that no world has.
+      // Few scenes have rules that no world supports.
       if (!plumb::world_unsupported(instance.build().scene).empty()) continue;
       list.add(
           JsonObject()
@@ -101,7 +101,7 @@ PLUMB_EXPORT("list") void plumb_list() {
   answer_with(list.text());
 }
 
-/// Opens the demo or scenario with the given name instead of the one before; all functions below refer to it.
+/// Opens the demo or scenario with the given name and closes the one before; all functions below refer to it.
 PLUMB_EXPORT("open") void plumb_open(std::size_t size) {
   const std::string_view name = text_of(size);
   for (const plumb::scenarios::Scenario& scenario : plumb::scenarios::all()) {
@@ -118,7 +118,7 @@ PLUMB_EXPORT("open") void plumb_open(std::size_t size) {
   viewer.reset();
 }
 
-/// Lists the motions that can be drawn over a scenario: none for a demo.
+/// Lists the motions that can be drawn over a scenario; empty for a demo.
 PLUMB_EXPORT("ghosts") void plumb_ghosts() {
   JsonList list;
   if (viewer) {
@@ -177,9 +177,10 @@ PLUMB_EXPORT("view") void plumb_view() {
   answer_with(list.text());
 }
 
-/// Fills the buffer of commands, which command_buffer.h describes, and returns its address. `shown`: a bit
-/// for each of contacts, normals, impulses, boxes, centres, joints, names, velocities, forces, masses.
-/// Lengths: of an impulse's line, m for 1 N s; of arrows, in proportion to their usual length.
+/// Fills the buffer of commands, which command_buffer.h describes, and returns its address. `shown` has one
+/// bit each for contacts, normals, impulses, boxes, centres, joints, names, velocities, forces, masses.
+/// `impulse_length` is the length of an impulse's line, m per N s; `arrow_length` is the length of arrows
+/// relative to the usual one.
 PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_length, double arrow_length) {
   const auto bit = [&](int place) { return (shown >> place & 1u) != 0; };
   commands.clear();
@@ -197,7 +198,7 @@ PLUMB_EXPORT("draw") const double* plumb_draw(unsigned shown, double impulse_len
   answer_with(commands.words());
   return commands.numbers().data();
 }
-/// Returns the number of numbers in the commands; their texts are the answer.
+/// Returns the number of numbers in the commands; their texts are in the answer.
 PLUMB_EXPORT("draw_size") std::size_t plumb_draw_size() { return commands.numbers().size(); }
 
 /// Answers with the C++ of the open demo; empty for a scenario.

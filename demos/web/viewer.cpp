@@ -5,7 +5,7 @@
 namespace plumb::web {
 namespace {
 
-constexpr std::size_t kTruth = 0;  // its index in the ghosts
+constexpr std::size_t kTruth = 0;  // index of the truth among the ghosts
 
 }  // namespace
 
@@ -48,7 +48,8 @@ void Viewer::start(std::size_t ghost) {
   runs_[ghost]->motion.add(states);
 }
 
-// Restarts the engines if the step was changed; as for the demo itself, that takes effect at its next start.
+// Restarts the engines if the step was changed. As for the demo itself, the change takes effect at the next
+// start.
 void Viewer::follow_step() {
   if (demo_.step_count() != 0 || demo_.dt() == dt_) return;
   dt_ = demo_.dt();

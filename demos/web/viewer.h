@@ -12,8 +12,8 @@
 
 namespace plumb::web {
 
-/// A scenario in the page: plumb's world as a demo, and over it the truth and plumb's other engines. Those
-/// run in the page too and advance with it step by step.
+/// A scenario in the page: plumb's world as a demo, and over it the truth and plumb's other engines. These
+/// run in the page too, and advance with the demo step by step.
 class Viewer {
  public:
   explicit Viewer(const scenarios::Instance& instance);

@@ -14,7 +14,7 @@ void Camera::fit(const Aabb<double>& view, double left, double right) {
   const Vec2d size = view.upper - view.lower;
   const double across = size.x > 0 ? wide / size.x : kLargest, up = size.y > 0 ? high / size.y : kLargest;
   scale_ = std::clamp(std::min(across, up), kSmallest, kLargest);
-  // The middle of the area between the panels shows the middle of the view.
+  // Shows the middle of the view at the middle of the area between the panels.
   centre_ = 0.5 * (view.lower + view.upper) + Vec2d{right - left, kMargin - kBelow} * (0.5 / scale_);
 }
 

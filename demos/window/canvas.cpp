@@ -33,7 +33,7 @@ class Hull {
     }
   }
 
-  // Returns the distance in px, negative inside. If sharp, the edges extend beyond the corners until they
+  // Returns the distance in px, negative inside. If `sharp`, the edges extend beyond the corners until they
   // meet.
   double distance(Vec2d point) const {
     if (count_ > 2) {
@@ -53,7 +53,8 @@ class Hull {
     return std::sqrt(nearest);
   }
 
-  // Returns the part of row `y` within `offset` of the hull; a negative offset: at least that deep inside.
+  // Returns the part of row `y` within `offset` of the hull. With a negative offset, the part that is at
+  // least that deep inside.
   Interval row(double y, double offset) const {
     if (offset < 0) return inner_row(y, -offset);
     Interval out;
@@ -160,7 +161,7 @@ void Canvas::paint(std::span<const Vec2d> corners, double radius, const Paint& p
     std::uint32_t* row = &pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)];
     const double middle = y + 0.5;
     const Span outer = pixels_in(hull.row(middle, radius + 0.5), width_);
-    // Pixels of the fill alone; empty, at the end of the row, if there are none.
+    // Pixels that are only fill. If there are none, an empty span at the end of the row.
     Span inner = pixels_in(hull.row(middle, radius - paint.line_width - 0.5), width_);
     if (inner.first >= inner.last) inner = {outer.last, outer.last};
     const auto edge = [&](int x) {

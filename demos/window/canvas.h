@@ -33,7 +33,7 @@ class Canvas {
   void clear(Colour colour);
 
   Colour at(int x, int y) const;
-  /// Rows from the top; each pixel is `packed`.
+  /// Returns the rows from the top; each pixel is `packed`.
   std::span<const std::uint32_t> pixels() const { return pixels_; }
   std::span<std::uint32_t> pixels() { return pixels_; }
 

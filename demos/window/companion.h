@@ -20,7 +20,7 @@ class Companion {
  public:
   virtual ~Companion() = default;
 
-  virtual std::string about() const = 0;  ///< a line or two for the panel
+  virtual std::string about() const = 0;  ///< one or two lines for the panel
   virtual std::vector<demos::Figure> figures(const demos::Demo& demo) = 0;
   virtual const std::vector<Ghost>& ghosts() const = 0;
   virtual void show_ghost(std::size_t ghost, bool shown) = 0;  ///< takes effect at the next step or picture

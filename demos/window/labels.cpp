@@ -9,13 +9,13 @@ std::vector<Label> placed(std::span<const Label> labels, Vec2d character, Vec2d 
   struct Taken {
     double left, right, top;  // px
   };
-  // By lines as high as a character: a text reaches into two of them.
+  // Areas that are taken, in rows as high as a character: a text reaches into two rows.
   std::vector<std::vector<Taken>> taken(static_cast<std::size_t>(std::max(picture.y, 0.0) / character.y) + 1);
   const auto line_of = [&](double y) { return static_cast<std::size_t>(y / character.y); };
   std::vector<Label> out;
   for (const Label& label : labels) {
     const double width = character.x * static_cast<double>(label.text.size());
-    // A point outside the picture has no label in it. Compared so that what is not a number has none either.
+    // A point outside the picture gets no label. The comparison also excludes NaN.
     const bool seen =
         label.pixel.x >= 0 && label.pixel.x <= picture.x && label.pixel.y >= 0 && label.pixel.y <= picture.y;
     if (!seen) continue;

@@ -16,9 +16,9 @@ struct Label {
   Colour colour{};
 };
 
-/// Returns the labels that can be read beside each other in a picture of `picture` px, in their order: each
-/// above its point, else below it, else left out, since texts over each other cannot be read; moved sideways
-/// where the picture's edge would cut it. Earlier labels go first. A character takes `character` px.
+/// Returns the labels that do not overlap in a picture of `picture` px. In their order, each is placed above
+/// its point, else below it, else left out; it is moved sideways if the picture's edge would cut it. A
+/// character takes `character` px.
 std::vector<Label> placed(std::span<const Label> labels, Vec2d character, Vec2d picture);
 
 }  // namespace plumb::window

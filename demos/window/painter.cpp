@@ -8,7 +8,7 @@
 namespace plumb::window {
 namespace {
 
-constexpr double kDot = 2;          // px, radius of shapes that would be smaller
+constexpr double kDot = 2;          // px, radius at which smaller shapes are drawn
 constexpr double kPoint = 3;        // px, radius of a point
 constexpr double kGridStep = 70;    // px, minimum distance
 constexpr std::size_t kFewest = 2;  // corners of a shape with an inside
@@ -104,7 +104,7 @@ void Painter::scale_bar(double covered) {
   char text[32];
   std::snprintf(text, sizeof text, "%g m", step);
   const Vec2d left{width - 20 - step * camera_.scale(), height - 14}, right{width - 20, height - 14};
-  // On a plate: the bar can be read over bodies and ground.
+  // Draws a plate behind the bar, so that it is readable over bodies and ground.
   Colour plate = theme_.ground();
   plate.a = kPlateAlpha;
   const Vec2d corners[] = {left + Vec2d{-8, 8}, right + Vec2d{8, 8}, right + Vec2d{8, -20},
@@ -112,7 +112,7 @@ void Painter::scale_bar(double covered) {
   canvas_.paint(corners, 0, filled(plate));
   const Vec2d ends[] = {left, right};
   canvas_.paint(ends, 1, filled(theme_.text()));
-  // The first, so that no other label takes its place.
+  // Inserted first, so that no other label takes its place.
   labels_.insert(labels_.begin(), {0.5 * (left + right) + Vec2d{0, -3}, text, theme_.text()});
 }
 

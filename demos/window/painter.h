@@ -29,8 +29,8 @@ class Painter : public DebugDraw {
 
   /// Draws a grid with a spacing of 1, 2 or 5 times a power of ten m.
   void grid();
-  /// Draws a bar as long as a step of the grid at the lower right, `covered` px from the picture's edge, and
-  /// labels it with its length.
+  /// Draws a bar at the lower right, `covered` px from the picture's edge, whose length is the spacing of the
+  /// grid, and labels it with this length.
   void scale_bar(double covered = 0);
 
   /// Returns the colour of the n-th ghost.

@@ -12,12 +12,12 @@
 namespace plumb::window {
 namespace {
 
-// Adds a tooltip to the item before it.
+// Adds a tooltip to the previous item.
 void tip(const std::string& text) {
   if (!text.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
 
-// Returns the place (px) of a value: in the column of values, or as far left of it as a long one needs.
+// Returns the position (px) of a value: in the column of values, or as far to the left as a long value needs.
 float value_place(const char* text) {
   constexpr float kColumn = 244;
   const float right = ImGui::GetWindowContentRegionMax().x;
@@ -126,7 +126,7 @@ void draw_ghosts(Player& player, Companion& companion) {
     if (ImGui::Checkbox(ghost.name.c_str(), &shown)) companion.show_ghost(i, shown);
     ImGui::PopStyleColor();
     tip(ghost.remark);
-    // Settings are shown by the tooltip; the reason why an outline is missing can be read at once.
+    // Settings are shown in the tooltip; the reason why an outline is missing is shown as text.
     if (ghost.remark.empty() || ghost.shown) continue;
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::Indent();
@@ -233,7 +233,7 @@ void draw_message(const Player& player) {
   const float left = player.panel ? 370 : 12;
   const ImVec2 wide = ImGui::CalcTextSize(text.c_str()), corner{left, size.y - 24};
   ImDrawList& out = *ImGui::GetBackgroundDrawList();
-  // On a plate: bodies and ground lie behind it.
+  // Draws a plate behind the text, because bodies and ground lie there.
   Colour plate = player.theme.ground();
   plate.a = kPlateAlpha;
   out.AddRectFilled({corner.x - 6, corner.y - 4}, {corner.x + wide.x + 6, corner.y + wide.y + 4},

@@ -8,7 +8,7 @@ namespace plumb::window {
 /// NewFrame and Render.
 void draw_panel(Player& player, double width);
 
-/// Draws the code of the demo, or the scene that is open, at the right.
+/// Draws the code of the demo, or the open scene, at the right.
 void draw_code(const Player& player, double width);
 
 /// Draws the player's message at the lower edge, after "paused" while time is paused.

@@ -10,8 +10,8 @@ namespace plumb::window {
 /// same canvas gives the same bytes. Throws Error (Io).
 void write_png(const Canvas& canvas, const std::string& file);
 
-/// Returns the picture in at most `most` (up to 256) colours: the most frequent ones, others replaced by the
-/// nearest of them. For small files.
+/// Returns the picture in at most `most` (up to 256) colours: the most frequent ones; others are replaced by
+/// the nearest of them. Such files are small.
 Canvas with_few_colours(const Canvas& canvas, std::size_t most);
 
 }  // namespace plumb::window

@@ -18,7 +18,7 @@ PlaybackDemo::PlaybackDemo(demos::About about, Scene scene, demos::SampledMotion
     view_ = *view;
     return;
   }
-  constexpr int kSamples = 60;  // enough to see how far a body goes
+  constexpr int kSamples = 60;  // shows how far a body moves
   std::vector<BodyState> states(scene_.bodies.size());
   at(0, states);
   view_ = demos::bounds_of(scene_, states);
@@ -44,7 +44,7 @@ void PlaybackDemo::draw(DebugDraw& out, const DrawOptions& options) const {
   demos::draw_connections(scene_, states, view_.half_perimeter(), out);
 }
 
-// Velocities are differences of positions over a step, forces those of velocities.
+// Velocities are differences of positions over a step; forces are differences of velocities.
 std::vector<demos::Moving> PlaybackDemo::moving() const {
   const std::size_t count = scene_.bodies.size();
   std::vector<BodyState> now(count), before(count), earlier(count);
@@ -59,7 +59,7 @@ std::vector<demos::Moving> PlaybackDemo::moving() const {
     const double mass = body.type == BodyType::Dynamic ? body.mass : 0;
     const bool known = drawn >= 2 * dt();
     const Vec2d force = known ? mass / dt() * (velocity - then) : Vec2d{};
-    const Aabb<double> box{now[i].position, now[i].position};  // within the view, whatever its size
+    const Aabb<double> box{now[i].position, now[i].position};  // a point, within the view
     out.push_back({box, now[i].position, velocity, force, mass});
   }
   return out;

@@ -11,8 +11,8 @@
 
 namespace plumb::window {
 
-/// A scene as an engine has moved it, played back; nothing can be dragged. Beyond the end of the run the
-/// bodies stay where they were.
+/// Plays back the motion of a scene that an engine has computed; nothing can be dragged. After the end of the
+/// run the bodies stay where they are.
 class PlaybackDemo final : public demos::Demo {
  public:
   /// `motion` has a sample every `dt` s, from 0 on.

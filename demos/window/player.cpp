@@ -34,7 +34,7 @@ std::span<const CommandKey> command_keys() { return kKeys; }
 Player::Player(std::vector<Item> items, std::size_t first) : items_(std::move(items)) { open(first); }
 
 void Player::open(std::size_t place) {
-  show_ = items_.at(place).make();  // throws before the old show is replaced
+  show_ = items_.at(place).make();  // throws before the old one is replaced
   place_ = place;
   pressed_ = false;
   message.clear();
@@ -220,8 +220,9 @@ void Player::home() {
   fit();
 }
 
-// Goes to what is to be shown with a time constant of a quarter of a second: what jumps does not make the
-// picture jump. Under a pressed pointer the picture stays, or the pointer would pull along what it moves.
+// Moves to the target with a time constant of a quarter of a second, so that a jump of a body does not make
+// the picture jump. Under a pressed pointer the picture stays fixed, or the pointer would pull what it moves
+// along with the picture.
 void Player::follow(double seconds) {
   constexpr double kCalm = 0.25;  // s
   if (!at_home_ || pressed_) return;

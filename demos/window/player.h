@@ -69,7 +69,7 @@ class Player {
   const demos::Demo& demo() const { return *show_.demo; }
   Companion* companion() { return show_.companion.get(); }
 
-  /// Handles a key by its name: the window's own, or else the demo's. Returns the command, if it was one;
+  /// Handles a key by its name: a key of the window, or else of the demo. Returns the command if it was one;
   /// pictures and quitting are left to the caller.
   std::optional<Command> key(std::string_view name);
 
@@ -80,9 +80,9 @@ class Player {
   bool pressed() const { return pressed_; }
   void set(std::string_view control, double value);
 
-  /// Advances by real time: not at all while paused, by a tenth of it in slow motion. The camera follows what
-  /// moves, unless the player has moved it or presses. An exception of the demo pauses it and is shown in
-  /// `message`.
+  /// Advances by real time: not at all while paused, by a tenth of it in slow motion. The camera follows the
+  /// motion unless the player has moved the camera or presses the pointer. An exception of the demo pauses it
+  /// and is shown in `message`.
   void advance(double seconds);
   void step();
   /// Undoes the last step and pauses. Returns false if no earlier state is stored.
@@ -92,11 +92,11 @@ class Player {
   /// Sets the size of the picture, and the widths that the panel at the left and the code at the right cover
   /// while they are shown, px.
   void resize(int width, int height, double panel_width, double code_width = 0);
-  void home();  ///< shows the demo's part of the world, and follows it again
+  void home();  ///< shows the demo's part of the world, and follows the motion again
   void zoom(Vec2d pixel, double factor);
   void pan(Vec2d pixels);
 
-  /// Returns the C++ of the open demo, or the scene that is open as it began, as JSON.
+  /// Returns the C++ of the open demo; for a scene, its initial state as JSON.
   const std::string& code_text() const { return code_text_; }
 
   const std::vector<Series>& series() const { return series_; }
@@ -128,8 +128,8 @@ class Player {
   History history_;
   std::vector<Series> series_;
   bool pressed_ = false;
-  bool at_home_ = true;   // true if the camera follows the demo, and the player has not moved it
-  Aabb<double> shown_{};  // m, by the camera that follows
+  bool at_home_ = true;   // true if the camera follows the demo: the player has not moved it
+  Aabb<double> shown_{};  // m, part of the world that the following camera shows
   int width_ = 1, height_ = 1;
   double panel_width_ = 0, code_width_ = 0;
   bool panel_was_ = true, code_was_ = false;

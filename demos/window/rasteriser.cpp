@@ -38,7 +38,7 @@ struct Texture {
   }
 };
 
-// Return floor and ceiling of n / d, d > 0.
+// Returns the floor of n / d, d > 0. The next function returns the ceiling.
 long floor_of(long n, long d) { return n >= 0 ? n / d : -((-n + d - 1) / d); }
 long ceil_of(long n, long d) { return -floor_of(-n, d); }
 
@@ -102,7 +102,7 @@ class Triangle {
   }
 
  private:
-  // Returns true for a single colour and texture point, which is then the white one.
+  // Returns true if there is a single colour and texture point, which is then the white one.
   bool is_plain() const {
     const ImDrawVert &p = *corners_[0], &q = *corners_[1], &r = *corners_[2];
     return p.col == q.col && p.col == r.col && p.uv.x == q.uv.x && p.uv.x == r.uv.x && p.uv.y == q.uv.y &&
@@ -121,7 +121,7 @@ class Triangle {
   void paint_mixed(std::uint32_t* row, long first, long last, long middle, const Texture& texture) const {
     const float whole = 1.0f / static_cast<float>(area_);
     for (long x = first; x <= last; ++x) {
-      // A corner's weight is the area opposite to it.
+      // A corner's weight is proportional to the area opposite to it.
       float weight[3];
       for (std::size_t i = 0; i < 3; ++i) {
         const Edge& across = edges_[(i + 1) % 3];
@@ -146,7 +146,7 @@ class Triangle {
   std::array<const ImDrawVert*, 3> corners_;
   std::array<long, 3> x_{}, y_{};
   std::array<Edge, 3> edges_{};
-  long area_ = 0;  // twice the triangle's, in 1/kSub^2 px^2
+  long area_ = 0;  // twice the area of the triangle, in 1/kSub^2 px^2
 };
 
 }  // namespace

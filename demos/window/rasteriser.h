@@ -12,8 +12,8 @@ constexpr std::uint32_t imgui_colour(Colour c) {
   return c.r | std::uint32_t{c.g} << 8 | std::uint32_t{c.b} << 16 | std::uint32_t{c.a} << 24;
 }
 
-/// Paints Dear ImGui's draw data onto a canvas, triangle by triangle, in software. The textures are the fonts
-/// of `atlas`; a pixel on an edge shared by two triangles is painted once.
+/// Paints Dear ImGui's draw data onto a canvas in software, triangle by triangle. The textures are the fonts
+/// of `atlas`. A pixel on an edge shared by two triangles is painted once.
 void rasterise(const ImDrawData& data, ImFontAtlas& atlas, Canvas& canvas);
 
 }  // namespace plumb::window

@@ -11,8 +11,8 @@ struct SDL_Texture;
 
 namespace plumb::window {
 
-/// Shows a canvas in a window: by the graphics card if there is one, else by passing the pixels to the window
-/// system, which is faster than software rendering.
+/// Shows a canvas in a window: by the graphics card if there is one. Otherwise passes the pixels to the
+/// window system, which is faster than software rendering.
 class Screen {
  public:
   /// Throws Error (Io) if nothing can be shown.
@@ -37,7 +37,7 @@ class Screen {
   bool vsync_ = false;
 };
 
-/// Throws Error (Io) that says how to run without a window.
+/// Throws Error (Io) that explains how to run without a window.
 [[noreturn]] void fail_without_window(const std::string& subject, const std::string& problem,
                                       const std::string& why);
 

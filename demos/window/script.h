@@ -32,7 +32,7 @@ void show(Player& player, std::string_view name);
 /// Returns the zoom factor of the wheel's turns.
 double zoom_factor(double turns);
 
-/// Executes an action; returns pictures, scenes and other commands that the caller must execute.
+/// Executes an action. Returns commands that the caller must execute, such as pictures and scenes.
 std::optional<Command> act(Player& player, const Deed& deed);
 
 }  // namespace plumb::window

@@ -14,7 +14,7 @@ class Series {
   const std::string& unit() const { return unit_; }
   double last() const { return samples_.empty() ? 0 : samples_.back().value; }
 
-  /// Adds a sample, replacing those at `time` s or later.
+  /// Adds a sample, and removes those at `time` s or later.
   void add(double time, double value);
   /// Returns the values for a plot, oldest first.
   std::vector<float> values() const;

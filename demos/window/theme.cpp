@@ -38,7 +38,7 @@ constexpr std::array<Style, 17> kStyles = {{
     {line({132, 150, 255}, 2.2), line({30, 88, 200}, 2.2)},
 }};
 
-// The truth's colour, then those of the engines.
+// The colour of the truth, then those of the engines.
 constexpr std::array<Colour, 12> kGhosts = {{{236, 72, 132},
                                              {72, 176, 240},
                                              {96, 190, 72},

@@ -7,7 +7,7 @@
 
 namespace plumb::window {
 
-/// How opaque the plates behind texts over the picture are, of 255: what lies behind shows through.
+/// Opacity, of 255, of the plates behind texts over the picture: the picture shows through.
 constexpr std::uint8_t kPlateAlpha = 215;
 
 /// Colours on a dark or a light background.

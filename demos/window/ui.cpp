@@ -41,11 +41,12 @@ void set_style(bool dark) {
   style.FrameBorderSize = dark ? 0.0f : 1.0f;  // white boxes on white need a border
   style.AntiAliasedLinesUseTex = false;
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
-  // A slider's number stands where its knob may be: through half of the colour it can be read.
+  // A slider's number may be behind its knob, so the knob is half transparent.
   style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = 0.5f;
 }
 
-// Draws a text with its middle above a point, edged with the ground's colour: it can be read over any body.
+// Draws a text with its middle above a point, with an outline in the background's colour, so that it is
+// readable over any body.
 void draw_label(const Label& label, Colour ground) {
   const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
   const auto whole = [](double pixel) { return static_cast<float>(std::floor(pixel)); };
@@ -78,7 +79,7 @@ bool Ui::wants_keys() const { return ImGui::GetIO().WantTextInput; }
 void Ui::edit_key(std::string_view name, bool down) {
   for (std::size_t i = 0; i < kEditKeys.size(); ++i) {
     if (kEditKeys[i].name != name) continue;
-    // A press that ended before a frame counts for that frame.
+    // A press that ended before this frame counts for this frame.
     if (down) {
       ImGui::GetIO().KeysDown[i] = true;
       unseen_.set(i);
@@ -119,7 +120,7 @@ void Ui::frame(Player& player, const PanelInput& input, Canvas& canvas) {
   player.demo().draw_motion(painter, player.motion);
   if (player.companion() != nullptr) player.companion()->draw(painter, player.demo());
   painter.scale_bar(player.code ? code_width(canvas.width()) : 0);
-  const ImVec2 character = ImGui::CalcTextSize("0");  // the font has one width
+  const ImVec2 character = ImGui::CalcTextSize("0");  // all characters of the font have the same width
   const Vec2d picture{static_cast<double>(canvas.width()), static_cast<double>(canvas.height())};
   for (const Label& label : placed(painter.labels(), {character.x, character.y}, picture))
     draw_label(label, player.theme.ground());

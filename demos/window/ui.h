@@ -36,7 +36,7 @@ class Ui {
   void frame(Player& player, const PanelInput& input, Canvas& canvas);
 
   static constexpr double kPanelWidth = 360;  ///< px
-  /// Returns the width of the code at the right of a picture, px: what leaves room for the demo.
+  /// Returns the width of the code at the right of a picture, px, chosen such that the demo has enough space.
   static double code_width(double width) { return width < 1000 ? 0.4 * width : 0.55 * (width - kPanelWidth); }
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 using demos::SceneDemo;
 
-constexpr std::size_t kTruth = 0;  // its index in the ghosts
+constexpr std::size_t kTruth = 0;  // index of the truth among the ghosts
 
 // Compares plumb's motion with the truth and other engines.
 class Comparison final : public Companion {
@@ -43,7 +43,7 @@ class Comparison final : public Companion {
   }
   const std::vector<Ghost>& ghosts() const override { return ghosts_; }
 
-  // Shows the right motion as the most accurate engine computes it: `plumb-precise`, or the world where that
+  // Shows the right motion as computed by the most accurate engine: `plumb-precise`, or the world if that
   // does not run the scene.
   void show_right_motion(const demos::Demo& demo) {
     for (const std::string_view name : {"plumb-precise", "plumb"}) {
@@ -60,7 +60,7 @@ class Comparison final : public Companion {
   }
 
   std::vector<demos::Figure> figures(const demos::Demo& demo) override {
-    // Other engines run with the step chosen by the player, from its choice or from the start.
+    // Other engines run with the step that the player has chosen, from that choice or from the start.
     run_ghosts(demo);
     if (const auto* live = dynamic_cast<const SceneDemo*>(&demo)) {
       live->read_states(states_);
@@ -68,7 +68,7 @@ class Comparison final : public Companion {
       static_cast<const PlaybackDemo&>(demo).read_states(states_);
     }
     std::vector<demos::Figure> out = truth_.figures(demo.time(), states_);
-    // A motion that is played back has positions alone.
+    // A motion that is played back has only positions.
     if (dynamic_cast<const PlaybackDemo*>(&demo) != nullptr)
       std::erase_if(out, [](const demos::Figure& figure) { return figure.name.starts_with("energy"); });
     std::vector<BodyState> exact(states_.size());
@@ -133,7 +133,7 @@ class Comparison final : public Companion {
   demos::SceneTruth truth_;
   std::vector<BodyState> states_;
   std::vector<Ghost> ghosts_;
-  std::vector<const reference::Backend*> backends_;  // of the ghosts after the truth
+  std::vector<const reference::Backend*> backends_;  // one for each ghost after the truth
   std::map<std::size_t, GhostRun> runs_;             // keyed by ghost
   std::map<std::size_t, std::string> error_names_;
   double dt_ = 0;

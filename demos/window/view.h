@@ -9,7 +9,7 @@
 
 namespace plumb::window {
 
-/// Engines besides those that are built in.
+/// Engines in addition to the built-in ones.
 struct Engines {
   std::vector<const reference::Backend*> more{};  ///< can be drawn as outlines
   const reference::Backend* shown =
@@ -27,7 +27,8 @@ Item scenario_item(const scenarios::Instance& instance, const Engines& engines =
 /// Returns a scene without a known answer; other engines run it for `duration` s.
 Item scene_item(const Scene& scene, double duration, const Engines& engines = {});
 
-/// Returns what an engine has computed for a scene, played back, with the right motion as an outline.
+/// Returns the motion that an engine has computed for a scene, played back, with the right motion as an
+/// outline.
 Item motion_item(const demos::About& about, const Scene& scene, const demos::SampledMotion& motion,
                  const Engines& engines);
 

@@ -54,8 +54,8 @@ class BitSet {
     return *this;
   }
 
-  /// Calls visit(i) for each member in ascending order. `visit` may change members up to i's word freely;
-  /// changes to later words take effect.
+  /// Calls visit(i) for each member in ascending order. `visit` may change the set: changes up to i's word do
+  /// not affect this loop, changes to later words do.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t w = 0; w < words_.size(); ++w)

@@ -41,7 +41,7 @@ void Crew::set_tasks(const TaskSystem& tasks) { renew(threads_, tasks); }
 
 #ifdef PLUMB_NO_THREADS
 
-// All loops are run by the one thread that there is, without sessions.
+// Without thread support, one thread runs all loops, without sessions.
 struct Crew::Shared {};
 
 void Crew::renew(int threads, const TaskSystem& tasks) {
@@ -81,8 +81,8 @@ constexpr int kLooksAtLast = 500;
 }  // namespace
 
 struct Crew::Shared {
-  /// Blocks with which a thread begins, so that a later loop finds their data in its cache; after that it
-  /// takes those of other threads. One cache line each.
+  /// The blocks that a thread claims first, so that a later loop finds their data in its cache; after them it
+  /// claims blocks of other threads. One cache line each.
   struct alignas(64) Share {
     Claims claims;
   };
@@ -120,7 +120,7 @@ struct Crew::Shared {
     join(own);
   }
 
-  // Runs the session on the first thread to arrive; others take part in its loops.
+  // Runs the session if this is the first thread to arrive; otherwise takes part in its loops.
   void join(int own) {
     if (!led.exchange(true, std::memory_order_acq_rel)) {
       leader = own;
@@ -157,7 +157,7 @@ struct Crew::Shared {
   void (*body)(void*) = nullptr;
   void* body_data = nullptr;
   std::exception_ptr body_failure;
-  std::fenv_t environment{};  ///< in which the calling thread computes
+  std::fenv_t environment{};  ///< the environment in which the calling thread computes
   int leader = 0;
   std::atomic<bool> led{false}, closed{false};
   alignas(64) std::atomic<int> loop{0};  ///< changes with each loop, and at the end

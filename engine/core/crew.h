@@ -38,7 +38,7 @@ class Crew {
   /// Shares all loops, however small: for tests.
   void set_eager(bool eager) { eager_ = eager; }
 
-  /// Decides for the next sessions whether their work is worth several threads.
+  /// Sets whether the work of the next sessions is worth several threads.
   void set_busy(bool busy) { busy_ = busy; }
   /// Returns true if loops are shared now.
   bool shares() const { return (busy_ || eager_) && threads_ > 1 && !alone_; }

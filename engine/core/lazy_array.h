@@ -21,7 +21,7 @@ class LazyArray {
     make_room(items_, size);
     return items_[i];
   }
-  /// Allocates memory for `size` values if one is used, or `going_to_be`.
+  /// Allocates memory for `size` values if one is in use already, or will be (`going_to_be`).
   void ensure(int size, bool going_to_be) {
     if (used() || going_to_be) ensure_room(items_, static_cast<std::size_t>(size));
   }

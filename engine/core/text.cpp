@@ -57,9 +57,9 @@ std::optional<double> read_decimal(std::string_view decimal) {
   const auto result = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
   if (result.ec != std::errc{}) return std::nullopt;
 #else
-  // Reads by strtod where a library, like LLVM's before 20, writes floating-point numbers but reads none:
-  // with the locale's decimal point. Subnormal numbers set its errno as well as those out of range, so that
-  // the value tells.
+  // Some libraries, like LLVM's before 20, write floating-point numbers but read none: use strtod, with the
+  // locale's decimal point. It sets errno for subnormal numbers as well as for those out of range, so the
+  // value is tested instead.
   std::string text(decimal);
   const std::size_t point = text.find('.');
   if (point != std::string::npos) text.replace(point, 1, std::localeconv()->decimal_point);

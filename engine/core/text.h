@@ -13,11 +13,11 @@ namespace plumb {
 std::string shortest(double value);
 
 /// Returns the length of the decimal number without a sign at the start of `text` ("2", ".5", "1.", "3e-4");
-/// 0 if there is none. An exponent without digits is no part of it.
+/// 0 if there is none. An exponent without digits is not counted.
 std::size_t decimal_length(std::string_view text);
 
-/// Returns the double nearest to `decimal`, which `decimal_length` measured whole; nothing beyond the range
-/// of doubles. The same bits with every standard library and locale.
+/// Returns the double nearest to `decimal`; nullopt beyond the range of doubles. `decimal_length` must be the
+/// length of the whole text. Gives the same bits with every standard library and locale.
 std::optional<double> read_decimal(std::string_view decimal);
 
 /// Makes `text` fit for a message: control characters and bytes that are not UTF-8 are written as \xNN. Texts

@@ -10,8 +10,8 @@
 namespace plumb {
 
 /// Blocks of a loop, claimed one by one by several threads: the end in the upper half, the next block in the
-/// lower. A successful claim belongs to the loop that is published at that moment, so a late thread needs to
-/// know no other loop.
+/// lower. A successful claim belongs to the loop that is published at that moment, so a late thread needs no
+/// knowledge of earlier loops.
 class Claims {
  public:
   void publish(std::uint32_t first, std::uint32_t end) {

@@ -15,7 +15,7 @@ enum class Precision { Float, Double };
 enum class OnViolation {
   Ignore,  ///< no monitor
   Report,  ///< goes on; `Simulation::violation` has the first
-  Stop,    ///< takes the step back and throws `Error` (Run)
+  Stop,    ///< undoes the step and throws `Error` (Run)
 };
 
 /// Fixed steps of a world (engine/world/world.h).
@@ -47,7 +47,7 @@ struct Precise {
   double max_dt =
       1.0 / 60;  ///< s, > 0: advance of `Simulation::step`; steps of the integration may be longer
   MotionMethod method = MotionMethod::Automatic;
-  bool estimate_error = false;  ///< also runs at a tenth of the tolerance, to compare with
+  bool estimate_error = false;  ///< also runs at a tenth of the tolerance, for comparison
   friend bool operator==(const Precise&, const Precise&) = default;
 };
 

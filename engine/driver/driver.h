@@ -71,8 +71,8 @@ struct ContactReaction {
   Vec2d position{};                    ///< m
   Vec2d normal{};                      ///< from a to b
   double normal_force = 0;             ///< N, along the normal
-  double tangent_force = 0;            ///< N, along the normal turned a quarter counter-clockwise; of the
-                                       ///< two points of one pair, both at the first
+  double tangent_force = 0;  ///< N, along the normal turned a quarter counter-clockwise; for a pair with two
+                             ///< points, the first has the sum of both
 };
 
 /// Forces of joints, in the scene's order, and of contacts, by pair.
@@ -83,8 +83,9 @@ struct Reactions {
 
 struct CompileOptions {
   bool every_stage = false;  ///< also run stages that the scene does not need; the bits stay the same
-  /// Precise: numbers of the scene by which states are derived (`Simulation::sensitivities`), as
-  /// "bodies.ball.mass" (scene/number.h). The bits of the run stay the same; each costs about eight runs.
+  /// Precise: numbers of the scene for which `Simulation::sensitivities` gives derivatives of the states,
+  /// such as "bodies.ball.mass" (scene/number.h). The bits of the run stay the same; each number costs about
+  /// eight runs.
   std::vector<std::string> parameters{};
 };
 

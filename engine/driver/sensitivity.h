@@ -9,13 +9,14 @@ namespace plumb {
 
 /// Reasons why a state has no derivative by a parameter, from some time of the run on.
 enum class NoDerivative {
-  Grazing,       ///< shapes met without approaching: a slight change decides whether they meet at all
-  Simultaneous,  ///< events at one instant that the parameter separates in time: their order decides
+  Grazing,       ///< shapes touched without approaching: a slight change decides whether they touch at all
+  Simultaneous,  ///< simultaneous events that a change of the parameter would separate: their order then
+                 ///< matters
   Zeno,          ///< bounces were brought to their limit, an infinite number at once
-  Start,         ///< the parameter opens a contact of the start, or presses it together
+  Start,         ///< the parameter opens a contact that exists at the start, or makes it penetrate
   Kink,          ///< an impact or a force law has a kink here: it sticks on one side and slips on the other
-  Paradox,       ///< Painleve's paradox: no force, or several, obey the laws
-  Singular,      ///< a linkage crossed a kinematic singularity or has redundant joints, or no derivative is
+  Paradox,       ///< Painleve's paradox: no force satisfies the laws, or several do
+  Singular,      ///< a linkage crossed a kinematic singularity or has redundant joints, or the derivative has
                  ///< finite
 };
 std::string_view name_of(NoDerivative reason);  ///< "grazing", "simultaneous", ...

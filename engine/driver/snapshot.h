@@ -22,7 +22,7 @@ class SnapshotWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads it back. Throws `Error` (Value) if the bytes end too soon, or hold what no run has.
+/// Reads it back. Throws `Error` (Value) if the bytes end too soon or contain an impossible value.
 class SnapshotReader {
  public:
   explicit SnapshotReader(std::span<const std::byte> bytes) : in_(bytes, "snapshot") {}

@@ -16,8 +16,8 @@
 /// variants with their index (8 bits).
 namespace plumb {
 
-/// Throws Error (Value) unless bytes hold what the code that reads them relies on. `problem` completes the
-/// sentence that begins with `field`, a part of `subject`.
+/// Throws Error (Value) unless `holds`: a property of the bytes on which the code that reads them relies.
+/// `problem` completes the sentence that begins with `field`, a part of `subject`.
 inline void require(bool holds, const char* subject, const char* field, const char* problem) {
   if (!holds) throw Error(Error::Kind::Value, subject, field, "", problem);
 }
@@ -72,7 +72,7 @@ class Encoder {
 
   std::vector<std::byte>& bytes() { return out_; }
 
-  /// Writes to reserved memory, and advances `to`.
+  /// Writes to reserved memory and advances `to`.
   template <Packed T>
   static void pack(std::byte*& to, const T& value) {
     if constexpr (std::is_enum_v<T>) {

@@ -13,8 +13,8 @@
 namespace plumb {
 
 /// `Members<T>::with(value, act)` calls `act` with all members of `value`, in their order, and returns its
-/// result. The lists are structured bindings, which must name every member: if a list lacks a new member, it
-/// does not compile. `kNames` has their names, separated by commas.
+/// result. The lists are structured bindings, which must name every member: a list that lacks a new member
+/// does not compile. `kNames` has the members' names, separated by commas.
 template <class T>
 struct Members;
 
@@ -48,7 +48,8 @@ PLUMB_REAL_MEMBERS(Rotation, c, s)
 PLUMB_REAL_MEMBERS(Aabb, lower, upper)
 PLUMB_REAL_MEMBERS(Corner, point, normal)
 
-/// Number of values of an enumeration, which are 0, 1, ... To be specialised for each that is written.
+/// Number of values of an enumeration, which are 0, 1, ... Specialise it for each enumeration that is
+/// written.
 template <class Enum>
 inline constexpr int kEnumerators = 0;
 template <>

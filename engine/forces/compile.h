@@ -17,7 +17,8 @@
 
 namespace plumb {
 
-/// Converts a scene's laws to the evaluated laws, with the bodies' names resolved. The scene is valid.
+/// Converts a scene's force laws to those that are evaluated, with indices in place of the bodies' names. The
+/// scene must be valid.
 class LawCompiler {
  public:
   explicit LawCompiler(const Scene& scene) : scene_(scene) {

@@ -14,11 +14,12 @@ struct ElasticSpring {
   bool pulls_only = false;  ///< a rubber band: slack below its rest length
 };
 
-/// Returns the mean tension over `dt`, N; positive pulls. `length` (m) and `rate` (m/s) are at its start;
-/// `inverse_mass` (1/kg) is that of both ends along the line. The elastic force is evaluated at the predicted
-/// middle of the step, which exactly conserves the area in phase space. The phase advances by theta per step:
-/// cos(theta) = 1 - (omega dt)^2 / 2. The damping is the mean of its own decay, which never reverses the
-/// rate. Stiffness is limited to omega dt = 1, beyond which a step cannot follow.
+/// Returns the mean tension over `dt`, N; positive pulls. `length` (m) and `rate` (m/s) are those at the
+/// start of `dt`; `inverse_mass` (1/kg) is that of both ends along the line. The elastic force is evaluated
+/// at the predicted middle of the step, which exactly conserves the area in phase space. The phase advances
+/// by theta per step: cos(theta) = 1 - (omega dt)^2 / 2. The damping force is the mean over the step of a
+/// force that decays with the rate, so it never reverses the rate. Stiffness is limited to omega dt = 1,
+/// because a step cannot follow faster oscillations.
 inline double spring_tension(const ElasticSpring& spring, double length, double rate, double inverse_mass,
                              double dt) {
   const double stretch = length + 0.5 * dt * rate - spring.rest_length;

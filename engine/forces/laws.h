@@ -34,13 +34,14 @@ class Forces {
   bool acts_on(std::size_t body) const;
 
   /// Adds every law's wrench to `out`: averaged over [t0, t1] where a law depends on time, at the given
-  /// motion otherwise; formulas at the middle of [t0, t1]. Arrays are indexed by body. Gravity is not among
-  /// the laws.
+  /// motion otherwise; formulas at the middle of [t0, t1]. Arrays are indexed by body. Gravity is not
+  /// included.
   void add(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
            Wrench<double>* out) const;
 
   /// Does the same at the instant `time` inside [t0, t1]: laws that change smoothly with time are evaluated
-  /// there. Switched laws keep their fraction of [t0, t1], which the caller ends at the times of switching.
+  /// there. For switched laws the active fraction of [t0, t1] counts; the caller ends [t0, t1] at the times
+  /// of switching.
   void add_at(double time, double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
               Wrench<double>* out) const;
 

@@ -28,7 +28,8 @@ void add_line(Moments& sum, Vec2d p, Vec2d q) {
   sum.y -= dx * (p.y * p.y + p.y * q.y + q.y * q.y) / 6;
 }
 
-// Does the same along an arc that is all below, angles from straight down: x = cx + r sin, y = cy - r cos.
+// Does the same along an arc that lies entirely below. Angles are measured from straight down: x = cx + r
+// sin, y = cy - r cos.
 void add_turn(Moments& sum, Vec2d centre, double r, double from, double to) {
   const Rotation<double> a = rotation_of(from), b = rotation_of(to);
   const double sine = b.s - a.s;                                          // of cos
@@ -46,7 +47,7 @@ void add_turn(Moments& sum, Vec2d centre, double r, double from, double to) {
 void add_arc(Moments& sum, const OutlineArc& arc) {
   const double r = arc.radius, cy = arc.centre.y;
   if (cy >= r) return;
-  // The angles from -wet to wet are below.
+  // The part at angles from -wet to wet is below the surface.
   const double wet = cy <= -r ? kPi : arc_tangent(std::sqrt((r - cy) * (r + cy)), cy);
   const double from = arc_tangent(arc.from.x, -arc.from.y);
   // Rounding may turn half a turn into minus half a turn.

@@ -18,10 +18,11 @@ struct WindLoad {
                             ///< surface
 };
 
-/// Integrates the pressure rho/2 (u . n)^2 against the outward normal n wherever u . n < 0, u the wind
-/// relative to the surface. Evaluated at the middle of each edge. Over an arc the integral is exact, with u
-/// of its centre, so that a polygon of many sides has the load of a disc: 2/3 of that of a plate as wide.
-/// `shape` is relative to the body's centre of mass, which moves with `velocity` and turns at `spin` (rad/s).
+/// Integrates the pressure rho/2 (u . n)^2 against the outward normal n wherever u . n < 0, where u is the
+/// wind relative to the surface. For an edge, u is taken at its middle. For an arc the integral is exact for
+/// the u of its centre. So a polygon of many sides has the load of a disc: 2/3 of that of a plate of the same
+/// width. `shape` is relative to the body's centre of mass, which moves with `velocity` and rotates at `spin`
+/// (rad/s).
 WindLoad wind_load(const Wind& wind, const Convex<double>& shape, Vec2d velocity, double spin);
 
 }  // namespace plumb

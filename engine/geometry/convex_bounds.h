@@ -17,8 +17,8 @@
 namespace plumb {
 
 #ifdef PLUMB_BOUNDS_SSE2
-/// Computes the bounds of shapes of four corners with SSE, two corners at a time: the same bits as the
-/// general one below.
+/// Computes the bounds of shapes of four corners with SSE, two corners at a time. Gives the same bits as the
+/// general function below.
 inline Aabb<float> bounds_of_four(const Convex<float>& shape, const Pose<float>& pose) {
   const float c = pose.rotation.c, s = pose.rotation.s;
   const __m128 along_x = _mm_setr_ps(c, s, c, s), along_y = _mm_setr_ps(-s, c, -s, c);

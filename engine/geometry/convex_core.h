@@ -10,7 +10,7 @@
 namespace plumb {
 
 /// A shape shrunk by a uniform depth: all its points deeper than that below its surface. As long as the core
-/// of a shape has passed nothing, the direction of least penetration leads back to the side that the shape
+/// has not passed through anything, the direction of least penetration leads back to the side that the shape
 /// came from. The depth is subtracted from the rounding radius first, then from the edges.
 template <class Real>
 class Core {
@@ -31,7 +31,7 @@ class Core {
  private:
   void add(const Corner<Real>& corner) { std::construct_at(corners_ + convex_.count++, corner); }
 
-  // Moves each corner in along its bisector. Returns false if an edge would turn over: it has to vanish.
+  // Moves each corner inwards along its bisector. Returns false if an edge would reverse: it has to vanish.
   bool inset_corners(const Convex<Real>& shape, Real depth) {
     convex_.count = 0;
     for (int i = 0; i < shape.count; ++i) {
@@ -49,7 +49,7 @@ class Core {
     return true;
   }
 
-  // Clips the shape against each of its edges moved in.
+  // Clips the shape against each of its edges, moved inwards.
   void cut_edges(const Convex<Real>& shape, Real depth) {
     Corner<Real> cut[kMaxCorners + 1];
     convex_.count = 0;
@@ -67,7 +67,7 @@ class Core {
           cut[count++] = {point, here > 0 ? from.normal : normal};
         }
       }
-      if (count == 0 || count > kMaxCorners) break;  // no point is that deep; what is left lies inside anyway
+      if (count == 0 || count > kMaxCorners) break;  // nothing is that deep: keep the inner corners
       convex_.count = count;
       std::copy(cut, cut + count, corners_);
     }

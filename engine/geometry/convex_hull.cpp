@@ -14,7 +14,8 @@ namespace {
 // that edges have a direction in either precision.
 constexpr double kDetail = 1e-5;
 
-// Limit on corners before small details are dropped, which is a quadratic search; more corners are refused.
+// Above this number of corners, small details are not dropped, because the search for them is quadratic: the
+// points are refused.
 constexpr std::size_t kMostExactCorners = 2048;
 
 // m. Beyond it, squares of lengths leave a double's range.
@@ -43,7 +44,7 @@ std::vector<Vec2d> hull_of_sorted(const std::vector<Vec2d>& points) {
         hull.pop_back();
       hull.push_back(*point);
     }
-    hull.pop_back();  // the other walk begins with it
+    hull.pop_back();  // the second pass begins with this point
   };
   walk(points.begin(), points.end());
   walk(points.rbegin(), points.rend());

@@ -43,7 +43,7 @@ void Dop853::weighted_sum(const double* weights, int stages, const Store& store)
     rate[count] = rates_[j].data();
     weight[count++] = weights[j];
   }
-  // Works on blocks whose sums stay in registers; stages are added in order.
+  // Works on blocks of components whose sums stay in registers; adds stages in order.
   std::size_t first = 0;
   const auto go_by = [&]<std::size_t kPart>(std::integral_constant<std::size_t, kPart>) {
     for (; first + kPart <= dimension_; first += kPart) {

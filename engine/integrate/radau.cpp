@@ -49,8 +49,8 @@ void Radau::guess(double h, std::span<const double> first_rate) {
 bool Radau::step(StiffFlow& flow, double time, double h, std::span<const double> y,
                  std::span<const double> first_rate, std::span<const double> scale) {
   constexpr int kMostIterations = 12;
-  // As fractions of the scale: error with which the iteration ends, and with which it may end if it
-  // stagnates.
+  // Errors as fractions of the scale: the iteration ends at kSmall; if it stagnates before, at most kStagnant
+  // is accepted.
   constexpr double kSmall = 1e-2, kStagnant = 0.3;
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   guess(h, first_rate);

@@ -25,7 +25,7 @@ class Radau {
 
   /// Returns the last step's estimated error, the largest over the components relative to `scale`. It is the
   /// difference to a solution of order 5, filtered so that fast modes do not count (Hairer & Wanner II, IV.8,
-  /// eq. (8.19)). `again`: an estimate above 1 is filtered a second time, which first steps need.
+  /// eq. (8.19)). With `again`, an estimate above 1 is filtered a second time, which first steps need.
   double error(StiffFlow& flow, double time, double h, std::span<const double> y,
                std::span<const double> first_rate, std::span<const double> scale, bool again);
 

@@ -29,10 +29,10 @@ inline constexpr double kA[kStages][kStages] = {
      0.3118265229757412540818549115766405, 0.2231039010835707444025602182285894, 0.04},
 };
 
-/// The real eigenvalue of A: the weight of the rate at the start in the estimate.
+/// The real eigenvalue of A. In the error estimate it is the weight of the rate at the start.
 inline constexpr double kGamma = 0.1590658444274691204779151543515630;
 
-/// Weights of the stages in the solution of order 5 that also takes kGamma of the rate at the start.
+/// Weights of the stages in the solution of order 5 that also contains kGamma times the rate at the start.
 inline constexpr double kEstimateB[kStages] = {
     -0.1086297514583205087969294891305129, 0.4417131372524320084668752178563775,
     0.1955533886347784395427286557142894, 0.3041105500291347644049934920785957,

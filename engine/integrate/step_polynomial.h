@@ -55,7 +55,7 @@ class StepPolynomial {
   Bernstein<kMostTerms + 1> bernstein(std::size_t i) const {
     Bernstein<kMostTerms + 1> c{};
     int degree = 0;
-    const auto times_factor = [&](double node) {  // c *= s - node, one degree more
+    const auto times_factor = [&](double node) {  // c *= s - node, which raises the degree by one
       for (int j = degree + 1; j >= 0; --j) {
         const double own = j <= degree ? (degree + 1 - j) * -node * c[j] : 0;
         const double before = j > 0 ? j * (1 - node) * c[j - 1] : 0;

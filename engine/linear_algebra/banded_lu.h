@@ -30,7 +30,7 @@ class BandedLu {
   std::size_t size_ = 0, below_ = 0, reach_ = 0,
               width_ = 1;        // reach_: upper band width of U, which pivoting enlarges
   std::vector<double> entries_;  // row by row, from `below_` before the diagonal
-  std::vector<double> lower_;    // multipliers, `below_` a column
+  std::vector<double> lower_;    // multipliers, `below_` of them per column
   std::vector<std::size_t> pivot_;
 };
 

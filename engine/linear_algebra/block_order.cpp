@@ -19,7 +19,8 @@ void BlockOrder::find(int blocks, std::span<const std::pair<int, int>> ends) {
       neighbours_[ends_[j].second].push_back(ends_[i].second);
     }
   }
-  // Breadth first from a block at the edge. The last block of a search from any start is such a block.
+  // Orders breadth first from a block at the edge of the graph: the last block that a search from any start
+  // reaches.
   degree_.assign(blocks, 0);
   const auto walk = [&](int start, int mark) {
     const std::size_t begin = sequence_.size();

@@ -11,15 +11,15 @@
 namespace plumb {
 namespace {
 
-// Regularisation of rows that depend on each other: added to the mobility of each, as a fraction of it, so
-// that they share their load. Iterative refinement removes the error that it causes elsewhere. As large as
-// the rounding of positions in float: rows that agree but for that must not stop what they guide (a
-// parallelogram of float that was flat in the middle of a substep lost 40 % of its speed at 1e-10, 0.4 % at
-// 1e-7).
+// Regularisation of rows that depend on each other: this fraction of each row's mobility is added to it, so
+// that the rows share their load. Iterative refinement removes the error that this causes in other rows. The
+// value is that of the rounding of positions in float: rows that differ only by rounding must not block the
+// motion that they allow. (A parallelogram in float that was flat in the middle of a substep lost 40 % of its
+// speed at 1e-10, and 0.4 % at 1e-7.)
 constexpr double kSharing = 1e-7;
 
-// Returns the mobility of a row, J M^-1 J^T: 0 where axes are locked along it but for the rounding of its
-// direction, whose square may be as small as numbers get.
+// Returns the mobility of a row, J M^-1 J^T. Returns 0 if locked axes leave only the rounding of the row's
+// direction, because the square of that rounding may be tiny.
 double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {
   constexpr double kRounding = 1e-30;
   const double along = coupling(bodies, row, row);
@@ -158,8 +158,8 @@ void BoundedRows::assemble() {
   assembled_ = true, factorised_ = shares_ = false;
 }
 
-// Factorises the free rows: as they are, or if they depend on each other, with regularisation. Rows before
-// the first whose state has changed keep their factors.
+// Factorises the free rows, with regularisation if they depend on each other. Rows before the first one whose
+// state has changed keep their factors.
 void BoundedRows::factorise() {
   places_.clear(), first_.clear();
   const int count = static_cast<int>(sequence_.size());
@@ -192,7 +192,7 @@ void BoundedRows::factorise() {
   factorised_ = true;
 }
 
-// Copies the rows and columns of the free rows, from one of them on.
+// Copies the rows and columns of the free rows, starting at free row `from`.
 void BoundedRows::gather_free(int from) {
   const bool all_free = places_.size() == sequence_.size();
   for (int k = from; k < static_cast<int>(places_.size()); ++k) {
@@ -213,7 +213,7 @@ double BoundedRows::residual(int i) const {
   return missing - row.softening * mobility_[i] * row.impulse;
 }
 
-// Returns whether a row's speed is more than a share of the largest.
+// Returns true if a row's speed is more than the fraction `share` of that of the row with the largest energy.
 bool BoundedRows::matters(int i, double speed, double share) const {
   return speed * speed > share * share * largest_ * mobility_[i];
 }
@@ -224,8 +224,8 @@ void BoundedRows::apply_all() {
   for (const BoundedRow& row : rows) push(row, row.impulse);
 }
 
-// Solves for the impulses of the free rows, given those of the others: of rows that depend on each other the
-// solution next to `guess_`, but for the error of the regularisation.
+// Solves for the impulses of the free rows, given those of the others. If free rows depend on each other,
+// finds the solution nearest to `guess_`, up to the error of the regularisation.
 void BoundedRows::find_free() {
   if (shares_ && !guesses_) start_from_guess();
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -240,7 +240,8 @@ void BoundedRows::find_free() {
   refine();
 }
 
-// Solves for what the free rows lack. Returns false if they lack nothing.
+// Makes one step of iterative refinement of the free rows. Returns false if their residuals are small
+// already.
 bool BoundedRows::refine() {
   bool exact = true;
   x_.resize(free_.size());
@@ -257,8 +258,8 @@ bool BoundedRows::refine() {
   return true;
 }
 
-// Counts the rows that are on the wrong side of their bounds by more than `slack`, and notes where they
-// belong.
+// Counts the rows that violate their bounds or inequality by more than `slack`, and notes the state that each
+// should have.
 int BoundedRows::count_wrong(double slack) {
   int count = 0;
   wrong_.assign(rows.size(), 0);
@@ -284,7 +285,8 @@ int BoundedRows::count_wrong(double slack) {
   return count;
 }
 
-// Returns the work x . (wanted - J v) of the impulses on the wanted velocities, and x . A x on their own.
+// Returns two sums: the work x . (wanted - J v) of the impulses on the wanted velocities, and x . A x, that
+// on the velocities that they cause.
 BoundedRows::Work BoundedRows::work() const {
   Work out;
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
@@ -306,12 +308,12 @@ double BoundedRows::energy() const {
   return 0.5 * w.own - w.wanted;
 }
 
-// Scales all impulses by the factor that minimises the energy. Then x A x = x (wanted - J v): even far from
-// the solution, where rows contradict each other or the factorisation is inexact, they gain no energy.
+// Scales all impulses by the factor that minimises the energy. Then x A x = x (wanted - J v), so they gain no
+// energy, even far from the solution: where rows contradict each other, or the factorisation is inexact.
 void BoundedRows::shrink() {
   const Work w = work();
   if (!(w.own > w.wanted + kSlack * std::abs(w.wanted))) return;
-  // x A x is not negative but for its rounding, and a quotient of two roundings would be any number.
+  // x A x is never negative except by rounding; the quotient of two roundings could be any number.
   const double share = w.own > 0 ? std::max(w.wanted / w.own, 0.0) : 0.0;
   for (BoundedRow& row : rows) row.impulse *= share;
   apply_all();
@@ -341,7 +343,7 @@ bool BoundedRows::pivot() {
   return false;
 }
 
-// Takes of the initial impulses the fraction that gains no energy.
+// Sets `guess_` to the fraction of the initial impulses that gains no energy.
 void BoundedRows::start_from_guess() {
   guesses_ = true;
   if (std::all_of(guess_.begin(), guess_.end(), [](double impulse) { return impulse == 0; })) return;
@@ -351,7 +353,8 @@ void BoundedRows::start_from_guess() {
   for (std::size_t i = 0; i < rows.size(); ++i) guess_[i] = rows[i].impulse;
 }
 
-// Sets the states of rows that have nothing to solve: those that move nothing, or whose bounds leave no room.
+// Sets the states of rows with nothing to solve for: those that no impulse can move, or whose bounds
+// coincide.
 void BoundedRows::set_fixed() {
   guess_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -404,8 +407,8 @@ void BoundedRows::start_from(std::span<const double> impulses) {
   apply_all();
 }
 
-// Keeps the energy: where all rows are free, nothing is gained. A row at its bound may gain its impulse times
-// the tolerated violation, and impulses that parts which jam exert have no limit.
+// Makes sure that no energy is gained. If all rows are free, none is. A row at its bound may gain its impulse
+// times the tolerated violation, and impulses of wedged parts have no limit.
 void BoundedRows::keep_energy(bool exact) {
   const auto held = [](const BoundedRow& row) { return row.state != BoundedRow::kFree && row.impulse != 0; };
   if (!exact || shares_ || std::any_of(rows.begin(), rows.end(), held)) shrink();
@@ -426,8 +429,8 @@ double BoundedRows::share_of_load(std::span<const double> impulses) {
 }
 
 void BoundedRows::correct(double softening) {
-  // Of 76,500 corrections of ragdolls that fall onto a heap 2,000 take a second round, 102 a third and 5 a
-  // fourth.
+  // Maximum number of rounds. Of 76,500 corrections of ragdolls that fall onto a heap, 2,000 take a second
+  // round, 102 a third and 5 a fourth.
   constexpr int kRounds = 4;
   find_mobility();
   for (BoundedRow& row : rows) row.softening = softening;

@@ -35,8 +35,8 @@ struct BoundedRow {
   double lower = 0, upper = 0;  ///< N s
   double softening = 0;         ///< fraction of its own mobility that is added to the compliance
   double gap = 0;               ///< m or rad: closed by `correct`
-  /// N s. Initially a guess: of the solutions that redundant rows leave, the one next to it is found (next to
-  /// 0, the one that shares loads evenly). After solving, the solution.
+  /// N s. Before solving, a guess: if redundant rows leave several solutions, the one nearest to the guess is
+  /// found (for 0, the one that shares loads evenly). After solving, the solution.
   double impulse = 0;
   int block = 0;
   State state = kFree;  ///< initial state; after solving, the final one
@@ -75,18 +75,19 @@ class BoundedRows {
   /// Solves again for the velocities that `solve` was given, after bounds have changed and nothing else.
   void solve_again();
 
-  /// Returns true if a speed along a row is more than a share of the row's with the largest energy.
+  /// Returns true if a speed along a row is more than the fraction `share` of the speed of the row with the
+  /// largest energy.
   bool is_felt(int row, double speed, double share) const { return matters(row, speed, share); }
 
-  /// Returns the fraction, 0 to 1, of these impulses that leaves the bodies the least energy, given their
-  /// velocities. Changes the velocities.
+  /// Returns the fraction, 0 to 1, by which to scale these impulses so that they leave the bodies the least
+  /// energy, given their velocities. Changes the velocities.
   double share_of_load(std::span<const double> impulses);
 
-  /// Finds impulses that move bodies by `shifts` instead of changing their velocities, such that the gaps of
+  /// Finds impulses that move bodies by `shifts`, instead of changing their velocities, such that the gaps of
   /// the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt). Bodies
-  /// move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that only wide motions could close stay
-  /// open. Rows that are not free and whose upper bound is positive are open by their gap; those that would
-  /// close farther than that become free.
+  /// move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that could be closed only by wide motions
+  /// stay open. A row that is not free and has a positive upper bound is open by its gap; if the shifts would
+  /// close more than that gap, it becomes free.
   void correct(double softening);
   struct Shift {
     Vec2d way{};      ///< m
@@ -97,12 +98,12 @@ class BoundedRows {
  private:
   // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
   static constexpr int kPivots = 4;
-  // Tolerated violation of a row's inequality, relative to the row with the largest energy v^2 / mobility:
-  // speeds of linear and of angular rows have different units. One beyond kClear, a hundred times the
-  // regularisation, is a violation also before iterative refinement: refining what changes sides anyway is in
-  // vain.
+  // Tolerated violation of a row's inequality, relative to the row with the largest energy v^2 / mobility
+  // (speeds of linear and of angular rows have different units). A violation beyond kClear, a hundred times
+  // the regularisation, counts before iterative refinement too: it would be in vain to refine rows that
+  // change sides anyway.
   static constexpr double kSlack = 1e-9, kClear = 1e-5;
-  // Residual of a row that refining leaves as it is, relative to the same.
+  // Residual, on the same scale, below which a row is not refined.
   static constexpr double kExact = 1e-11;
   // Steps of iterative refinement, which remove the error of the regularisation.
   static constexpr int kRefinements = 2;
@@ -148,7 +149,7 @@ class BoundedRows {
   std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
   std::pmr::vector<int> block_first_;    // by block: index of its first row
   std::pmr::vector<int> free_;           // free rows in elimination order, which matrix_ has
-  std::pmr::vector<int> places_;         // the same as places in that order, while they are looked for
+  std::pmr::vector<int> places_;         // the same as places in `sequence_`, used by `factorise`
   std::pmr::vector<int> block_place_;    // by block: its first row's place in the elimination order
   std::pmr::vector<int> sequence_;       // rows in elimination order
   std::pmr::vector<int> rank_;           // by place in that order: number of free rows before it
@@ -157,10 +158,10 @@ class BoundedRows {
   std::pmr::vector<std::int8_t> wrong_;  // 0, or 1 + the state to change to
   double largest_ = 0;                   // J, the largest v^2 / mobility of a row, or what the caller gave:
   double least_energy_ = 0;              // J
-  bool assembled_ = false;               // all_ has these rows
-  bool factorised_ = false;              // matrix_ has the factors of the rows free_
+  bool assembled_ = false;               // all_ holds the present rows
+  bool factorised_ = false;              // matrix_ holds the factors of the rows in free_
   bool shares_ = false;                  // free rows depend on each other: they are regularised
-  bool guesses_ = false;                 // guess_ is the fraction of the guess that gains no energy
+  bool guesses_ = false;                 // guess_ is set (`start_from_guess`)
   bool descended_ = false;               // the last solution was found by descent
 };
 

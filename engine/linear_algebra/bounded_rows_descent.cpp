@@ -2,15 +2,15 @@
 
 #include "engine/linear_algebra/bounded_rows.h"
 
-// Gradient projection with subspace minimisation (active sets), for systems of which pivots do not end.
+// Gradient projection with subspace minimisation (active sets), for systems that pivoting does not solve.
 namespace plumb {
 namespace {
 
-// Rounds of descent, iterations in each round, and the last iterations if the rounds do not converge.
+// Number of rounds of descent; iterations in each; iterations at the end if the rounds do not converge.
 constexpr int kRounds = 10, kSweeps = 3, kLastSweeps = 10;
-// Tolerated violation, relative to the row with the largest energy v^2 / mobility. Where bodies
-// are wedged, impulses are a thousand times the load, and what regularises dependent rows leaves 1e-7 of
-// them: at 1e-8 a third of the descents of two wedged ragdolls do not end, at 1e-6 one in twenty.
+// Tolerated violation, relative to the row with the largest energy v^2 / mobility. In wedged bodies impulses
+// are a thousand times the load, and the regularisation of dependent rows leaves errors of 1e-7 of them. At
+// 1e-8 a third of the descents of two wedged ragdolls do not end, at 1e-6 one in twenty.
 constexpr double kSolved = 1e-6;
 
 }  // namespace
@@ -39,7 +39,7 @@ void BoundedRows::advance(double share) {
   }
 }
 
-// Returns the largest share of the step x_, up to 1, that leaves the free rows within their bounds.
+// Returns the largest fraction of the step x_, up to 1, that keeps the free rows within their bounds.
 double BoundedRows::share_within_bounds() const {
   double share = 1;
   for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -50,8 +50,8 @@ double BoundedRows::share_within_bounds() const {
   return share;
 }
 
-// Goes to the minimum over the rows between their bounds, or towards it as far as the energy falls. Returns
-// false if a bound was in the way: that row is at its bound now.
+// Steps to the minimum over the rows that are between their bounds, or towards it for as long as the energy
+// falls. Returns false if a bound limited the step; that row is now at its bound.
 bool BoundedRows::minimise_on_face() {
   for (BoundedRow& row : rows)
     row.state = row.impulse <= row.lower   ? BoundedRow::kLower
@@ -87,12 +87,13 @@ bool BoundedRows::minimise_on_face() {
   return true;
 }
 
-// Goes to the minimum over the rows between their bounds, fixing each row whose bound is in the way.
+// Finds the minimum over the rows that are between their bounds; fixes each row whose bound is reached on the
+// way.
 void BoundedRows::minimise_free() {
   for (std::size_t faces = 0; faces <= rows.size() && !minimise_on_face(); ++faces) continue;
 }
 
-// Minimises the energy over the impulses within their bounds, from those that are there.
+// Minimises the energy over the impulses within their bounds, starting from the present ones.
 void BoundedRows::descend() {
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) sweep(kSweeps);

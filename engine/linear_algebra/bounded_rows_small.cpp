@@ -5,12 +5,12 @@
 #include "engine/linear_algebra/row_coupling.h"
 #include "engine/linear_algebra/small_matrix.h"
 
-// Systems of few rows, without an order of elimination.
+// Systems of few rows, solved without an elimination order.
 namespace plumb {
 
-// Runs block pivots on a system of few rows that are far from dependent: without an order of elimination,
-// regularisation and refinement. Returns false, with the bodies as they were, if it is none, or if the pivots
-// do not end.
+// Runs block pivots on a system of few rows that are far from dependent, without an elimination order,
+// regularisation or refinement. Returns false, with the bodies unchanged, if the system is not of this kind
+// or the pivots do not end.
 bool BoundedRows::solve_small() {
   const int count = static_cast<int>(rows.size());
   if (count > kSmallRows) return false;
@@ -73,7 +73,7 @@ bool BoundedRows::solve_small() {
     if (held) apply_all();
     for (int k = 0; k < size; ++k) x[k] = residual(which[k]);
     if (bounded) gather(all, which, size, part);
-    SmallMatrix& free = bounded ? part : all;  // without bounds all rows are free, and stay so
+    SmallMatrix& free = bounded ? part : all;  // without bounds all rows are free and remain so
     const bool well = free.factorise(size);
     if (well) {
       free.solve(size, x);

@@ -48,8 +48,8 @@ class Tableau {
     return best;
   }
 
-  /// Returns the row that leaves when `column` enters: the lexicographically least ratio; nothing on a ray.
-  /// z0 leaves as soon as possible.
+  /// Returns the row that leaves when `column` enters: the one with the lexicographically least ratio;
+  /// nullopt on a ray. z0 leaves as soon as possible.
   std::optional<std::size_t> leaving(std::size_t column) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -57,7 +57,7 @@ class Tableau {
       if (!best || precedes(i, at(i, column), *best, at(*best, column))) best = i;
     }
     if (!best) return best;
-    for (std::size_t i = 0; i < n_; ++i) {  // if values tie: z0 first
+    for (std::size_t i = 0; i < n_; ++i) {  // ties: z0 first
       if (basis_[i] != cover() || !(at(i, column) > least_pivot_)) continue;
       const double ratio = value(i) / at(i, column), least = value(*best) / at(*best, column);
       if (ratio <= least + 1e-14 * std::abs(least)) return i;
@@ -183,8 +183,8 @@ ComplementaritySolution solve_part(std::span<const double> matrix, std::span<con
   solution.z.assign(n, 0.0);
   solution.basic.assign(n, 0);
   if (std::all_of(q.begin(), q.end(), [](double x) { return x >= 0; })) return solution;
-  // After a failure by rounding or on a ray, another covering vector takes another path. A slightly enlarged
-  // diagonal avoids pivots that consist of rounding error.
+  // After a failure by rounding or on a ray, tries another covering vector, which takes another path. A
+  // slightly enlarged diagonal avoids pivots that consist of rounding error.
   constexpr double kLeastPivot[] = {1e-11, 1e-13, 1e-9, 1e-12, 1e-12, 1e-12};
   constexpr double kEnlarged[] = {0, 0, 0, 0, 1e-10, 1e-8};
   std::vector<double> enlarged(matrix.begin(), matrix.end());

@@ -14,7 +14,7 @@ namespace plumb {
 struct ComplementaritySolution {
   enum class Status {
     Solved,
-    Ray,    ///< ended on a ray: for contacts, no solution (Painleve), or one that the method does not reach
+    Ray,  ///< ended on a ray: for contacts, there is no solution (Painleve), or the method does not reach it
     Limit,  ///< more than 50 pivots per component
   };
   Status status = Status::Solved;

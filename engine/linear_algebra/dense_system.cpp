@@ -67,7 +67,7 @@ void DenseSystem::Part::factor(double least) {
     bring_pivot(static_cast<std::size_t>(most - largest.begin()));
     eliminate();
   }
-  // Up to here the columns were in their original places.
+  // So far, only `column` records how columns were exchanged: now move them.
   std::vector<double>& own = largest;
   for (std::size_t i = 0; i < size; ++i) {
     const auto begin = lu.begin() + static_cast<std::ptrdiff_t>(i * size);
@@ -76,10 +76,11 @@ void DenseSystem::Part::factor(double least) {
   }
 }
 
-/// Moves a pivot to the place `rank`: the first of the largest entries in row order. In large systems, takes
-/// the row with the fewest entries among those with an entry not much smaller. Prefers its diagonal if that
-/// is such an entry. This preserves zeros (H. M. Markowitz, Management Science 3, 1957; with a threshold as
-/// in I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 1986, ch. 7).
+/// Moves a pivot to the place `rank`. In small systems it is the largest entry, the first in row order of
+/// equals. In large ones it is in the row with the fewest entries among the rows whose largest entry is not
+/// much smaller than that: the diagonal, if that is large enough, otherwise the row's largest entry. This
+/// preserves zeros (H. M. Markowitz, Management Science 3, 1957; with a threshold as in I. S. Duff, A. M.
+/// Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 1986, ch. 7).
 void DenseSystem::Part::bring_pivot(std::size_t from_row) {
   const bool lean = size > kCompletely;
   const double enough = kEnough * largest[from_row];
@@ -107,7 +108,7 @@ void DenseSystem::Part::bring_pivot(std::size_t from_row) {
 }
 
 /// Eliminates the pivot's unknown from the rows below. In a heap each contact touches few others: most rows
-/// lack it, and the others change only at the entries of the pivot's row.
+/// do not contain the unknown, and the others change only where the pivot's row has entries.
 void DenseSystem::Part::eliminate() {
   assert(rank < size);
   const double* pivots = lu.data() + rank * size;

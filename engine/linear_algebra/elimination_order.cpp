@@ -70,7 +70,7 @@ class Contraction {
 
   const std::vector<Link>& links_;
   std::vector<int> merged_into_;            // union-find over bodies
-  std::vector<std::vector<int>> links_at_;  // by body that was not merged into another
+  std::vector<std::vector<int>> links_at_;  // by body, except those merged into another
   std::vector<char> alive_, seen_;          // by link
 };
 
@@ -97,7 +97,7 @@ std::vector<int> depths(const std::vector<Link>& links, int bodies) {
         depth[other] = depth[link] + 1;
         queue.push_back(other);
       }
-      links_at[body].clear();  // all links here have a depth
+      links_at[body].clear();  // every link at this body has a depth now
     }
   }
   return depth;

@@ -6,7 +6,7 @@
 namespace plumb {
 namespace {
 
-// Sums four products at a time, in an order that no compiler or vector width changes.
+// Sums four products at a time, in an order that does not depend on the compiler or the vector width.
 double dot_in_fours(const double* a, const double* b, int count) {
   double sums[4] = {0, 0, 0, 0};
   int i = 0;
@@ -46,13 +46,13 @@ void EnvelopeMatrix::shape(std::span<const int> first) {
 }
 
 double EnvelopeMatrix::factorise(int from) {
-  // Fraction of the diagonal below which a row is dependent up to rounding.
+  // Pivots below this fraction of the diagonal count as zero: the row depends on others, up to rounding.
   constexpr double kNothing = 1e-12;
   double least = 1;
   for (int i = from; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
     const double diagonal = row[i];
-    assert(!(diagonal < 0));  // positive definite; not a number where a body is quarantined later
+    assert(!(diagonal < 0));  // positive definite; NaN: quarantined later
     // row[j] <- (L D)_ij = a_ij - sum_k (L D)_ik L_jk
     for (int j = first_[i]; j < i; ++j) {
       const double* above = &values_[start_[j]] - first_[j];

@@ -28,9 +28,9 @@ class EnvelopeMatrix {
   double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
   double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
 
-  /// Factorises in place. Dependent rows are left out: their unknown is 0. If rows before `from` have been
-  /// factorised already, and those from there on entered anew, only the latter are factorised. Returns their
-  /// least pivot as a fraction of its diagonal: near 0 where rows depend on each other.
+  /// Factorises in place. Dependent rows are left out: their unknown is 0. If only the rows from `from` on
+  /// were set anew, and those before it are still factorised, factorises only the new ones. Returns their
+  /// smallest pivot as a fraction of its diagonal, which is near 0 if rows depend on each other.
   double factorise(int from = 0);
 
   /// Solves: x <- A^-1 x.

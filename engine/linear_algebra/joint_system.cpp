@@ -45,7 +45,7 @@ JointSystem<Real>::JointSystem(std::span<const Row<Real>> rows, std::span<const 
   }
   const EliminationOrder order = minimum_degree(links, static_cast<int>(inverse_mass_.size()));
 
-  std::vector<int> place(rows.size());  // of the caller's row in the elimination order
+  std::vector<int> place(rows.size());  // place in the elimination order, by the caller's row
   for (const int b : order.sequence) {
     for (const int row : rows_of[b]) {
       place[row] = static_cast<int>(order_.size());

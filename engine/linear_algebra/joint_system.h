@@ -30,8 +30,8 @@ class JointSystem {
   /// multiplier; returns their number.
   int factor(std::span<const Row<Real>> rows);
 
-  /// Sets the least independent fraction of a row: rows below count as dependent from now on. 0: only
-  /// rounding.
+  /// Sets the independent fraction of a row below which it counts as dependent from now on. 0: only rounding
+  /// counts.
   void set_least_share(Real share);
   /// Keeps the dependent rows of the last factorisation dependent in all later ones, for any rounding of
   /// their pivots, until `release_dependent`.
@@ -50,7 +50,7 @@ class JointSystem {
   /// Returns the least independent fraction of a row in the last factorisation, except dependent rows. It
   /// goes to zero as the mechanism becomes singular.
   Real weakest() const { return weakest_; }
-  /// Returns its row; `row_count` if no row is weaker than alone.
+  /// Returns the row of `weakest`; `row_count` if all rows are as independent as they would be alone.
   std::size_t weakest_row() const {
     return weakest_place_ < order_.size() ? static_cast<std::size_t>(order_[weakest_place_]) : order_.size();
   }
@@ -66,14 +66,15 @@ class JointSystem {
   std::size_t nonzeros() const { return row_of_.size(); }
 
  private:
-  /// A body's part in an entry of A: it is shared by row `place` and the row being factorised.
+  /// One term of an entry of A: the contribution of a body that row `place` shares with the row being
+  /// factorised.
   struct Term {
-    int place = 0;            // of the earlier row in the elimination order, or of the row itself
-    int left = 0, right = 0;  // first index of the two rows' three numbers for that body
+    int place = 0;            // of the earlier row in the elimination order, or of the same row
+    int left = 0, right = 0;  // first index of the three numbers that each of the two rows has for that body
   };
 
-  /// Two rows of one hinge, eliminated together, and the next hinge in L. In lines of hinges each has one at
-  /// most.
+  /// Two rows of one hinge, eliminated together, and the next hinge in L: in a line of hinges there is at
+  /// most one.
   struct Hinge {
     int row = 0, place = 0;
     int next = -1;                // index among the hinges

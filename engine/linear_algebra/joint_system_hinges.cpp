@@ -3,12 +3,12 @@
 
 #include "engine/linear_algebra/joint_system.h"
 
-// Chains of hinges, the commonest mechanism: the same factorisation by blocks of 2 x 2, without indirect
-// lookups. Each number comes from the same operations in the same order as in the general one.
+// Chains of hinges are the most common mechanism: this factorises them by blocks of 2 x 2, without indirect
+// lookups. Each number comes from the same operations in the same order as in the general version.
 namespace plumb {
 namespace {
 
-/// One body's part in a row, and the body.
+/// The contribution of one body to a row, and the body.
 template <class Real>
 struct Side {
   int body;
@@ -139,7 +139,7 @@ void JointSystem<Real>::solve_hinges() const {
     const Real* l = lower_.data() + column_start_[place];
     Real* x = work_.data() + place;
     x[1] -= l[0] * x[0];
-    if (hinge.next >= 0) {  // the two columns follow each other
+    if (hinge.next >= 0) {  // the two columns are consecutive
       Real* y = work_.data() + hinges_[hinge.next].place;
       y[0] -= l[1] * x[0], y[1] -= l[2] * x[0];
       y[0] -= l[3] * x[1], y[1] -= l[4] * x[1];

@@ -8,14 +8,14 @@
 /// another.
 namespace plumb {
 
-/// Returns the part of one body, of rows with these Jacobians.
+/// Returns the contribution of one body, given the Jacobians of both rows.
 inline double coupling(const BoundedBody& body, Vec2d linear_r, double angular_r, Vec2d linear_s,
                        double angular_s) {
   return body.inverse_mass.x * linear_r.x * linear_s.x + body.inverse_mass.y * linear_r.y * linear_s.y +
          body.inverse_inertia * angular_r * angular_s;
 }
 
-/// Returns the coupling of two rows; of a row with itself, its mobility.
+/// Returns the coupling of two rows. The coupling of a row with itself is its mobility.
 inline double coupling(std::span<const BoundedBody> bodies, const BoundedRow& r, const BoundedRow& s) {
   double sum = 0;
   if (r.a == s.a) sum += coupling(bodies[r.a], r.linear_a, r.angular_a, s.linear_a, s.angular_a);
@@ -34,7 +34,7 @@ inline void couple(std::span<const BoundedBody> bodies, const BoundedRow& r, con
     for (int k = 0; k < count; ++k) out[k] = coupling(bodies, r, s[k]);
     return;
   }
-  // One body in common: the row's response of that body, seen from each of the others.
+  // One body in common: the response of that body to row r, along each of the other rows.
   const BoundedBody& body = bodies[from_a ? r.a : r.b];
   const Vec2d linear = from_a ? r.linear_a : r.linear_b;
   const double angular = from_a ? r.angular_a : r.angular_b;

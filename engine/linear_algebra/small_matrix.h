@@ -4,20 +4,21 @@
 
 namespace plumb {
 
-// Largest number of rows of a small system, which is factorised as the rows come, on the stack: at most 700
-// multiplications, about what finding an order of elimination costs.
+// Largest number of rows of a small system. It is factorised in the order of its rows, on the stack: at most
+// 700 multiplications, about the cost of finding an elimination order.
 inline constexpr int kSmallRows = 16;
-// Least pivot, relative to its diagonal, of a system that needs no regularisation: with a thousandth of it
-// the refinements would leave 1e-9.
+// Smallest pivot, relative to its diagonal, of a system that needs no regularisation. With a thousandth of
+// this value, refinement would leave errors of 1e-9.
 inline constexpr double kLeastPivot = 1e-4;
 
-/// A symmetric matrix of few rows, each stored from its first entry to the diagonal, all of the same width.
+/// A symmetric matrix of few rows. Each row is stored from its first entry to the diagonal; all rows have the
+/// same width.
 struct SmallMatrix {
   double value[kSmallRows][kSmallRows];  // not initialised
   double inverse_pivot[kSmallRows];
   int first[kSmallRows];
 
-  // Factorises the first `count` rows, L D L^T, in place. Returns false if a pivot is small.
+  // Factorises the first `count` rows in place, as L D L^T. Returns false if a pivot is small.
   bool factorise(int count) {
     for (int i = 0; i < count; ++i) {
       double* const row = value[i];

@@ -35,7 +35,8 @@ double quotient_tail(double a, double b, double q) {
 /// atan(y / x) for 0 <= y <= x, x normal. With the nearest k/8 to y/x,
 /// atan(y/x) = atan(k/8) + atan(r), r = (y - x k/8) / (x + y k/8), |r| < 1/15.
 TwoDoubles first_octant(double y, double x) {
-  // Rounds up late (0.4999), so that y >= x k/16 and the difference below has no rounding (Sterbenz).
+  // Adds slightly less than a half (0.4999), so that y >= x k/16 and the difference below has no rounding
+  // (Sterbenz).
   const int k = static_cast<int>(8 * (y / x) + 0.4999);
   const double ratio = 0.125 * k;
   // x k/8 in two parts without rounding: the upper part has 8 bits to spare.

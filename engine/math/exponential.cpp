@@ -29,7 +29,7 @@ double exponential(double x) {
   double tail = 0;  // e^r - 1 - r, over r^2
   for (int n = 15; n >= 3; --n) tail = (1 + tail) * r / n;
   const double grown = 1 + (high + (low + r * r * 0.5 * (1 + tail)));
-  // In two steps, so that the largest and the subnormal results are reached.
+  // Scales in two steps, so that the largest and the subnormal results are reached.
   const int half = static_cast<int>(k) / 2;
   return grown * power_of_two(half) * power_of_two(static_cast<int>(k) - half);
 }
@@ -47,7 +47,7 @@ double logarithm(double x) {
   double m = std::bit_cast<double>((bits & 0xFFFFFFFFFFFFFull) | 0x3FF0000000000000ull);
   if (m > 0x1.6a09e667f3bcdp+0) m *= 0.5, ++k;
   const double f = m - 1, s = f / (2 + f), square = s * s;
-  double sum = 0;  // artanh s = s + s^3/3 + ...: of s^3/3 and what follows, over s
+  double sum = 0;  // artanh s = s + s^3/3 + ...: the terms from s^3/3 on, divided by s
   for (int n = 23; n >= 3; n -= 2) sum = square * (1.0 / n + sum);
   // 2 s = f - s f, so the leading term is exact.
   return k * kLn2High + (f - (s * f - (2 * s * sum + k * kLn2Low)));

@@ -32,7 +32,7 @@ template <class Real, int kCount, int kBytes>
     out[1].part[0] = __builtin_shufflevector(low_ab, low_cd, 2, 3, 10, 11, 6, 7, 14, 15);
     out[2].part[0] = __builtin_shufflevector(high_ab, high_cd, 0, 1, 8, 9, 4, 5, 12, 13);
     out[3].part[0] = __builtin_shufflevector(high_ab, high_cd, 2, 3, 10, 11, 6, 7, 14, 15);
-  } else if constexpr (kParts == 1 && kBytes == 32) {  // registers of two halves: cross them last
+  } else if constexpr (kParts == 1 && kBytes == 32) {  // two halves: exchange them last
     const auto even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
     const auto even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
     const auto odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);

@@ -23,8 +23,8 @@ namespace plumb {
 template <class Real, int kBytes>
 struct Register {
   typedef Real Part __attribute__((vector_size(kBytes)));
-  using Mask = decltype(Part{} < Part{});         // lanes of ones or zeros
-  struct [[gnu::packed, gnu::may_alias]] Loose {  // in memory, among other numbers
+  using Mask = decltype(Part{} < Part{});         // all bits of a lane are ones or zeros
+  struct [[gnu::packed, gnu::may_alias]] Loose {  // numbers in memory, which may alias others
     Part part;
   };
   typedef long long Words __attribute__((vector_size(kBytes)));
@@ -163,7 +163,7 @@ struct Lanes {
   }
 };
 
-/// The type of one of the numbers: of Lanes, that of a lane.
+/// The scalar type: of Lanes, that of one lane; otherwise the number's own.
 template <class Number>
 struct ScalarOf {
   using Type = Number;

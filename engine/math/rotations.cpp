@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-// pi in parts of 33 bits, so that a part times a number of half turns below 2^20 is exact, and a remainder.
+// pi as parts of 33 bits and a remainder. A part times a number of half turns below 2^20 is exact.
 constexpr double kPi1 = 0x1.921fb544p+1, kPi2 = 0x1.0b4611a6p-33, kPiRest = 0x1.3198a2e037073p-68;
 constexpr double kFarthest = 0x1p20;
 

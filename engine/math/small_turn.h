@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-/// Rotates `q` by `x`, rad: sine and cosine by a series to a float's rounding; by `rotation_of` beyond an
-/// eighth.
+/// Rotates `q` by `x`, rad. Up to an eighth of a radian, uses a series for sine and cosine with the rounding
+/// error of a float; beyond that, `rotation_of`.
 template <class Real>
 [[gnu::always_inline]] inline Rotation<Real> turned_by(Rotation<Real> q, Real x) {
   if (std::abs(x) > Real(0.125)) {

@@ -65,7 +65,7 @@ std::uint32_t two_over_pi_bits(int start) {
 }
 
 /// Applies Payne and Hanek's reduction, for |angle| > kPartsLimit: multiplies by the bits of 2/pi that decide
-/// the quadrant and 190 bits below it; higher ones give whole turns.
+/// the quadrant and by the 190 bits below them. Higher bits contribute only whole turns.
 Reduced reduce_by_bits(double angle) {
   constexpr int kLimbs = 6;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(angle);
@@ -88,7 +88,7 @@ Reduced reduce_by_bits(double angle) {
   unsigned quadrant = product[kLimbs - 1] >> 30;
   product[kLimbs - 1] &= 0x3FFFFFFFu;
   const bool above_half = (product[kLimbs - 1] & 0x20000000u) != 0;
-  if (above_half) {  // the nearest quadrant is the next one: take the fraction minus 1
+  if (above_half) {  // the nearest quadrant is the next one: use the fraction minus 1
     quadrant = (quadrant + 1) & 3u;
     std::uint64_t carry = 1;
     for (int i = 0; i < kLimbs; ++i) {

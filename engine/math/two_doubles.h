@@ -2,7 +2,7 @@
 
 namespace plumb {
 
-/// A number as the unevaluated sum of two: `tail` is what rounding took from `value`.
+/// A number as the unevaluated sum of two: `tail` is what rounding removed from `value`.
 struct TwoDoubles {
   double value = 0, tail = 0;
 };

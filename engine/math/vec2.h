@@ -1,7 +1,7 @@
 #pragma once
 
-// Takes the compiler's own square root where there is one: <cmath> would double what including a public
-// header costs.
+// Uses the compiler's own square root if it has one: including <cmath> would double the cost of including a
+// public header.
 #ifndef __GNUC__
 #include <cmath>
 #endif

@@ -17,7 +17,7 @@ VectorWidth widest_vectors();
 /// Returns the width in use: the widest, unless another was set.
 VectorWidth vector_width();
 
-/// Sets the width for all worlds, at most the widest: to compare them.
+/// Sets the width for all worlds, at most the widest one. For comparisons.
 void set_vector_width(VectorWidth width);
 
 }  // namespace plumb

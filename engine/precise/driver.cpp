@@ -30,8 +30,8 @@ Reactions PreciseDriver::reactions() {
 }
 
 /// Computes the forces with which the next step begins. Before the first step, and after bodies were changed
-/// from outside, no step has closed joints and decided about contacts, limits and motors. The motion is put
-/// back, so that asking changes no bits.
+/// from outside, no step has yet closed the joints and decided about contacts, limits and motors, so this
+/// does both. It restores the motion afterwards: a request for forces changes no bits.
 Reactions PreciseDriver::reactions_after_next_decision() {
   const std::vector<std::byte> before = save();
   const bool written = written_;
@@ -74,7 +74,7 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
 
 std::vector<BodyState> PreciseDriver::sensitivities(std::size_t parameter) {
   if (!sensitivities_ || parameter >= sensitivities_->size()) return Driver::sensitivities(parameter);
-  // The last step may have leapt over a singularity, which `follow` notices only before the next step.
+  // The last step may have crossed a singularity, which `follow` notices only before the next step.
   if (leapt()) sensitivities_->refuse(parameter, NoDerivative::Singular, smooth_.start());
   return sensitivities_->at(parameter, time_, names_.size());
 }
@@ -137,7 +137,7 @@ void PreciseDriver::report_cost() {
   cost_[kJointAccelerations] = equations_.cost.joints;
   cost_[kProjection] = smooth_.projection_nanoseconds;
   for (int i = 0; i < kStageCount; ++i) plan_.stages[i].nanoseconds = cost_[i];
-  double& rest = plan_.stages[kRungeKutta].nanoseconds;  // the rest, without evaluations and projection
+  double& rest = plan_.stages[kRungeKutta].nanoseconds;  // everything except evaluations and projection
   rest = std::max(0.0, rest - cost_[kForces] - cost_[kJointAccelerations] - cost_[kProjection]);
 }
 

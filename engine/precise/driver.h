@@ -27,7 +27,7 @@ namespace plumb::precise {
 /// The driver that `make_precise_driver` returns.
 class PreciseDriver final : public Driver {
  public:
-  /// `variations`: of the parameters by which states are derived, if any.
+  /// `variations`: one for each parameter by which states are derived, if any.
   PreciseDriver(const Scene& scene, const Precise& precise, const CompileOptions& options,
                 std::vector<Variation> variations = {});
 
@@ -44,7 +44,7 @@ class PreciseDriver final : public Driver {
   Statistics statistics() const override;
 
  private:
-  /// Returns true if the motion leapt over a singularity that the sensitivities have not handled yet.
+  /// Returns true if the motion has crossed a singularity that the sensitivities have not handled yet.
   bool leapt() const { return smooth_.leaps() != leaps_seen_; }
   bool active(StageIndex stage) const { return plan_.stages[stage].active; }
 
@@ -74,7 +74,7 @@ class PreciseDriver final : public Driver {
   Plan plan_;
   Flight flight_;
   EquationsOfMotion equations_;
-  mutable EventFreeIntegrator smooth_;  // mutable: its polynomial is made on reading
+  mutable EventFreeIntegrator smooth_;  // mutable: computes its polynomial when it is read
   mutable Compensated sample_;          // of the integrated bodies at sampled_, if within the last step
   mutable double sampled_ = -1;         // s
   Contacts contacts_;
@@ -88,7 +88,7 @@ class PreciseDriver final : public Driver {
   std::int64_t grid_steps_ = 0;
   bool joints_closed_ = false;
   bool written_ = false;  // bodies were changed from outside
-  JointStart open_{};     // the joint with the largest gap at the start; gap 0: none
+  JointStart open_{};     // the joint with the largest gap at the start; gap 0: none is open
   Statistics statistics_{};
   int steps_in_step_ = 0;
   double last_event_ = 0, last_flight_ = 0;  // s: time of the last event, and the flight before it

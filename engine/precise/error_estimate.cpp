@@ -9,8 +9,9 @@
 namespace plumb::precise {
 namespace {
 
-/// The companion's error is a tenth of the run's, so that their difference is the run's error to 10 %. Below
-/// the tolerance at which both would be rounding, it is ten times the run's: an upper estimate.
+/// Tolerance of the companion, as a fraction of the run's: the companion's error is then a tenth, so the
+/// difference is the run's error to 10 %. Below kLeastTolerance rounding would dominate both, so the
+/// companion's tolerance is ten times the run's and the difference an upper estimate.
 constexpr double kFiner = 0.1, kCoarser = 10, kLeastTolerance = 1e-11;
 
 Precise companion_of(Precise precise) {

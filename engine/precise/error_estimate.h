@@ -10,13 +10,13 @@
 
 namespace plumb::precise {
 
-/// A run of `Precise` together with a second one at another tolerance: their difference estimates the first
-/// one's error, including its amplification by the motion.
+/// Runs `Precise` twice, the second time at another tolerance: the difference of both runs estimates the
+/// error of the first, including its amplification by the motion.
 class ErrorEstimatingDriver final : public Driver {
  public:
   using Make = std::function<std::unique_ptr<Driver>(const Precise&)>;
-  /// `main` and `companion` create the two drivers of the scene; `bodies` is its number of bodies. The
-  /// companion's states alone are read.
+  /// `main` and `companion` create the two drivers of the scene, which has `bodies` bodies. Of the companion,
+  /// only the states are read.
   ErrorEstimatingDriver(const Precise& precise, std::size_t bodies, const Make& main, const Make& companion);
 
   void step() override;

@@ -10,7 +10,7 @@
 namespace plumb::precise {
 namespace {
 
-/// Number of steps whose errors together equal the tolerance: each errs by a thousandth of it.
+/// Number of steps whose errors together equal the tolerance: each step's error is a thousandth of it.
 constexpr double kSteps = 1000;
 /// Allowed error of a step's balance, in roundings of a position, a speed or the work.
 constexpr double kBalanceRoundings = 16;

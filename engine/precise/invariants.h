@@ -9,14 +9,14 @@
 
 namespace plumb::precise {
 
-/// Checks a run's energy. Over each step, the gain in kinetic energy and in height equals the work of the
-/// other forces, which the step's own weights sum as accurately as the step. Joints and contacts that hold do
-/// no work. If the balance fails, the motion is less accurate than the tolerance, whatever the step's
-/// estimate says: `Error` (Run).
-///
+/// Checks a run's energy. Over each step, the gain in kinetic and in gravitational energy equals the work of
+/// the other forces. That work is summed with the step's own weights, so it is as accurate as the step.
+/// Joints and contacts that hold do no work. If the balance fails, the motion is less accurate than the
+/// tolerance, whatever the step's estimate says: `Error` (Run).
 /// A step whose states err by `tolerance` / 1000 in its units (`Precise`) errs in energy by that fraction of
-///   S = sum of m max(v, s)^2 + I max(w, s / l)^2,   l and s the scene's length and speed;
-/// a thousand steps may err by `tolerance` S, plus the rounding of positions and speeds.
+///     S = sum of m max(v, s)^2 + I max(w, s / l)^2,
+/// with l and s the scene's length and speed. A thousand steps may err by `tolerance` S, plus the rounding of
+/// positions and speeds.
 class Invariants {
  public:
   Invariants(const Scene& scene, const Parts& parts, const Precise& precise, EquationsOfMotion& equations);

@@ -6,7 +6,7 @@
 
 namespace plumb::precise {
 
-/// The stages in the order in which a step runs them: indices into the plan.
+/// Indices of the stages in the plan, in the order in which a step runs them.
 enum StageIndex : int {
   kContacts,
   kForces,

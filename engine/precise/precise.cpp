@@ -22,9 +22,9 @@ namespace {
 constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
 /// Maximum length of a flight, as a multiple of the last one.
 constexpr double kLonger = 2;
-/// Fraction of the scene's length: deeper initial overlaps are an error at any tolerance.
+/// Fraction of the scene's length: an initial overlap deeper than this is an error at any tolerance.
 constexpr double kDeepestOverlap = 1e-3;
-/// Number of position roundings by which gaps at the start may be open.
+/// Number of roundings of a position by which joints may be open at the start.
 constexpr double kGapRoundings = 16;
 
 }  // namespace
@@ -46,7 +46,7 @@ void PreciseDriver::step() {
   report_cost();
 }
 
-/// Advances the motion by one step. Steps may go beyond `end`, because states are interpolated within them:
+/// Advances the motion by one step. The step may go beyond `end`, because states are interpolated within it:
 /// step sizes do not depend on the output times. An event ends a step.
 void PreciseDriver::go_on(double end) {
   decide();
@@ -154,7 +154,7 @@ void PreciseDriver::close_joints() {
   joints_closed_ = true;
 }
 
-/// At the start of a run joints must be closed: no law defines how they would close.
+/// At the start of a run joints must be closed, because no law says how they would close.
 void PreciseDriver::refuse_open_joints() const {
   if (open_.gap == 0 || written_ || smooth_.time() > 0) return;
   throw Error(Error::Kind::Run, "joint '" + open_.joint + "'", "gap",

@@ -14,7 +14,8 @@ Vec2d local_origin(const Scene& scene) {
     if (std::holds_alternative<FormulaForce>(law)) return {};
   for (const Body& body : scene.bodies)
     if (!body.motion.empty()) return {};
-  /// Distance from the origin, in extents, beyond which a scene is shifted: it costs six bits of coordinates.
+  /// Distance from the origin, in extents, beyond which a scene is shifted: there, coordinates have lost six
+  /// bits.
   constexpr double kFar = 64;
   Vec2d lower{1e300, 1e300}, upper{-1e300, -1e300};
   for (const Body& body : scene.bodies) {

@@ -7,14 +7,14 @@
 
 namespace plumb::precise {
 
-/// Returns a point near the scene if it lies so far from the origin that coordinates would lose digits;
-/// otherwise zero.
+/// Returns a point near the scene if the scene lies so far from the origin that coordinates would lose
+/// digits; otherwise zero.
 Vec2d local_origin(const Scene& scene);
 
 /// Returns the scene relative to `origin`, which is subtracted from all positions in the world's frame.
 Scene seen_from(const Scene& scene, Vec2d origin);
 
-/// Wraps the driver of a scene that is `seen_from` a point, as a driver of the scene itself.
+/// Wraps the driver of a scene that is `seen_from` a point, so that it acts as a driver of the scene itself.
 class ShiftedOriginDriver final : public Driver {
  public:
   ShiftedOriginDriver(std::unique_ptr<Driver> driver, Vec2d origin)

@@ -55,7 +55,8 @@ std::string precise_unsupported(const Scene& scene) {
     return "joint " + quoted(std::visit([](const auto& j) { return j.name; }, joint)) + " " + missing +
            kElsewhere;
   }
-  // Every evaluation involves all contacts at once: its cost grows at least with the square of their number.
+  // Every evaluation solves for all contacts at once, so its cost grows at least with the square of their
+  // number.
   constexpr std::size_t kMostBodies = 300;
   const precise::Parts parts = precise::divide(precise::with_body_laws(scene));
   std::vector<char> touches(scene.bodies.size(), 0);

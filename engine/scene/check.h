@@ -13,12 +13,13 @@ struct Place {
   std::size_t index = 0;
 };
 
-/// Limit of a scene's numbers; those that must be positive are at least its reciprocal. No product of three
-/// (m v^2, m r^2) overflows, nor the reciprocal of one (1 / (m r^2)).
+/// Largest magnitude of a scene's numbers; those that must be positive are at least its reciprocal. No
+/// product of three (m v^2, m r^2) overflows, nor does the reciprocal of one (1 / (m r^2)).
 inline constexpr double kLargest = 1e100;
 inline constexpr double kSmallest = 1e-100;
 
-/// Validates the scene and keeps `place` at the part being checked: after a throw, that is the culprit.
+/// Validates the scene and keeps `place` at the part being checked, so that after a throw it is the invalid
+/// part.
 void check(const Scene& scene, Place& place);
 
 }  // namespace plumb

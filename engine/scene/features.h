@@ -16,7 +16,7 @@ std::string unusual_kind(const Scene& scene);
 /// Returns a field that is not at its default: "body 'kite' has linear_damping", "joint 'hip' has limits".
 std::string unusual_field(const Scene& scene);
 
-/// Returns a contact rule that Precise alone has: "contact_rules has impact 'stronge'".
+/// Returns a contact rule that only Precise has: "contact_rules has impact 'stronge'".
 std::string unusual_rule(const Scene& scene);
 
 /// Returns an unusual kind or an unusual field.

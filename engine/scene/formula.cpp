@@ -13,7 +13,7 @@ template <class Value>
 Value Formula::evaluate(std::span<const Value> variables) const {
   using namespace formula;
   std::array<Value, kDeepest + 2> stack{};
-  Value* top = stack.data() + 1;  // one past the last value; the first is never read
+  Value* top = stack.data() + 1;  // one past the last value; value 0 is never read
   const auto two = [&](auto&& apply) {
     --top;
     top[-1] = apply(top[-1], top[0]);

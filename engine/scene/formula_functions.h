@@ -8,7 +8,7 @@
 #include "engine/math/jet.h"
 #include "engine/math/trigonometry.h"
 
-/// Functions that a formula may call, of a number or of a jet.
+/// Functions that a formula may call, for a number or for a jet.
 namespace plumb::formula {
 
 inline double value_of(double a) { return a; }
@@ -16,7 +16,7 @@ inline double value_of(const Jet& a) { return a.value; }
 
 inline double through(double, double f, double, double) { return f; }
 
-// Functions of a number or a jet: the value, and the first two derivatives where they are wanted.
+// Functions of a number or a jet: the value, and for a jet the first two derivatives.
 template <class V>
 V sine(V a) {
   const Rotation<double> turn = rotation_of(value_of(a));

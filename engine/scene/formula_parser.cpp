@@ -76,7 +76,7 @@ class FormulaParser {
     out_.operations_.push_back({code, index, number});
   }
 
-  // Counts calls within calls, so that text of many parentheses cannot exhaust the stack.
+  // Counts nested calls, so that text with many parentheses cannot exhaust the stack.
   struct Level {
     explicit Level(int& nesting) : nesting_(nesting) {
       if (++nesting_ > 100) fail("nests more than 100 deep");

@@ -31,15 +31,15 @@ Extent of_rectangle(Vec2d centre, double width, double height) {
   return {width * height, centre, (width * width + height * height) / 12};
 }
 
-/// Computes a sector of angle 2 `half` about `tip`, opening along the unit vector `axis`: area r^2 half,
-/// centroid (2 r/3) sin(half)/half along the axis, r^2/2 about the tip.
+/// Computes a sector of angle 2 `half` about `tip`, opening along the unit vector `axis`. Its area is r^2
+/// half, its centroid (2 r/3) sin(half)/half along the axis, and I/m is r^2/2 about the tip.
 Extent of_sector(Vec2d tip, Vec2d axis, double half, double radius) {
   const double distance = 2 * radius / 3 * std::sin(half) / half;
   return {radius * radius * half, tip + distance * axis, radius * radius / 2 - distance * distance};
 }
 
-/// Squared radius of gyration about the centroid: (|u|^2 + |v|^2 - u.v) / 18, u and v two sides from one
-/// corner, the origin.
+/// The squared radius of gyration about the centroid is (|u|^2 + |v|^2 - u.v) / 18, with u and v two sides
+/// from one corner, the origin.
 Extent of_triangle(Vec2d u, Vec2d v) {
   return {cross(u, v) / 2, (1.0 / 3) * (u + v), (length_squared(u) + length_squared(v) - dot(u, v)) / 18};
 }

@@ -49,15 +49,15 @@ struct Chain {
 
 using Geometry = std::variant<Circle, Box, Capsule, Polygon, Segment, Chain>;
 
-/// Mass properties of a geometry of uniform density. Exact but for rounding; lines have none.
+/// Mass properties of a geometry of uniform density, exact up to rounding. Lines have none.
 struct Extent {
   double area = 0;              ///< m^2
   Vec2d centroid{};             ///< m, in the geometry's frame
   double gyration_squared = 0;  ///< m^2: I/m about the centroid
 };
 
-/// Source: r^2/2 for a disc, (w^2 + h^2)/12 for a box. Others are sums of triangles, rectangles on their
-/// edges and circular sectors at their corners, by the parallel axis theorem.
+/// Computes I/m as r^2/2 for a disc and (w^2 + h^2)/12 for a box. Others are sums of triangles, rectangles on
+/// their edges and circular sectors at their corners, by the parallel axis theorem.
 Extent extent_of(const Geometry& geometry);
 
 /// Returns the largest distance of a point of the geometry from its frame's origin, m.

@@ -6,9 +6,9 @@
 #include "engine/scene/joint.h"
 #include "engine/scene/limits.h"
 
-/// Names and allowed values of each joint's fields: the one list for reading, writing and validation, of
-/// joints of a scene and of definitions of a world's joints. `visit(name, member, rule)` is called for each
-/// field in order.
+/// Names and allowed values of each joint's fields. This is the only list: reading, writing and validation
+/// use it, for joints of a scene and for definitions of a world's joints. `visit(name, member, rule)` is
+/// called for each field in order.
 namespace plumb {
 
 /// Rule of a number, or of each component of a vector.
@@ -16,12 +16,12 @@ struct FieldRule {
   Limits limits = Limits::Any;
   const char* unit = "";
   bool required = false;
-  /// Value that stands for none and that JSON leaves out, allowed beside those within the limits; NaN: there
-  /// is no such value.
+  /// Value that means "none": allowed beside those within the limits, and left out of JSON. NaN: there is no
+  /// such value.
   double none = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A part of a scene of this kind, or the definition of such a joint.
+/// True if J is the Kind of joint, either as a part of a scene or as a joint's definition.
 template <class J, class Kind>
 concept Is = std::is_same_v<std::remove_cvref_t<J>, Kind> ||
     std::is_same_v<typename std::remove_cvref_t<J>::SceneJoint, Kind>;

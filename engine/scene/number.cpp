@@ -20,7 +20,7 @@ class Path {
 
   bool empty() const { return rest_.empty(); }
 
-  /// Takes a name off the front, if it is there as a whole.
+  /// Removes a name from the front if the path begins with the whole name.
   bool take(std::string_view name) {
     if (!rest_.starts_with(name)) return false;
     const std::string_view after = rest_.substr(name.size());
@@ -29,7 +29,7 @@ class Path {
     return true;
   }
 
-  /// Takes an index in brackets off the front.
+  /// Removes an index in brackets from the front.
   std::optional<std::size_t> take_index() {
     const std::size_t end = rest_.find(']');
     if (!rest_.starts_with('[') || end == std::string_view::npos) return std::nullopt;
@@ -51,10 +51,10 @@ std::string_view name_of(const Body& body) { return body.name; }
 std::string_view name_of(const Joint& joint) {
   return std::visit([](const auto& any) { return std::string_view(any.name); }, joint);
 }
-std::string_view name_of(const auto&) { return {}; }  // force laws and drives have none
+std::string_view name_of(const auto&) { return {}; }  // force laws and drives have no names
 
-/// Takes the name or the index of one of `things` off the front of `path`; returns its index. Names may have
-/// dots: of several that fit, the longest is meant.
+/// Removes the name or the index of one of `things` from the front of `path`; returns its index. Names may
+/// contain dots: if several fit, the longest one counts.
 template <class Things>
 std::optional<std::size_t> take_one(Path& path, const Things& things) {
   if (const auto index = path.take_index()) return *index < things.size() ? index : std::nullopt;
@@ -68,7 +68,7 @@ std::optional<std::size_t> take_one(Path& path, const Things& things) {
   return longest;
 }
 
-/// Collects the numbers that the rest of a path names in the fields that it visits.
+/// Collects the numbers that the rest of a path names, from the fields that it visits.
 struct Finder {
   Path& path;
   Numbers& found;
@@ -83,7 +83,7 @@ struct Finder {
 
  private:
   void find(double& value, const FieldRule& of_number) {
-    // Infinity stands for none. Derivatives by the instants at which a force begins or ends are not computed.
+    // Infinity means "none". Derivatives by the times at which a force begins or ends are not supported.
     if (!path.empty() || std::isinf(value) || of_number.unit == std::string_view("s")) return;
     found.push_back(&value);
     rule = of_number;
@@ -148,7 +148,7 @@ NumberKind kind_of_number(Scene& scene, std::string_view path) {
   all_fields(scene, finder);
   const std::string_view unit = finder.rule.unit;
   if (finder.rule.limits == Limits::NotZero)
-    return NumberKind::Relative;  // a direction, or a ratchet's tooth
+    return NumberKind::Relative;  // a direction, or a ratchet's tooth angle
   if (unit == "m") return NumberKind::Length;
   return unit == "rad" ? NumberKind::Angle : NumberKind::Relative;
 }

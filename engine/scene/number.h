@@ -11,22 +11,24 @@ namespace plumb {
 
 /// Returns the numbers of `scene` that `path` names, in the words of the scene format: "gravity.y",
 /// "contact_rules.yield_speed", "bodies.ball.mass", "bodies.ball.position.x", "bodies.ball.shapes[0].radius",
-/// "joints.hinge.length", "joints.hinge.spring.hertz", "forces[0].stiffness". Bodies, joints and forces are
-/// named (of names that fit, the longest is meant) or counted from 0; `shapes` without a number means that of
-/// every shape of the body, which change together. The start and the duration of a force are not named.
-/// Throws `Error` (Name) if there is no such number. The pointers are valid until `scene` changes.
+/// "joints.hinge.length", "joints.hinge.spring.hertz", "forces[0].stiffness". Bodies and joints are given by
+/// name (if several names fit, the longest one counts) or, like forces, by index from 0. `shapes` without an
+/// index means every shape of the body; these numbers change together. The start and the duration of a force
+/// cannot be named. Throws `Error` (Name) if there is no such number. The pointers are valid until `scene`
+/// changes.
 std::vector<double*> numbers_at(Scene& scene, std::string_view path);
 
-/// The meaning of a number for the choice of a difference in it.
+/// Kind of a number, by which the step of a difference in it is chosen.
 enum class NumberKind {
-  Length,   ///< m: a place or an extent, to be compared with the scene's length
+  Length,   ///< m: a position or a size, relative to the scene's length
   Angle,    ///< rad
   Relative  ///< anything else, to be compared with itself
 };
-/// Returns the kind of what `path` names in `scene`, by its unit; Relative if there is no such number.
+/// Returns the kind of the number that `path` names in `scene`, by its unit; Relative if there is no such
+/// number.
 NumberKind kind_of_number(Scene& scene, std::string_view path);
 
-/// Returns the body of which `path` names a number of the state at the start; nothing for any other number.
+/// Returns the body whose initial state contains the number that `path` names; nullopt for any other number.
 std::optional<std::size_t> body_of_start(const Scene& scene, std::string_view path);
 
 }  // namespace plumb

@@ -23,7 +23,7 @@ class PrescribedPath {
 
  private:
   std::optional<Formula> x_, y_, angle_;
-  BodyState start_;  // of coordinates without a formula, which move on evenly
+  BodyState start_;  // velocities of coordinates without a formula, which are constant
 };
 
 }  // namespace plumb

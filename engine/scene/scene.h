@@ -45,8 +45,8 @@ struct Shape {
 
 enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
-/// Path of a kinematic body, by formulas in the time t, s (`Formula`). A coordinate without one follows the
-/// body's position and velocity.
+/// Path of a kinematic body, given by formulas in the time t, s (`Formula`). A coordinate without a formula
+/// follows from the body's initial position and velocity.
 struct PrescribedMotion {
   std::string x{}, y{};  ///< m
   std::string angle{};   ///< rad
@@ -260,8 +260,8 @@ std::optional<double> mass_by_density(const Body& body);
 /// Combines coefficients `a` and `b` of two shapes into a contact's.
 double combine(Combine rule, double a, double b);
 
-/// Folds 64 category or mask bits to 32: a category in a mask stays in it. So it may serve to skip most of
-/// what an exact test of all bits would refuse.
+/// Folds 64 category or mask bits to 32 such that a category within a mask stays within it. A test of the
+/// folded bits can thus skip most pairs that the exact test would reject.
 inline std::uint32_t folded(std::uint64_t bits) { return static_cast<std::uint32_t>(bits | bits >> 32); }
 /// Returns true if two shapes' filters let them touch.
 bool may_touch(const Filter& a, const Filter& b);

@@ -10,14 +10,14 @@
 #include "engine/scene/names.h"
 #include "engine/scene/scene.h"
 
-/// Names and allowed values of each field of a scene, with those of joints in joint_fields.h: the one list
-/// for reading, writing, validation and finding a number by its name. `visit(name, member, rule)` is called
-/// for each field in the order of the scene format; "type" is not among them.
+/// Names and allowed values of each field of a scene (those of joints are in joint_fields.h). This is the
+/// only list: reading, writing, validation and finding a number by its name use it. `visit(name, member,
+/// rule)` is called for each field in the order of the scene format; "type" is not among them.
 namespace plumb {
 
-/// Rule of a name of the thing itself.
+/// Rule of the name of the thing itself.
 struct NameRule {
-  bool required = true;  ///< it is unique, too; false: it may be empty
+  bool required = true;  ///< the name must also be unique; false: it may be empty
 };
 
 /// Rule of the name of a body that a joint or a law acts on.
@@ -41,7 +41,7 @@ struct FormulaRule {
 /// Rule of a member of an enumeration.
 struct ChoiceRule {
   std::span<const std::string_view> names;
-  bool first_is_none = false;  ///< JSON leaves the first out
+  bool first_is_none = false;  ///< JSON leaves out the first choice
   static constexpr bool required = false;
 };
 
@@ -53,7 +53,7 @@ struct WholeRule {
 
 /// Rule of a list of parts.
 struct ListRule {
-  bool empty_is_none = false;  ///< JSON leaves an empty list out
+  bool empty_is_none = false;  ///< JSON leaves out an empty list
   static constexpr bool required = false;
 };
 
@@ -148,7 +148,7 @@ void own_fields(B& b, Visit&& visit) {
 
 // ---- Force laws and drives
 
-/// Visits the fields of a force that acts for a while.
+/// Visits the fields of a force that acts for a limited time.
 template <class L, class Visit>
 void time_fields(L& l, Visit&& visit) {
   constexpr double kForEver = std::numeric_limits<double>::infinity();
@@ -226,7 +226,8 @@ void own_fields(D& d, Visit&& visit) {
 
 template <Is<ContactRules> C, class Visit>
 void inner_fields(C& c, const FieldRule&, Visit&& visit) {
-  // Options that came later are left out where they have no effect, so that older scenes keep their hashes.
+  // Options that were added later are left out where they have no effect, so that older scenes keep their
+  // hashes.
   visit("friction", c.friction, ChoiceRule{kCombineNames});
   visit("restitution", c.restitution, ChoiceRule{kCombineNames});
   visit("restitution_threshold", c.restitution_threshold, FieldRule{Limits::NonNegative, "m/s"});

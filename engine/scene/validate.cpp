@@ -211,7 +211,7 @@ class Checker {
       fail(Error::Kind::Name, field, name, "must be another: joints mean the fixed frame by this name");
   }
 
-  // Checks what the fields of a part say together.
+  // Checks conditions that involve several fields of a part.
 
   template <class... Kinds>
   void check_whole(const std::variant<Kinds...>& part) {
@@ -333,7 +333,7 @@ class Checker {
            "must differ from body: nothing attracts itself");
   }
 
-  /// Checks the ends of joints and springs.
+  /// Checks the two ends of joints and springs.
   void check_whole(const auto& part) {
     if constexpr (requires { part.body_a; }) {
       const bool joint = requires { part.collide; };

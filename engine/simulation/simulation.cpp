@@ -27,7 +27,7 @@ void require_body(std::size_t body, std::size_t count) {
               "there are " + std::to_string(count) + " bodies");
 }
 
-/// Checks a number against the limit for a scene's numbers.
+/// Checks a number against the limit that applies to a scene's numbers.
 void require_number(const std::string& subject, const char* field, double value) {
   if (std::abs(value) <= kLargest) return;
   throw Error(Error::Kind::Value, subject, field, shortest(value),

@@ -27,16 +27,16 @@ class Simulation {
 
   /// Returns the forces of joints and persistent contacts at `time`, for Precise; throws `Error`
   /// (Unsupported) for Realtime, which has only impulses. Before the first step, and after `set_state`, they
-  /// are those with which the next step begins, after the impacts there; `Error` (Run) if it cannot begin. Of
-  /// redundant joints, the first carry all: one of many solutions.
+  /// are the forces with which the next step begins, after the impacts there; throws `Error` (Run) if it
+  /// cannot begin. If joints are redundant, the first ones carry the whole load: one of many solutions.
   Reactions forces() const;
 
   /// Returns d state / d parameter at `time`, by body of the scene, for the parameter of this index in
   /// `CompileOptions::parameters`: each member is the derivative of that member of the body's state, in its
-  /// unit over the parameter's (m/kg for a position by a mass). Through impacts and changes of contacts, at a
-  /// fixed time; relative error about the tolerance, 1e-9 at best. Throws `NotDifferentiable`
-  /// (driver/sensitivity.h) from an event on at which the state has no derivative, and `Error` (Value) for an
-  /// index that is not there. docs/precise.md says when derivatives do not exist.
+  /// unit over the parameter's (m/kg for a position by a mass). The derivative is at a fixed time and
+  /// includes impacts and changes of contacts; its relative error is about the tolerance, 1e-9 at best.
+  /// Throws `NotDifferentiable` (driver/sensitivity.h) after an event at which the state has no derivative,
+  /// and `Error` (Value) for an invalid index. docs/precise.md says when derivatives do not exist.
   std::vector<BodyState> sensitivities(std::size_t parameter) const;
 
   /// Returns the 64-bit FNV-1a over the bits of every body's state and the time: equal on every platform for
@@ -61,7 +61,7 @@ class Simulation {
   OwnedPointer<Driver> driver_;
   std::size_t body_count_;
   std::uint64_t identity_;  ///< of scene and accuracy, stamped on snapshots
-  bool abandoned_ = false;  ///< a step was not finished
+  bool abandoned_ = false;  ///< a step failed before its end
 };
 
 /// Validates `scene` and `accuracy`, derives the plan and allocates what it needs. Throws `Error`.

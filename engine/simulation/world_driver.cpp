@@ -20,11 +20,11 @@ WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
   definition.integrator = accuracy.integrator;
   definition.iterations = accuracy.iterations;
   definition.threads = accuracy.threads;
-  definition.quarantine = false;  // a run without one of its bodies would be that of another scene
+  definition.quarantine = false;  // without one of its bodies, the run would be that of another scene
   return definition;
 }
 
-/// Leaves out shapes that a scene does not need: masses do not depend on them.
+/// Returns the scene without shapes if it does not need them: masses do not depend on them.
 Scene with_needed_parts(const Scene& scene, const Plan& plan) {
   Scene out = scene;
   if (needs_shapes(plan)) return out;
@@ -73,8 +73,9 @@ void WorldDriver<Real>::step() {
   if (found_) act_on_violation();
 }
 
-/// Force laws are evaluated at the middle of each substep, so with them, and with what moves by a function of
-/// time, the world takes the substeps as single steps. The Euler schemes evaluate forces at the start.
+/// Advances the world by one step. Force laws are evaluated at the middle of each substep. So with force
+/// laws, prescribed motions or drives, each substep is a step of the world. The Euler schemes evaluate forces
+/// at the start.
 template <class Real>
 void WorldDriver<Real>::advance() {
   const bool one_by_one = !forces_.empty() || !prescribed_.empty() || !driven_.empty();
@@ -89,8 +90,8 @@ void WorldDriver<Real>::advance() {
   }
 }
 
-/// Gives each prescribed body the velocity that takes it to its place at the end of the step, and each drive
-/// its motor's mean speed, from the speeds at the start, middle and end (Simpson's rule).
+/// Gives each prescribed body the velocity that takes it to its place at the end of the step. Gives each
+/// motor with a drive the drive's mean speed, from the speeds at the start, middle and end (Simpson's rule).
 template <class Real>
 void WorldDriver<Real>::apply_drives(double dt) {
   const double start = world_.time(), end = start + dt;
@@ -152,7 +153,7 @@ void WorldDriver<Real>::read(std::span<BodyState> out) const {
     std::ranges::copy(before_, out.begin());
     return;
   }
-  // Dynamic bodies of a scene have their origins at their centres of mass; shapes of others may lie anywhere.
+  // Dynamic bodies of a scene have their origin at the centre of mass; other bodies' shapes may lie anywhere.
   const WorldData<Real>& w = world_.data();
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
     const int body = static_cast<int>(parts_.bodies[i].index);
@@ -160,7 +161,7 @@ void WorldDriver<Real>::read(std::span<BodyState> out) const {
     out[i] = {world_.position(parts_.bodies[i]), w.bodies[body].angle, motion.velocity.template as<double>(),
               static_cast<double>(motion.angular_velocity)};
   }
-  // The world's velocity of a prescribed body is the mean of its last step.
+  // In the world, the velocity of a prescribed body is the mean over its last step.
   for (const Prescribed& one : prescribed_) {
     const BodyState now = one.path.at(time()).state;
     out[one.body].velocity = now.velocity;
@@ -180,7 +181,7 @@ void WorldDriver<Real>::write(std::size_t body, const BodyState& state) {
   if (monitor_) monitor_->reset();
 }
 
-/// Sets all bodies back to the start of a step that could not be finished, and drops its forces.
+/// Sets all bodies back to the start of a step that failed, and drops its forces.
 template <class Real>
 void WorldDriver<Real>::put_back() {
   WorldData<Real>& w = world_.data();

@@ -17,7 +17,7 @@
 
 namespace plumb {
 
-/// A world with a scene's bodies and joints, and the scene's force laws, advanced in fixed steps.
+/// A world with a scene's bodies, joints and force laws, advanced in fixed steps.
 template <class Real>
 class WorldDriver final : public Driver {
  public:
@@ -62,7 +62,7 @@ class WorldDriver final : public Driver {
   std::vector<Prescribed> prescribed_;
   std::vector<Driven> driven_;
   std::vector<BodyState> before_;  // by body, at the start of the step
-  std::vector<std::byte> undo_;    // the whole state at that time, if a violation undoes the step
+  std::vector<std::byte> undo_;    // the whole state then, in case a violation undoes the step
   std::optional<InvariantMonitor<Real>> monitor_;
   std::optional<Error> found_;      // in this step
   std::optional<Error> violation_;  // the first

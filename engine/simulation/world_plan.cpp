@@ -33,8 +33,8 @@ std::set<BodyPair> joined_bodies(const Scene& scene) {
   return pairs;
 }
 
-/// Returns true if two shapes of different bodies may touch. Shapes with the same filter are one kind: of
-/// each pair of kinds that may touch, pairs of bodies are tried until no joint excludes one.
+/// Returns true if two shapes of different bodies may touch. Shapes with the same filter form a kind: for
+/// each pair of kinds that may touch, tries pairs of bodies until one is not excluded by a joint.
 bool may_touch_anywhere(const Scene& scene) {
   using Kind = std::tuple<std::uint64_t, std::uint64_t, std::int32_t>;
   std::map<Kind, std::vector<std::size_t>> kinds;  // bodies

@@ -10,19 +10,20 @@ namespace plumb {
 struct SceneParts {
   std::vector<BodyId> bodies;
   std::vector<JointId> joints;
-  BodyId frame{};  ///< static body for joints to the world; invalid when there are none
+  BodyId frame{};  ///< static body for joints to the world; invalid if there are no such joints
 };
 
 /// Returns a definition with the gravity and the combine rules of `scene`.
 WorldDefinition world_definition(const Scene& scene);
 
 /// Adds the bodies and joints of a scene to a world, but not its force laws: `SceneForces` (scene_forces.h)
-/// applies these before each step. Throws Error as `validate(scene)`, Error (Value) for numbers beyond the
-/// world's limits, and Error (Unsupported) as `world_unsupported`. The world is unchanged then.
+/// applies these before each step. Throws Error as `validate(scene)` does, Error (Value) for numbers beyond
+/// the world's limits, and Error (Unsupported) for features that `world_unsupported` names; the world is then
+/// unchanged.
 template <class Real>
 SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene);
 
-/// Throws Error (Value) for numbers of a valid scene beyond the limits of a world in `Real`.
+/// Throws Error (Value) if a valid scene has numbers beyond the limits of a world in `Real`.
 template <class Real>
 void require_in_range(const Scene& scene);
 

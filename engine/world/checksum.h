@@ -7,10 +7,10 @@
 
 namespace plumb {
 
-/// Computes the 64-bit FNV-1a (Fowler, Noll, Vo) in words of eight bytes instead of one, the rest byte by
-/// byte. After each word the upper half is folded onto the lower one: a product carries nothing downwards, so
-/// two changed signs would otherwise cancel. Each round is a bijection: bytes of the same length that differ
-/// in one word have different sums.
+/// Computes 64-bit FNV-1a (Fowler, Noll, Vo) over words of eight bytes instead of single bytes; the rest byte
+/// by byte. After each word, the upper half is folded onto the lower one: a product carries nothing
+/// downwards, so two changed signs would otherwise cancel. Each round is a bijection, so bytes of the same
+/// length that differ in one word have different sums.
 inline std::uint64_t checksum(std::span<const std::byte> bytes) {
   constexpr std::uint64_t kPrime = 0x100000001B3u;
   std::uint64_t hash = 0xCBF29CE484222325u;

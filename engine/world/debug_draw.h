@@ -28,7 +28,7 @@ enum class DrawRole {
   Highlight,  ///< highlighted shapes
   Force,      ///< arrows of forces
   Aim,        ///< target of a motion
-  Trail,      ///< path of a past motion
+  Trail,      ///< path of an earlier motion
   Velocity,   ///< arrows of velocities
 };
 
@@ -49,7 +49,7 @@ class DebugDraw {
 /// Draws a spring between two points: a zigzag, as wide as an eighth of its length.
 void draw_spring(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role);
 
-/// Draws a rope from `end_a` over pulleys at two points of the world to `end_b`. The radius of a pulley is a
+/// Draws a rope from `end_a` over two pulleys, fixed in the world, to `end_b`. The radius of a pulley is a
 /// tenth of the distance between the pulleys, or of the shorter end of the rope if both pulleys are at one
 /// point.
 void draw_pulleys(DebugDraw& out, Vec2d end_a, Vec2d ground_a, Vec2d ground_b, Vec2d end_b, DrawRole role);
@@ -66,7 +66,7 @@ struct DrawOptions {
   bool names = false;
   double normal_length = 0.2;            ///< m
   double impulse_length = 0.1;           ///< m per N s
-  std::optional<Aabb<double>> bounds{};  ///< m; given: leaves out what certainly lies outside this box
+  std::optional<Aabb<double>> bounds{};  ///< m; if given, omits everything that is certain to be outside
 };
 
 /// Draws the world as it is after the last step: shapes in the order of their bodies' indices, then the rest.

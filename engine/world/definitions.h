@@ -53,8 +53,8 @@ struct ChainDefinition {
 /// Mass of a body that does not follow from its shapes' densities.
 struct MassProperties {
   double mass = 1;     ///< kg, > 0
-  Vec2d centre{};      ///< m, centre of mass in the body's frame; kinematic bodies turn about their
-                       ///< origin instead
+  Vec2d centre{};      ///< m, centre of mass in the body's frame; kinematic bodies rotate about their origin
+                       ///< instead
   double inertia = 1;  ///< kg m^2 about the centre of mass, > 0
 };
 
@@ -79,7 +79,7 @@ struct BodyDefinition {
   bool may_sleep = true;
   bool awake = true;
   std::uint64_t user_data = 0;
-  bool continuous = true;  ///< prevents its tunnelling; false saves time where that does not matter
+  bool continuous = true;  ///< prevents tunnelling; false saves time
 };
 
 /// Kind of a joint, and the loads that break it or are reported.
@@ -93,8 +93,8 @@ struct JointDefinition {
   double report_torque = 0;  ///< N m, 0: never
 };
 
-/// Combines a coefficient of two shapes into that of their contact. Must be a pure function, symmetric in its
-/// arguments: a world is as deterministic as its rules.
+/// Combines the coefficients of two shapes into that of their contact. Must be a pure function, symmetric in
+/// its arguments: a world is only as deterministic as its rules.
 using CombineFunction = double (*)(double a, double b);
 
 /// Speeds at which behaviour changes, m/s. Negative selects the default, from the shapes' sizes or gravity,
@@ -116,11 +116,11 @@ struct WorldDefinition {
   Solver solver = Solver::SoftSteps;
   Integrator integrator = Integrator::VelocityVerlet;  ///< of SoftSteps and Direct
   int iterations = 10;         ///< iterations a substep, 1..1000: SequentialImpulses and Jakobsen
-  bool direct_islands = true;  ///< SoftSteps solves small islands directly that iterations would not hold
+  bool direct_islands = true;  ///< SoftSteps solves small islands directly if iterations would not hold them
   bool quarantine = true;      ///< takes non-finite bodies out of the simulation; false: Error ends the step
-  /// Threads that share a step, 1..64: the calling one, and a pool of the world's own or a game's
-  /// (BasicWorld::set_task_system). Each number gives the same bits; snapshots and recordings do not have it.
-  /// Small worlds are stepped by the calling thread alone.
+  /// Number of threads that share a step, 1..64: the calling thread, and a pool of the world or of the game
+  /// (BasicWorld::set_task_system). Every number gives the same bits. Snapshots and recordings do not store
+  /// it. The calling thread alone steps small worlds.
   int threads = kUsualThreads;
   Thresholds thresholds{};
 };

@@ -28,7 +28,7 @@ struct SensorEvent {
 };
 
 struct JointEvent {
-  JointId joint{};  ///< invalid now: the joint broke
+  JointId joint{};  ///< invalid: the joint has broken
 };
 
 /// The load of a joint exceeded its report threshold.
@@ -37,7 +37,7 @@ struct JointLoadEvent {
   double force = 0, torque = 0;  ///< N, N m: reaction over the last substep
 };
 
-/// Quantity of a body that was not finite or beyond 1e12. `None`: the program itself disabled the body.
+/// Quantity of a body that was not finite or exceeded 1e12. `None`: the program disabled the body.
 enum class BadField : std::uint8_t { Force, Torque, Velocity, AngularVelocity, None, Position, Angle };
 inline constexpr const char* kBadFieldNames[] = {"force", "torque",   "velocity", "angular_velocity",
                                                  "none",  "position", "angle"};
@@ -45,21 +45,21 @@ inline constexpr const char* kBadFieldNames[] = {"force", "torque",   "velocity"
 /// A body was quarantined, because one of its numbers was not finite, or beyond 1e12.
 struct QuarantineEvent {
   BodyId body{};
-  std::string name{};     ///< of the body's definition
+  std::string name{};     ///< from the body's definition
   BadField field{};       ///< returned by a force law, or reached in a step
   double value = 0;       ///< its first invalid component, in SI units
   std::int64_t step = 0;  ///< step that was affected, from 1
 };
 
-/// Events of the last step, and of the time between it and the step before; the next step clears them. Every
-/// begin has exactly one end. Bodies that wake and fall asleep over and over between two steps may be
-/// reported once.
+/// Events of the last step, and of the time between it and the step before. The next step clears them. Every
+/// begin has exactly one end. Bodies that repeatedly wake and fall asleep between two steps may be reported
+/// once.
 struct Events {
   std::vector<TouchEvent> begin, end;
   std::vector<HitEvent> hits;
   std::vector<SensorEvent> sensor_begin, sensor_end;
   std::vector<JointEvent> broken;
-  std::vector<JointLoadEvent> loaded;  ///< in each step in which it bears as much
+  std::vector<JointLoadEvent> loaded;  ///< in each step in which the load exceeds the threshold
   std::vector<BodyId> fell_asleep, woke;
   std::vector<QuarantineEvent> quarantined;
 

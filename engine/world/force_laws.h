@@ -8,13 +8,11 @@
 #include "engine/world/queries/query_filter.h"
 #include "engine/world/world.h"
 
-/// Force laws for a world: each call before a step adds the forces of that one step, and `dt` is its length
-/// in s. Laws act on awake dynamic bodies. With `wakes` they act on sleeping ones as well, and wake those
-/// that they push. All forces are computed before any is added, so a call that throws has changed nothing. SI
-/// units.
-///
+/// Force laws for a world. Each call before a step adds the forces of that one step; `dt` is its length in s.
+/// Laws act on awake dynamic bodies. With `wakes` they act on sleeping ones as well, and wake those that they
+/// push. All forces are computed before any is added, so a call that throws has changed nothing. SI units.
 /// Functions throw Error (Value) for numbers out of their range or forces that are not finite, and Error
-/// (Name) for invalid handles. They exist for BasicWorld<float> and BasicWorld<double>, and allocate nothing
+/// (Name) for invalid handles. They exist for BasicWorld<float> and BasicWorld<double>. They allocate nothing
 /// after the first calls for a world of that size.
 namespace plumb {
 
@@ -90,8 +88,8 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
                   const ElasticSpring& spring, double dt, LawOptions options = {});
 
 struct ExplosionOptions {
-  bool occlusion = false;  ///< spares points that another body covers from the centre, tested by rays
-  QueryFilter cover{};     ///< shapes that count as cover
+  bool occlusion = false;  ///< spares points that another body hides from the centre (tested by rays)
+  QueryFilter cover{};     ///< shapes that can hide others
 };
 /// Applies a blast: immediate impulses to all dynamic bodies within its radius, sleeping ones too. A shape
 /// that contains the centre is not pushed.

@@ -14,7 +14,7 @@ struct Handle {
   std::uint32_t index = 0xFFFFFFFFu;
   std::uint32_t generation = 0;
   friend bool operator==(const Handle&, const Handle&) = default;
-  /// Orders by index, then by generation: a fixed order for maps that means nothing else.
+  /// Orders by index, then by generation. The order has no meaning; it is fixed, for use in maps.
   friend auto operator<=>(const Handle&, const Handle&) = default;
 };
 

@@ -11,15 +11,16 @@ namespace plumb {
 
 /// Bounds of an `InvariantMonitor`, as fractions of the world's own sizes and energies.
 struct MonitorBounds {
-  /// Position error of a joint's rigid rows, of the distance from its anchor to the farther body's centre.
-  /// A taut chain of 25 links under 100 times their mass opens by 0.07 % at most; 1 % can be seen.
-  double joint_gap = 0.01;
-  /// Overlap of two shapes, of the smaller one's extent. A heap of 100 rows rests with 0.2 %; 2 % can be
+  /// Error of a joint's rigid rows in position, relative to the distance from its anchor to the centre of the
+  /// farther body. A taut chain of 25 links under 100 times their mass opens by 0.07 % at most; 1 % can be
   /// seen.
+  double joint_gap = 0.01;
+  /// Overlap of two shapes, relative to the extent of the smaller one. A heap of 100 rows rests with 0.2 %; 2
+  /// % can be seen.
   double overlap = 0.02;
-  /// Energy gained without a drive, as a fraction of the largest kinetic energy so far. The energy of a
-  /// mechanism that a step of 1/60 s resolves (w h < 0.4, w its fastest frequency) fluctuates by at most the
-  /// fraction (w h)^2/4 (Hairer, Lubich and Wanner, Geometric Numerical Integration, ch. I.5).
+  /// Energy gained without a drive, relative to the largest kinetic energy so far. If a step of 1/60 s
+  /// resolves a mechanism (w h < 0.4, w its fastest frequency), its energy fluctuates by at most the fraction
+  /// (w h)^2/4 (Hairer, Lubich and Wanner, Geometric Numerical Integration, ch. I.5).
   double energy = 0.04;
   /// Consecutive steps for which a bound must be exceeded: an impact may open a joint for some steps.
   int lasting = 30;
@@ -27,7 +28,7 @@ struct MonitorBounds {
 
 /// Checks after each step of a world that joints are closed, that shapes do not overlap, and that energy has
 /// not grown without a drive. Violations that exist at the start, or that calls between steps cause, are not
-/// counted. Keeps copies of the bodies' states; a step with it costs about a tenth more.
+/// counted. The monitor keeps copies of the bodies' states, and makes a step about a tenth more expensive.
 /// Energy is balanced over each step: the change of kinetic energy minus the work of gravity and of applied
 /// forces. Motors with a speed, springs of joints, moving kinematic bodies, conveyors and mouse joints may do
 /// work, so energy is not checked in steps with these.

@@ -5,7 +5,7 @@
 #include "engine/world/queries/query_filter.h"
 #include "engine/world/world.h"
 
-/// Character controller: a capsule that is not a body of the world, but is stopped by bodies.
+/// Character controller: a capsule that is not a body of the world, but is stopped by its bodies.
 namespace plumb {
 
 struct MoverOptions {
@@ -15,7 +15,7 @@ struct MoverOptions {
   double skin = 0;           ///< m, gap kept to surfaces; 0: a fiftieth of the radius
   double mass = 0;           ///< kg, mass for pushing dynamic bodies; 0: no pushes
   double push_force = 1e12;  ///< N, >= 0: largest force on one body
-  QueryFilter filter{};      ///< shapes that stop it; sensors never do
+  QueryFilter filter{};      ///< shapes that stop it; sensors never stop it
 };
 
 /// A surface that the mover hit or stands on.
@@ -38,18 +38,17 @@ struct MoverResult {
   std::vector<MoverHit> hits{};
 };
 
-/// Moves a capsule, given in the frame of `position` and never rotated, by `velocity` for `dt` s. Must be
-/// called before the world's step of the same dt, because the ground carries it through that step.
-///
+/// Moves a capsule, given in the frame of `position` and never rotated, by `velocity` for `dt` s. Call it
+/// before the world's step of the same dt, because the ground carries the capsule through that step.
 /// First it is pushed out of overlaps. In the air it moves with its velocity, and slides along obstacles. On
 /// the ground, the velocity component across `up` is the speed along the ground, uphill and downhill. A
 /// component against `up` presses on the ground, and one along `up` makes it jump. All motion uses shape
 /// casts, so it does not tunnel at any speed. Up to rounding, it keeps a gap of the skin to everything that
 /// does not move towards it.
-///
-/// `velocity` is relative to the ground while it stands, and to the world in the air, before and after. So
-/// landing on a moving platform subtracts the platform's velocity, and leaving it adds that. The caller adds
-/// gravity. Throws Error (Value) for numbers out of their range.
+/// `velocity` is relative to the ground while the mover stands, and to the world while it is in the air; this
+/// holds before and after the call. So landing on a moving platform subtracts the platform's velocity, and
+/// leaving it adds that velocity. The caller adds gravity. Throws Error (Value) for numbers out of their
+/// range.
 template <class Real>
 MoverResult move(const BasicWorld<Real>& world, const Capsule& capsule, Vec2d position, Vec2d velocity,
                  double dt, const MoverOptions& options = {});

@@ -16,9 +16,10 @@ class PastPoses {
   void keep(const BasicWorld<Real>& world);
 
   /// Returns the interpolated pose of the centre of mass of body `body` of `data`, at `fraction` (0..1)
-  /// between the stored and the present pose. Bodies created since get their present pose.
+  /// between the stored and the present pose. A body created after the poses were stored gets its present
+  /// pose.
   Pose<double> between(const WorldData<Real>& data, int body, double fraction) const;
-  /// Returns the body's angle at `fraction`, rad, whole turns counted.
+  /// Returns the body's angle at `fraction`, rad; it counts whole turns.
   double angle_between(const WorldData<Real>& data, int body, double fraction) const;
 
  private:

@@ -22,7 +22,7 @@ inline constexpr std::size_t kWorldStages = 7;
 inline constexpr const char* kWorldStageNames[] = {"broad_phase", "narrow_phase", "solver", "finalize",
                                                    "continuous",  "events",       "sleep"};
 
-/// Wall time of each stage, ns, since profiling was switched on.
+/// Wall time of each stage since profiling was switched on, ns.
 struct WorldProfile {
   std::array<double, kWorldStages> nanoseconds{};
   std::int64_t steps = 0;

@@ -12,10 +12,8 @@
 /// nothing, may run in parallel with each other, and allocate only in vectors passed to them. SI units.
 /// Geometry is computed in double precision relative to the query's position, so results far from the origin
 /// are as accurate as at the origin.
-///
 /// Visitors and conditions of filters may read the world; a call that would change it throws Error
-/// (Unsupported). An exception thrown by them ends the query.
-///
+/// (Unsupported). An exception thrown by one of them ends the query.
 /// Functions throw Error (Value) for numbers that are not finite, and Error (Name) for handles of destroyed
 /// objects. They exist for BasicWorld<float> and BasicWorld<double>.
 namespace plumb {
@@ -36,7 +34,7 @@ struct CastShapeResult {
   double fraction = 1;      ///< of the translation, 0 .. 1
   Vec2d point{};            ///< m, on the surface of the shape hit
   Vec2d normal{};           ///< unit, outward from the shape hit
-  bool overlapped = false;  ///< they overlap before the motion: fraction 0, normal of least penetration
+  bool overlapped = false;  ///< they overlap at the start: fraction 0, normal of least penetration
 };
 
 struct NearestResult {
@@ -54,9 +52,9 @@ struct ShapeDistance {
   double distance = 0;         ///< m, negative: the least translation that separates them
 };
 
-/// Visitors of rays and casts return the fraction of the translation up to which to search on. 1 goes on (the
-/// hit is ignored), hit.fraction excludes farther hits, 0 stops. Hits come in an order that depends only on
-/// the world's history, not sorted by fraction.
+/// Visitors of rays and casts return the fraction of the translation up to which the search continues: 1
+/// ignores the hit, hit.fraction excludes farther hits, 0 stops. Hits come in an order that depends only on
+/// the world's history; they are not sorted by fraction.
 using VisitRay = FunctionRef<double(const RayResult& hit)>;
 using VisitCast = FunctionRef<double(const CastShapeResult& hit)>;
 /// Return false to stop.
@@ -86,8 +84,8 @@ template <class Real>
 void cast_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                 Vec2d translation, const QueryFilter& filter, VisitCast visit);
 
-/// Finds shapes that overlap or touch a shape at a given pose; segments of chains from both sides. Vectors
-/// are cleared first, and sorted by shape index.
+/// Finds shapes that overlap or touch a shape at a given pose. Segments of chains are found from both sides.
+/// The vectors are cleared first; the results are sorted by shape index.
 template <class Real>
 void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                    const QueryFilter& filter, VisitShape visit);
@@ -110,7 +108,8 @@ void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& fi
                std::vector<ShapeId>& found);
 
 /// Returns the shape whose surface is nearest to `point` within `max_distance` (m, >= 0). If the point is
-/// inside shapes, returns the one in which it is deepest. At equal distance, the smaller index.
+/// inside shapes, returns the one in which it is deepest. Of equally near shapes, returns the one with the
+/// smallest index.
 template <class Real>
 std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point, double max_distance,
                                      const QueryFilter& filter = {});

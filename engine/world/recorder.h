@@ -19,8 +19,7 @@ struct RecordOptions {
 
 /// A world whose calls are written to a file, for a replay (replay.h). It is used like the world itself:
 /// calls that change the world are members of this class, all others go through `->`.
-///
-/// Calls are written, and flushed to the operating system, before the step that they affect is taken. If a
+/// Calls are written, and flushed to the operating system, before the step that they affect is made. If a
 /// program crashes in a step, or is killed, its recording leads up to that step. Rejected calls are not
 /// recorded. All members throw Error (Io) if the file can no longer be written.
 template <class Real>
@@ -94,7 +93,7 @@ class RecordedWorld {
   void set_user_data(JointId joint, std::uint64_t data);
   void set_load_events(JointId joint, double force, double torque);
 
-  /// Sets the hook. It is code and cannot be recorded: the replay needs the same hook.
+  /// Sets the hook. It is code and cannot be recorded: set the same hook for the replay.
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
   /// Restores the world from a snapshot (snapshot.h).

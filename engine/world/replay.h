@@ -21,10 +21,11 @@ struct BodyDifference {
 struct ReplayReport {
   int calls = 0;           ///< repeated, steps included
   std::int64_t steps = 0;  ///< repeated
-  /// Step count of the world after the first step whose resulting state differs; none: all were equal.
+  /// Step count of the world after the first step whose resulting state differs; nullopt: all states were
+  /// equal.
   std::optional<std::int64_t> first_difference{};
-  std::uint64_t recorded_hash = 0, hash = 0;  ///< of the world, after the last step that was compared
-  std::vector<BodyDifference> bodies{};       ///< bodies that differ then, if they were recorded
+  std::uint64_t recorded_hash = 0, hash = 0;  ///< hashes of the world after the last compared step
+  std::vector<BodyDifference> bodies{};       ///< bodies that differ then, if recorded
   std::string message{};                      ///< truncated end, rejected call or missing hook; else empty
 };
 
@@ -36,7 +37,7 @@ class Replay {
   /// this precision and version.
   explicit Replay(const std::filesystem::path& file, std::function<bool(const ContactReading&)> hook = {});
 
-  /// Repeats all calls up to the next step, takes the step and compares the states; returns false at the end
+  /// Repeats all calls up to the next step, makes the step and compares the states. Returns false at the end
   /// of the recording. Throws Error (Value, "recording") for a damaged record, unless it is the last one.
   bool step();
 

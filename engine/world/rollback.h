@@ -8,13 +8,11 @@
 
 namespace plumb {
 
-/// Stores the last states of a world for rollback: in network play, inputs arrive late and the steps since
-/// then are repeated. States are copies in memory, without serialisation, checksum or validation. Once each
-/// slot of the ring has been used, neither saving nor rolling back allocates (unless the world has grown
-/// since).
-///
+/// Stores the last states of a world for rollback: in network play, inputs arrive late, and the steps after
+/// them are repeated. States are copies in memory, without serialisation, checksum or validation. Once each
+/// slot of the ring has been used, neither saving nor rolling back allocates (unless the world has grown).
 /// The world must outlive this object and must not move. A state contains the same data as a snapshot
-/// (snapshot.h). After a rollback, handles created since that state are invalid.
+/// (snapshot.h). After a rollback, handles created after the restored state are invalid.
 template <class Real>
 class Rollback {
  public:
@@ -28,8 +26,8 @@ class Rollback {
   /// ring is full, the oldest.
   void save();
 
-  /// Restores the state after `step` steps and drops later ones. Throws Error (Value) if there is none, and
-  /// then changes nothing.
+  /// Restores the state that was saved after `step` steps, and drops later ones. If there is none, throws
+  /// Error (Value) and changes nothing.
   void back_to(std::int64_t step);
 
   bool holds(std::int64_t step) const { return find(step) >= 0; }

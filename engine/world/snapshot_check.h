@@ -5,7 +5,7 @@
 namespace plumb {
 
 /// Checks that data read from a snapshot are consistent: sizes, links, indices, numbers. Throws Error (Value,
-/// subject "snapshot") if not, because no step may read beyond an array, whatever the bytes.
+/// subject "snapshot") otherwise: no bytes, however damaged, may make a step read beyond an array.
 template <class Real>
 void check_state(const WorldData<Real>& w);
 

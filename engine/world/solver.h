@@ -6,10 +6,11 @@
 
 namespace plumb {
 
-/// Solver of contacts and joints. Each is a file in engine/world; docs/guide/solvers.md compares them.
+/// Solver of contacts and joints. Each is a file in engine/world/solvers; docs/guide/solvers.md compares
+/// them.
 enum class Solver : std::uint8_t {
   SoftSteps,           ///< soft constraints with substeps and relaxation; direct solve of small islands
-  SequentialImpulses,  ///< Catto (2005): accumulated impulses, position errors fed back
+  SequentialImpulses,  ///< Catto (2005): accumulated impulses, with feedback of position errors
   Jakobsen,            ///< Jakobsen (2001): projection of positions, velocities from positions
   Xpbd,                ///< Macklin and Mueller (2016): a projection with compliance in each substep
   Direct,              ///< soft steps, with a direct solve of islands with joints

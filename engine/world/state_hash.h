@@ -8,9 +8,9 @@
 
 namespace plumb {
 
-/// Returns a hash of all data in a snapshot of the world: contacts, impulses, trees, free slots;
-/// BasicWorld::hash covers only the bodies' state. Worlds with equal hashes continue alike. Equal on every
-/// platform for the same calls.
+/// Returns a hash of all data in a snapshot of the world: contacts, impulses, trees, free slots.
+/// (BasicWorld::hash covers only the bodies' state.) Worlds with equal hashes continue in the same way. The
+/// hash is equal on every platform for the same calls.
 template <class Real>
 std::uint64_t full_hash(const BasicWorld<Real>& world);
 

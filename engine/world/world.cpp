@@ -29,7 +29,7 @@ namespace {
               never ? "names nothing" : "names something that was destroyed, or is of another world");
 }
 
-// Changes the threads of a world by `set`.
+// Changes the number or the source of a world's threads by calling `set`.
 template <class Real, class Set>
 void set_crew(WorldData<Real>& w, const Set& set) {
   try {
@@ -45,7 +45,7 @@ template <class Real>
 BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(OwnedPointer(new WorldData<Real>)) {
   validate(definition);
   data_->settings = definition;
-  data_->settings.threads = 1;  // the crew has them
+  data_->settings.threads = 1;  // the crew stores the number
   set_crew(*data_, [&](Crew& crew) { crew.set_threads(definition.threads); });
 }
 // If a callback destroys the world, the running call takes over its data and deletes them.

@@ -27,7 +27,7 @@ struct WorldData;
 struct JointReading {
   double force = 0, torque = 0;                ///< N, N m: reaction over the last substep
   double linear_error = 0, angular_error = 0;  ///< m, rad: position error of the rigid rows
-  double angle = 0;                            ///< rad, of b relative to a minus the reference angle
+  double angle = 0;                            ///< rad, of b relative to a, from the reference angle
   double translation = 0;                      ///< m, along the axis (prismatic, wheel)
   double length = 0;                           ///< m (distance, pulley)
 };
@@ -41,8 +41,8 @@ struct ContactReading {
   double separations[2] = {};  ///< m, negative: overlap
   double impulses[2] = {};     ///< N s, along the normal, of the last substep
   double approach = 0;         ///< m/s, along the normal at the start of the step, negative: closing
-  double step_impulse = 0;     ///< N s, along the normal, of the whole step and both points; of shapes with
-                               ///< `hit_events` or `pre_solve`, else 0. Divided by dt: the mean force
+  double step_impulse = 0;     ///< N s, along the normal, of the whole step and both points; 0 unless a shape
+                               ///< has `hit_events` or `pre_solve`. Divided by dt it is the mean force
 };
 
 /// Pose of a body.
@@ -58,13 +58,12 @@ struct WorldCounts {
 /// A game's world: bodies, shapes and joints that are added, changed and removed while it advances in steps.
 /// Positions are stored in double, everything else in `Real`; the interface uses double. SI units, y up,
 /// angles in rad, counter-clockwise. Functions throw Error (Name) for handles of destroyed objects and Error
-/// (Value) for numbers out of range, and then change nothing. Movable, not copyable: a moved-from world
-/// throws Error (Name) at each call.
-///
+/// (Value) for numbers out of range, and then change nothing. A world is movable, not copyable: a moved-from
+/// world throws Error (Name) at each call.
 /// Calls wake all bodies that they could affect. User code that the world calls (hooks, rules, force laws,
-/// visitors of queries) may read it; calls that change it throw Error (Unsupported). An exception of such
-/// code ends the call; the world remains usable. The same holds if memory runs out: calls that create change
-/// nothing, others may be incomplete.
+/// visitors of queries) may read it; calls that change it throw Error (Unsupported). An exception thrown by
+/// such code ends the call; the world remains usable. The same holds if memory runs out: calls that create
+/// objects change nothing, others may be incomplete.
 template <class Real>
 class BasicWorld {
  public:
@@ -80,9 +79,9 @@ class BasicWorld {
   std::int64_t step_count() const;
   const Events& events() const;  ///< of the last step
 
-  /// Sets the user's own combine rules for contacts that begin from now on; null: those of the definition.
-  /// They are code and not part of snapshots: set them again in a restored world. Recorded worlds cannot have
-  /// them.
+  /// Sets the user's own combine rules for contacts that begin from now on; with null, those of the
+  /// definition apply. Rules are code and not part of snapshots: set them again in a restored world. Recorded
+  /// worlds cannot have them.
   void combine_with(CombineFunction friction, CombineFunction restitution);
 
   void set_gravity(Vec2d gravity);
@@ -95,23 +94,23 @@ class BasicWorld {
   void set_iterations(int iterations);  ///< per substep: SequentialImpulses and Jakobsen
   int iterations() const;
   void set_direct_islands(bool on);  ///< SoftSteps solves small islands directly
-  /// Sets the quarantine of bodies with a non-finite state. Without it, Error (Run, or Value for a force law)
-  /// ends the call; the step is then incomplete.
+  /// Switches quarantine of bodies with a non-finite state on or off. Without it, Error (Run, or Value for a
+  /// force law) ends the call; the step is then incomplete.
   void set_quarantine(bool on);
   /// Sets the speeds, m/s, at which behaviour changes; wakes all bodies if one differs. Throws Error (Value)
   /// for a number that is not finite.
   void set_thresholds(const Thresholds& thresholds);
   Thresholds thresholds() const;
   WorldCounts counts() const;
-  /// Switches the stages' clocks on or off; on starts from zero. Not part of snapshots.
+  /// Switches the stages' clocks on, from zero, or off. Not part of snapshots.
   void set_profiling(bool on);
   const WorldProfile& profile() const;  ///< all 0 until profiling is switched on
-  /// Sets the number of threads that share a step, see WorldDefinition::threads. Throws Error: Value for a
-  /// number out of range, Run if the system has no more threads; nothing is changed then.
+  /// Sets the number of threads that share a step, see WorldDefinition::threads. Throws Error (Value) for a
+  /// number out of range, and Error (Run) if the system has no more threads; nothing is changed then.
   void set_threads(int threads);
   int threads() const;
-  /// Shares steps with a game's own threads in place of a pool's: `threads() - 1` tasks at a time; see
-  /// task_system.h. An empty one stands for the pool again. Throws Error (Value) if one of its functions is
+  /// Shares steps with a game's own threads instead of a pool's: `threads() - 1` tasks at a time; see
+  /// task_system.h. An empty task system restores the pool. Throws Error (Value) if one of its functions is
   /// missing. Not part of snapshots.
   void set_task_system(const TaskSystem& tasks);
 
@@ -119,7 +118,7 @@ class BasicWorld {
   /// contacts and active joints, and queries skip them. They can be changed like any other body.
   std::vector<QuarantineEvent> quarantined() const;
   bool quarantined(BodyId body) const;
-  /// Releases a body from quarantine, with its previous state or the one that was set since.
+  /// Releases a body from quarantine, with its previous state or the one set since then.
   void release(BodyId body);
 
   // Bodies.
@@ -132,8 +131,8 @@ class BasicWorld {
   bool valid(BodyId body) const;
   std::vector<BodyId> bodies() const;  ///< all, by index
 
-  /// Each fills `out` as far as it has room, and returns the total number. Poses and states are in the order
-  /// of `bodies`, contacts (those with points) in the order of their creation, each once.
+  /// Each of these fills `out` as far as there is space, and returns the total number. Poses and states are
+  /// in the order of `bodies`; contacts (those with points) are in the order of their creation, each once.
   std::size_t bodies(std::span<BodyId> out) const;
   std::size_t poses(std::span<BodyPose> out) const;
   std::size_t states(std::span<BodyState> out) const;
@@ -190,12 +189,13 @@ class BasicWorld {
   void set_user_data(BodyId body, std::uint64_t data);
   const std::string& name(BodyId body) const;
   void set_name(BodyId body, const std::string& name);
-  /// Removes a body from the simulation, or puts it back with its pose and velocity. Disabled bodies have no
-  /// contacts and active joints, and queries skip them; they can be changed like any other body. Does not
+  /// Removes a body from the simulation, or restores it with its pose and velocity. Disabled bodies have no
+  /// contacts and no active joints, and queries skip them; they can be changed like any other body. Does not
   /// release a body from quarantine.
   void set_enabled(BodyId body, bool enabled);
   bool enabled(BodyId body) const;  ///< false: disabled, or in quarantine
-  /// Returns the smallest box around the body's shapes, m, rounded to `Real`: at its origin without shapes.
+  /// Returns the smallest box around the body's shapes, m, rounded to `Real`. Without shapes it is at the
+  /// body's origin.
   Aabb<double> box(BodyId body) const;
   std::vector<ShapeId> shapes(BodyId body) const;           ///< in the order of creation
   std::vector<JointId> joints(BodyId body) const;           ///< in the order of creation
@@ -249,8 +249,8 @@ class BasicWorld {
   /// docs/decisions/constant-springs.md.
   JointStiffness stiffness(JointId joint) const;
   JointDefinition definition(JointId joint) const;  ///< the present one
-  /// Sets the loads beyond which the joint is in `events().loaded`, N and N m; 0: never. Throws Error (Value)
-  /// for a negative number or one that is not finite.
+  /// Sets the loads, N and N m, above which `events().loaded` reports the joint; 0: never. Throws Error
+  /// (Value) for a negative number or one that is not finite.
   void set_load_events(JointId joint, double force, double torque);
   std::uint64_t user_data(JointId joint) const;
   void set_user_data(JointId joint, std::uint64_t data);
@@ -261,10 +261,10 @@ class BasicWorld {
   void on_pre_solve(std::function<bool(const ContactReading&)> hook);
 
   /// Sets the user's filter. It is called for two shapes whose fat AABBs overlap and whose own filters permit
-  /// a contact; false: they do not collide. Existing contacts stay until `set_filter` is called for one of
-  /// their shapes, which ends them and calls the filter again. Sensors and queries do not call it. Like a
-  /// combine rule, it is code: it must depend on the world's state alone, it is not part of snapshots, and
-  /// recorded worlds cannot have one. An exception ends the step before anything has moved, except from
+  /// a contact; if it returns false, they do not collide. Existing contacts stay until `set_filter` is called
+  /// for one of their shapes, which ends them and calls the filter again. Sensors and queries do not call it.
+  /// It is code, like a combine rule: it must depend on the world's state alone, it is not part of snapshots,
+  /// and recorded worlds cannot have one. An exception ends the step before anything has moved, except from
   /// continuous collision.
   void on_filter(std::function<bool(ShapeId, ShapeId)> filter);
 

@@ -18,7 +18,7 @@
 /// The members of BasicWorld about bodies; world.cpp instantiates them.
 namespace plumb {
 
-/// Writes `value(body)` for each body, by index, as far as `out` goes; returns the number of bodies.
+/// Writes `value(body)` for each body, by index, for as many as fit into `out`; returns the number of bodies.
 template <class Real, class Value, class Function>
 std::size_t fill_bodies(const WorldData<Real>& w, std::span<Value> out, const Function& value) {
   std::size_t count = 0;
@@ -101,7 +101,7 @@ std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
     ++count;
   };
   for (const int body : w.awake) add({static_cast<std::uint32_t>(body), w.bodies.generation(body)});
-  // Bodies that were woken since are in both lists.
+  // Bodies that have been woken again are in both lists.
   for (const BodyId body : w.events.fell_asleep) {
     if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);
   }
@@ -357,7 +357,7 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   data_->motion[index].inverse_mass = dynamic ? inverse_mass_of(record, record.mass) : Real(0);
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
-  // Rounding residues must not move locked axes either.
+  // Residues of rounding must not move locked axes either.
   data_->position_compensation.renew(index, data_->bodies.size());
   data_->topology_changed = true;
   invalidate_manifolds(*data_, index);
@@ -496,8 +496,8 @@ std::size_t BasicWorld<Real>::contacts(std::span<ContactReading> out) const {
   return count;
 }
 
-// Wakes a body and resets its sleep timer, because a change from outside must not be followed by sleep at
-// once.
+// Wakes a body and resets its sleep timer, because it must not fall asleep at once after a change from
+// outside.
 template <class Real>
 void BasicWorld<Real>::wake(int body) {
   wake_body(*data_, body);

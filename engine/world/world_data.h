@@ -43,7 +43,7 @@ struct BodyRecord {
   bool may_sleep = true;
   bool lock_x = false, lock_y = false, lock_rotation = false;
   bool mass_given = false;
-  bool quarantined = false;  ///< its type is Static meanwhile
+  bool quarantined = false;  ///< while so, its type is Static
   int awake_index = kNone;
   int first_shape = kNone, first_contact = kNone,
       first_joint = kNone;     ///< contact and joint: edge = 2 index + side
@@ -51,7 +51,7 @@ struct BodyRecord {
   int uncommon = kNone;        ///< index of its BodyExtras
   Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass; negative: unknown, for a static body
   Vec2<Real> centre{};         ///< m, centre of rotation in the body's frame: mass.h
-  Real half_width = 0;         ///< m, smallest half width of its shapes; negative: in `unsettled`
+  Real half_width = 0;         ///< m, smallest half width of its shapes; negative if in `unsettled`
   Real sleep_time = 0;         ///< s, sleep timer
   double angle = 0;            ///< rad, whole turns counted
 
@@ -78,7 +78,7 @@ struct Load {
 /// Collision data of a shape, in the frame of its body's centre of mass.
 template <class Real>
 struct ShapeForm {
-  int corner = 0;  ///< first in the pool; a chain's segment has its neighbours before and after
+  int corner = 0;  ///< first in the pool; for a chain's segment, that of the neighbour before it
   std::uint16_t count = 0;
   bool chain = false, sensor = false;
   Real radius = 0;  ///< m, of rounding
@@ -160,13 +160,14 @@ struct VelocityIncrement {
   Real spin = 0;                 ///< rad/s
   Real keep = 1, keep_spin = 1;  ///< factors by damping
   bool locked_x = false, locked_y = false;
-  bool in_tree = false;          ///< moved with its articulated body
+  bool in_tree = false;          ///< moved as part of its articulated body
   Vec2<Real> velocity_before{};  ///< m/s, after forces, before contact impulses of this substep
   Real spin_before = 0;          ///< rad/s
 };
 
-/// A body whose motion in a step is tested for impacts: it moved far for its size, or a bounce is `expected`.
-/// `covered`: its fat AABBs contained the whole motion, so only its contacts need testing.
+/// A body whose motion in a step is tested for impacts, because it moved far for its size, or because a
+/// bounce is `expected`. `covered`: its fat AABBs contained the whole motion, so only its contacts need
+/// testing.
 struct FastBody {
   int body = 0;
   bool covered = false;
@@ -181,7 +182,7 @@ struct ExpectedImpact {
   bool left = false;      ///< left to the solver
 };
 
-/// A shape that has left its fat AABB, and its next one.
+/// A shape that has left its fat AABB, with its next fat AABB.
 template <class Real>
 struct LeftBox {
   int shape = 0;
@@ -193,8 +194,8 @@ template <class Real>
 struct BegunContact {
   ContactConstraint<Real> constraint{};
   bool bounces = false;   ///< it is one of the `bouncing`
-  bool pressing = false;  ///< its bodies will press in this step
-  bool asked = false;     ///< the user's pre-solve hook decides about it
+  bool pressing = false;  ///< its bodies will be pressed together in this step
+  bool asked = false;     ///< the user's pre-solve hook is to be called for it
   bool waived = false;    ///< it was disabled
 };
 
@@ -219,7 +220,7 @@ struct DirectIsland {
 /// A body of an island with joints: its motion through a substep, in double.
 struct JointedLink {
   int body = kNone;
-  Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without impulses, then with; the mean
+  Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without, then with impulses; the mean
   double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, the same
   Vec2d push{};                                ///< m/s, by forces in the substep
   double twist = 0;                            ///< rad/s, the same
@@ -230,12 +231,12 @@ struct JointedLink {
 /// The source of a row of an island with joints.
 template <class Real>
 struct RowTie {
-  Real* impulse = nullptr;  ///< N s, in the joint or contact
-  Real most = 0;            ///< N s, of a pair of rows
+  Real* impulse = nullptr;  ///< N s, where the joint or contact stores it
+  Real most = 0;            ///< N s, bound of a pair of rows as a vector
   bool pair = false;
   int first = -1, count = 0;  ///< rows whose impulses bound this one
-  double factor = 0;          ///< on their sum; m for torques
-  Real* tangent = nullptr;    ///< N s, in the contact of which the row is a ray
+  double factor = 0;          ///< applied to their sum; m for torques
+  Real* tangent = nullptr;    ///< N s, where the contact stores it, if the row is a ray
   double slope = 0;           ///< tangent impulse per impulse of the ray
 };
 
@@ -246,8 +247,8 @@ struct FrictionCone {
   int block = 0;
   int first = 0, count = 0;   ///< rows
   double friction = 0;        ///< coefficient
-  double slip = 0;            ///< m/s, along the tangent, for which the rows are made
-  double gain = 1, last = 0;  ///< factor on the next change of `slip`; m/s, the last one
+  double slip = 0;            ///< m/s, along the tangent: the slip for which the rows were made
+  double gain = 1, last = 0;  ///< factor of the next change of `slip`; m/s, the last change
 };
 
 /// Impulses of a contact, N s and N m s.
@@ -291,12 +292,12 @@ struct JointedIsland {
   double energy = 0;    ///< J, to which errors of the substep's solutions are relative
 };
 
-/// A row whose position error is fed back: see solvers/error_feedback.h.
+/// A row whose position error is fed back, see solvers/error_feedback.h.
 template <class Real>
 struct FeedbackRow {
   int body_a = 0, body_b = 0;
   JointRow<Real> row{};
-  Real speed = 0;  ///< m/s or rad/s, wanted along the row
+  Real speed = 0;  ///< m/s or rad/s, target along the row
   Real mass = 0, impulse = 0;
   Real least = 0, most = std::numeric_limits<Real>::infinity();  ///< bounds of the impulse
 };
@@ -321,7 +322,7 @@ struct Scratch {
   BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
   std::vector<char> meets;                         ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
-  std::vector<int> parted_contacts;  ///< touched at an impact in flight, and have got no points
+  std::vector<int> parted_contacts;  ///< touched at an impact in flight, and have no points now
   BlockLists<BegunContact<Real>> begun_contacts;
   BlockLists<ExpectedImpact<Real>> found_impacts;
   BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on
@@ -330,7 +331,7 @@ struct Scratch {
   std::vector<char> loaded;                   ///< by body: a contact has pressed on it: contacts.h
   std::vector<std::uint8_t> contact_changes;  ///< by contact that is updated: near ones, then the graph's
   std::vector<std::uint8_t>
-      separating_faces;  ///< by contact: one that separated its shapes, of those without points
+      separating_faces;  ///< by contact without points: the face that separates its shapes
   std::vector<VelocityIncrement<Real>> kicks;  ///< of the awake bodies that move by substeps
   std::vector<BodyVelocity<Real>> starts;      ///< their velocities at the start of the step
   std::vector<int> block_firsts;               ///< by block of a loop: where its results begin
@@ -339,7 +340,7 @@ struct Scratch {
   std::vector<int> link_of;  ///< by body: index among the links of its island
   std::vector<Real> lightest, heaviest;
   std::vector<int> island_joints, island_bounded;
-  std::vector<Real> carry;  ///< by body: fraction of its impulses with which iterations start; empty: 1
+  std::vector<Real> carry;  ///< by body: fraction of impulses from which iterations start; empty: 1
   std::vector<JointSolverRow<Real>> joint_rows;
   std::vector<FeedbackRow<Real>> feedback_rows;
   std::vector<BodyVelocity<Real>> feedback;  ///< by body
@@ -352,20 +353,20 @@ struct Scratch {
   std::vector<char> open_joints;      ///< by slot of the joint: joint_gaps.cpp
   JointedIsland<Real> opened{&room};  ///< a mechanism whose gaps are being closed
   bool islands_known = false;         ///< `island_of` and `island_size` are up to date
-  bool islands_chosen = false;        ///< one of them at least is solved directly
+  bool islands_chosen = false;        ///< at least one island is solved directly
   HingeTrees<Real> trees;
   std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
-  std::vector<char> not_a_tree, tree_grounded;  ///< by representative of a set, the same
+  std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set
   std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<int> unparked;  ///< contacts that have come back from sleepers in the step
   std::vector<RestitutionContact<Real>> bounces;
-  std::vector<char> apart;         ///< by contact: it is not solved side by side with others
-  std::vector<char> joints_apart;  ///< by the joint's slot: likewise
+  std::vector<char> apart;         ///< by contact: it must not be solved in lanes
+  std::vector<char> joints_apart;  ///< the same by the joint's slot
   SoftContacts<Real> passes;
   std::vector<ExpectedImpact<Real>> expected_impacts;
-  std::vector<int> pressed_bodies;  ///< bodies that something will hold in this step
+  std::vector<int> pressed_bodies;  ///< bodies that contacts or joints will hold in this step
   std::vector<int> expecting_bodies;
-  std::vector<char> pressed, expecting;  ///< by body: it is in the list; all 0 if the list is empty
+  std::vector<char> pressed, expecting;  ///< by body: true if it is in that list; all 0 if the list is empty
   ImpactScratch<Real> impacts{&room};
   std::vector<char> cannot_sleep;
   BlockLists<LeftBox<Real>> left_boxes;  ///< by block of awake bodies, as are the next two
@@ -438,11 +439,11 @@ struct WorldData {
   bool profiled = false;  ///< stages are timed
   WorldProfile profile{};
   Crew crew;                            ///< the threads that share a step
-  mutable std::atomic<int> callers{0};  ///< callbacks of the user that read the world now: lock.h
-  bool abandoned = false;               ///< its owner is gone; the last of these deletes it
+  mutable std::atomic<int> callers{0};  ///< number of the user's callbacks that read the world now: lock.h
+  bool abandoned = false;               ///< its owner is destroyed; the last callback deletes it
   bool reports_hits = false;            ///< a shape has hit events
-  bool topology_changed = true;  ///< since islands were found: a contact or joint was added or removed, a
-                                 ///< body woke or fell asleep
+  bool topology_changed = true;  ///< since islands were last found: a contact or joint was added or removed,
+                                 ///< or a body woke or fell asleep
   Scratch<Real> scratch;
 
   /// Called for contacts of shapes with `pre_solve` after their manifold was computed; false disables one in
@@ -455,11 +456,11 @@ struct WorldData {
   /// The user's own combine rules, instead of those of the settings.
   CombineFunction friction_rule = nullptr, restitution_rule = nullptr;
 
-  /// Returns true if the user's own code decides about coefficients: only the calling thread may call it.
+  /// Returns true if the user's own code computes coefficients; only the calling thread may call that code.
   bool has_rules() const { return friction_rule != nullptr || restitution_rule != nullptr; }
   /// Returns true if continuous collision may call the user's own code.
   bool asks_user() const { return has_rules() || filter; }
-  /// Returns the buffer for events that happen now.
+  /// Returns the buffer for events that are raised now.
   Events& log() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
   bool is_dynamic(int body) const { return bodies[body].type == BodyType::Dynamic; }

@@ -197,7 +197,7 @@ template <class Real>
 void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
   unlocked(*this);
   const JointRecord& record = data_->joints[place(joint)];
-  data_->topology_changed = true;  // before the joints' lists grow, which may fail halfway
+  data_->topology_changed = true;  // set before the joints' lists grow, which may fail halfway
   data_->joint_set.change(record.slot, kind);
   data_->joint_set.meet(record.slot, data_->bodies[record.body_a].angle, data_->bodies[record.body_b].angle);
   wake(record.body_a), wake(record.body_b);

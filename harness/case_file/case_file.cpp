@@ -29,7 +29,7 @@ using scenarios::Problem;
 using Law = Expectation::Law;
 namespace fs = std::filesystem;
 
-constexpr double kLongest = 1e6;  // s, of a run: longer durations are taken for typing errors
+constexpr double kLongest = 1e6;  // s, of a run: a longer duration counts as a typing error
 
 struct LawName {
   const char* name;
@@ -300,7 +300,7 @@ class Reader {
   const Member& root_;
   CaseFile out_;
   std::optional<Names> names_;
-  std::vector<Motion> motions_;  // by body; without parts where the file does not give all six
+  std::vector<Motion> motions_;  // by body; empty unless the file gives all six
 };
 
 }  // namespace

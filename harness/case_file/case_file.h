@@ -23,11 +23,12 @@ CaseFile read_case(const std::string& path);
 /// read.
 bool is_case(const std::string& path);
 
-/// Returns the case files directly in a folder, by name; empty if there are none, or no such folder.
+/// Returns the case files directly in a folder, by name; empty if there are none, or if the folder does not
+/// exist.
 std::vector<std::string> cases_in(const std::string& folder);
 
-/// Returns a case file as an instance, which commands accept like a scenario. Data that it refers to is kept
-/// until the program ends. Throws as `read_case`.
+/// Returns a case file as an instance, which commands accept like a scenario. The data that it refers to is
+/// kept until the program ends. Throws as `read_case`.
 scenarios::Instance case_instance(const std::string& path);
 
 }  // namespace plumb::harness::case_file

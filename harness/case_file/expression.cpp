@@ -112,7 +112,7 @@ struct Expression::Parts {
 #ifdef PLUMB_WITH_MUPARSER
   mu::Parser parser;
 #endif
-  bool parsed = false;  // if false, the value is that of the first used name
+  bool parsed = false;  // if false, returns the value of the first used name
 };
 
 Expression::Expression(const std::string& text, const Names& names) : parts_(std::make_shared<Parts>()) {

@@ -49,7 +49,7 @@ std::string process_names() {
 // such process.
 std::string began(pid_t process) {
   const std::string line = first_line(fmt::format("/proc/{}/stat", process));
-  std::size_t at = line.rfind(')');  // the name before it may hold spaces
+  std::size_t at = line.rfind(')');  // the name before it may contain spaces
   for (int field = 2; at != std::string::npos && field < 22; ++field) at = line.find(' ', at + 1);
   return at == std::string::npos ? "" : line.substr(at + 1, line.find(' ', at + 1) - at - 1);
 }
@@ -111,8 +111,8 @@ bool put(const std::string& own, const std::string& path) {
   return true;
 }
 
-// Returns true if the claim in `path`, whose text is `text`, may be taken from its holder. `now`: the file
-// system's time. A claim from the future is set to now: its holder renews it, or it expires.
+// Returns true if the claim in `path`, whose text is `text`, may be taken from its holder. `now` is the file
+// system's time. A claim from the future is set to `now`: then its holder renews it, or it expires.
 bool is_over(const std::string& path, const std::string& text, double now, double expiry) {
   if (is_dead(text)) return true;
   const std::optional<double> then = changed(path);
@@ -142,7 +142,7 @@ std::unique_ptr<Claim> Claim::take(const std::string& folder, int number, double
     const std::string away = fmt::format("{}/doing/{}.expired", folder, nonce);
     if (rename(path.c_str(), away.c_str()) == 0) {
       const bool same = text_of(away) == text;
-      if (!same) link(away.c_str(), path.c_str());  // the holder renewed the claim meanwhile, so give it back
+      if (!same) link(away.c_str(), path.c_str());  // the holder has renewed the claim: give it back
       unlink(away.c_str());
       if (!same && !force) break;
       died = over;

@@ -6,13 +6,13 @@
 namespace plumb::harness::cluster {
 
 /// A process's claim to a unit: a file in claims/, created by a hard link so that only one process gets it.
-/// Claims only save work. If two processes do the same unit after all, the results that are moved into place
+/// Claims only save work: if two processes do the same unit anyway, the results that are moved into place
 /// first count.
 class Claim {
  public:
-  /// Takes the claim to a unit. Returns nothing if another process holds it that is alive, as far as can be
-  /// known, and has renewed its claim within `expiry` s by the file system's clock. With `force` takes the
-  /// claim from any holder. Sets `died` if the previous holder was dead. Throws `Error` (Io).
+  /// Takes the claim to a unit. Returns null if another process holds it, is alive as far as can be known,
+  /// and has renewed its claim within `expiry` s by the file system's clock. With `force`, takes the claim
+  /// from any holder. Sets `died` if the previous holder was dead. Throws `Error` (Io).
   static std::unique_ptr<Claim> take(const std::string& folder, int number, double expiry, bool force,
                                      bool& died);
   Claim(const Claim&) = delete;
@@ -31,7 +31,7 @@ class Claim {
 /// files.
 void remove_dead_claims(const std::string& folder, double expiry);
 
-/// Returns true if a unit is claimed by a process that is alive, as far as this machine's clock can tell.
+/// Returns true if a unit is claimed by a process that is alive, as far as this machine can know.
 bool is_claimed(const std::string& folder, int number, double expiry);
 
 }  // namespace plumb::harness::cluster

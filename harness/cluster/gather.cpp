@@ -77,7 +77,7 @@ class Replacement {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Identity of a line, and the part of it that must not change when the unit is repeated.
+/// Identity of a line, and the part of it that must stay the same when the unit is repeated.
 struct Entry {
   std::string key, essence, status;
 };
@@ -110,7 +110,7 @@ constexpr Format kFormats[] = {{"results.jsonl", entry_of_result},
                                {"stress.jsonl", entry_of_cell},
                                {"thresholds.jsonl", entry_of_threshold}};
 
-// Calls `take` for each whole line; returns true if the last was cut short.
+// Calls `take` for each whole line; returns true if the last line is truncated.
 bool for_each_line(const fs::path& path, const std::function<void(const std::string&)>& take) {
   const std::string text = read_packed_or_plain(path.string());
   std::size_t begin = 0;
@@ -170,7 +170,7 @@ class Merger {
 
  private:
   static bool is_environment(const std::string& line) {
-    if (!line.starts_with(R"({"kind":)")) return false;  // results have no kind; parsing each takes long
+    if (!line.starts_with(R"({"kind":)")) return false;  // results have no kind; parsing would take long
     const Json json = Json::parse(line, nullptr, false);
     return json.is_object() && json.value("kind", Json()) == "environment";
   }

@@ -21,7 +21,7 @@ struct MachineUse {
 struct Survey {
   std::vector<Done> done;
   std::vector<int> free, running;
-  std::map<std::string, std::vector<int>> failed;  ///< by the kind of the last failure; not done since
+  std::map<std::string, std::vector<int>> failed;  ///< by the kind of the last failure, if not done since
   std::map<int, std::string> damaged;              ///< in done/, but not complete
   std::vector<int> noisy;                          ///< measured while other programs used the machine
   std::map<std::string, MachineUse> machines;      ///< by kind
@@ -41,14 +41,14 @@ struct Gathered {
   std::map<std::string, int> statuses{};  ///< runs of results.jsonl by status, cells by outcome
   std::size_t cut_short = 0;              ///< last lines that were truncated, and left out
   std::size_t twice = 0;                  ///< runs that two units made; the first counts
-  std::vector<std::string> differ{};      ///< of these, the runs whose errors differ in their bits
+  std::vector<std::string> differ{};      ///< number of these whose errors differ in their bits
   bool hunted = false;
   hunt::Hunted hunt{};
 };
 
-/// Writes the results of the units that are done to `out`, in the order of the plan; each file is replaced
-/// as a whole. Several processes may do this at once: with file locks they take turns, without them the
-/// last one's files remain. Throws `Error` (Io).
+/// Writes the results of the units that are done to `out`, in the order of the plan; each file is replaced as
+/// a whole. Several processes may call this at once: with file locks they take turns, without them the files
+/// of the last one remain. Throws `Error` (Io).
 Gathered gather(const std::string& folder, const Plan& plan, const std::string& out, double expiry);
 
 /// Formats the state as JSON, for `plumb status` and gathered.json.

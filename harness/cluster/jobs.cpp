@@ -9,7 +9,7 @@ namespace plumb::harness::cluster {
 namespace {
 
 constexpr double kMargin = 3,
-                 kExtra = 120;  // factor on an estimate (often from another machine), and s added
+                 kExtra = 120;  // factor on an estimate (often from another machine), and s that are added
 
 // Formats a time as D-HH:MM:SS, days and hours as schedulers want them.
 std::string clock_text(int seconds) {

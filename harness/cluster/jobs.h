@@ -7,8 +7,8 @@
 
 namespace plumb::harness::cluster {
 
-/// Largest number of tasks in one array: Slurm's MaxArraySize is 1001 unless set, and the last index is
-/// below.
+/// Largest number of tasks in one array: Slurm's MaxArraySize is 1001 by default, and the last index must be
+/// below it.
 inline constexpr int kMostTasks = 1000;
 
 /// Settings of a submission.
@@ -23,8 +23,8 @@ struct JobOptions {
   std::string exclude;    ///< Slurm's nodes that disturbed these units, separated by commas
 };
 
-/// Returns the units per task of the array, done one after the other, so that there are at most `kMostTasks`
-/// tasks.
+/// Returns the number of units per task of the array, done one after the other, so that there are at most
+/// `kMostTasks` tasks.
 int units_a_task(std::size_t units);
 
 /// Returns the time limit, s: three times the estimate of the longest task, plus two minutes.
@@ -36,7 +36,7 @@ std::string gather_script(const Plan& plan, const JobOptions& options);
 std::string slurm_script(const JobOptions& options);
 std::string parallel_script(const Plan& plan, const std::vector<int>& units, const JobOptions& options);
 
-/// Puts `text` between single quotes for a shell, where it needs them.
+/// Puts `text` in single quotes for a shell, if it needs them.
 std::string quoted_for_shell(const std::string& text);
 
 }  // namespace plumb::harness::cluster

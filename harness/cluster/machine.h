@@ -6,7 +6,8 @@ namespace plumb::harness::cluster {
 
 /// Fingerprint of the machine that a unit ran on.
 struct Machine {
-  std::string kind;  ///< costs of one kind are compared with each other: the processor's name, or as given
+  std::string kind;  ///< costs of one kind are compared with each other: the processor's name, or the name
+                     ///< that was given
   std::string cpu, os, host;
   int cores = 0;         ///< that this process may run on
   double memory_gb = 0;  ///< installed, 1e9 bytes
@@ -24,8 +25,8 @@ struct Calibration {
 /// Repeats the computation for `seconds`, at least three times.
 Calibration calibrate(double seconds);
 
-/// Returns the scatter of the times: the largest of three ratios, of the median to the fastest before and
-/// after, and of the two medians. 1 on an undisturbed machine.
+/// Returns the scatter of the times: the largest of three ratios, namely of the median to the fastest time
+/// (before and after), and of the two medians. 1 on an undisturbed machine.
 double noise_of(const Calibration& before, const Calibration& after);
 
 /// Returns true if other processes disturbed the measurement: a median is a quarter above the fastest time,

@@ -22,7 +22,7 @@ struct NextRound {
 NextRound next_round(const std::string& folder, const Plan& plan, const Survey& survey);
 
 /// Returns for each unit, by its number, the attempt whose results count (the unit itself or a repetition):
-/// the first undisturbed one, else the least disturbed. Leaves out units of which no attempt is done.
+/// the first undisturbed one, otherwise the least disturbed. Leaves out units without a completed attempt.
 std::map<int, const Done*> least_disturbed(const Plan& plan, const Survey& survey);
 
 }  // namespace plumb::harness::cluster

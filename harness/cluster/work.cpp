@@ -30,13 +30,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kMessages = "messages.txt";
 constexpr int kInterruptedCode = 130;
-constexpr std::size_t kLookedAt = 16;  // claims that are checked; some may be of dead processes
+constexpr std::size_t kLookedAt = 16;  // number of claims that are checked; some may be of dead processes
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Returns the arguments as the program gets them: "{folder}" replaced by this folder, and --out added.
+// Returns the arguments for the program: "{folder}" replaced by this folder, and --out added.
 std::vector<std::string> arguments_of(const Unit& unit, const std::string& folder, const std::string& out) {
   constexpr std::string_view kFolder = "{folder}/";
   std::vector<std::string> words{"plumb"};
@@ -136,7 +136,8 @@ std::map<std::string, std::uintmax_t> keep_files(const fs::path& folder) {
   return out;
 }
 
-// Moves complete results into place; returns false if another process's results are there, which are kept.
+// Moves complete results into place. If another process's results are there already, keeps those and returns
+// false.
 bool put_in_place(const std::string& from, const std::string& to, bool replace) {
   if (rename(from.c_str(), to.c_str()) == 0) return true;
   if (errno != ENOTEMPTY && errno != EEXIST)
@@ -147,7 +148,7 @@ bool put_in_place(const std::string& from, const std::string& to, bool replace) 
   return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0;
 }
 
-/// A folder for results under way, removed unless they were moved away.
+/// A folder for results under way; removed unless the results were moved away.
 class Doing {
  public:
   explicit Doing(std::string path) : path_(std::move(path)) {
@@ -254,7 +255,7 @@ std::optional<int> Queue::next(Worked& worked) {
   std::vector<const Unit*> claimed;
   for (const Unit* unit : open_) {
     if (interrupted()) return {};
-    // Leaves a unit that should run on another host to other processes, while there are any.
+    // Leaves a unit that should run on another host to other processes while there are any.
     const bool elsewhere = std::find(unit->avoid.begin(), unit->avoid.end(), host_) != unit->avoid.end();
     if (elsewhere && !claims.empty()) continue;
     if (claims.contains(unit->number)) {

@@ -15,20 +15,20 @@ struct WorkOptions {
   double calibration = 1;  ///< s, half of it before a unit that measures costs and half after
   double expiry = 300;     ///< s without renewal after which a claim's process counts as dead
   int attempts = kAttempts;
-  bool again = false;  ///< repeats a done unit; its results are replaced once the new ones are complete
+  bool again = false;  ///< repeats a done unit; replaces its results when the new ones are complete
 };
 
 enum class Worked {
   Done,
   Before,       ///< it was done already
   Elsewhere,    ///< another does it
-  Failed,       ///< `Failure` is in failed/
-  Interrupted,  ///< it is free again
+  Failed,       ///< its `Failure` is in failed/
+  Interrupted,  ///< the unit is free again
 };
 
-/// Does one unit in a folder of its own, which is renamed when complete. With `force` the claim is taken
-/// from any holder. Throws `Error` (Io) if the folder of work cannot be written, so that not even the
-/// failure can be recorded.
+/// Does one unit in a folder of its own, which is renamed when complete. With `force`, takes the claim from
+/// any holder. Throws `Error` (Io) if the folder of work cannot be written: then not even the failure can be
+/// recorded.
 Worked do_unit(const std::string& folder, const Plan& plan, const Unit& unit, const WorkOptions& options,
                bool force);
 
@@ -38,7 +38,7 @@ class Queue {
  public:
   Queue(const std::string& folder, const Plan& plan, const WorkOptions& options);
 
-  /// Does the next unit that is free. Returns its number; nothing if none is free.
+  /// Does the next free unit. Returns its number; nullopt if none is free.
   std::optional<int> next(Worked& worked);
 
   /// Returns true if a unit is neither done nor given up: the process that does it may still die.

@@ -9,8 +9,7 @@
 #include "harness/cluster/machine.h"
 
 /// A folder of work: independent units, done by any number of processes on any number of machines that see
-/// the folder. There is no server: a file appears or a folder is renamed, or not.
-///
+/// the folder. There is no server: all communication is by files that appear and folders that are renamed.
 ///     plan.json            program, settings
 ///     units.jsonl          a unit a line
 ///     claims/00001         exists while a process does unit 1
@@ -26,12 +25,12 @@ struct Unit {
   double seconds = 0;                  ///< estimated wall time
   bool measured = false;               ///< the estimate is from earlier results
   bool cost = false;                   ///< the unit measures costs and should have a machine to itself
-  int repeats = 0;  ///< the unit that this one measures again because others disturbed it; 0: none
-  int attempt = 0;  ///< of a repetition, the number of measurements before it
+  int repeats = 0;  ///< the unit that this one measures again, because other processes disturbed it; 0: none
+  int attempt = 0;  ///< number of measurements of that unit before this one
   std::vector<std::string> avoid{};  ///< hosts on which the measurement was disturbed
-  /// Arguments of the unit for the next round that follows this one and all others with the same `then`.
+  /// Arguments of a unit for the next round, which follows this unit and all others with the same `then`.
   std::vector<std::string> then{};
-  double then_seconds = 0;  ///< estimated wall time of that
+  double then_seconds = 0;  ///< estimated wall time of the unit `then`
 };
 
 /// Program that made a plan; the same program must do its units.
@@ -47,10 +46,10 @@ struct Plan {
   std::vector<Unit> units{};
 
   const Unit& unit(int number) const;                         ///< throws `Error` (Value)
-  bool measures_cost(const std::vector<int>& numbers) const;  ///< one of these does
+  bool measures_cost(const std::vector<int>& numbers) const;  ///< true if one of these does
 };
 
-/// Facts about a complete unit, beside its results.
+/// Facts about a complete unit, besides its results.
 struct Done {
   int number = 0;
   double seconds = 0;  ///< wall time
@@ -67,22 +66,22 @@ struct Done {
 struct Failure {
   int attempts = 0;
   std::string kind;     ///< of the last: "killed by SIGKILL", "disk full", "refused", ...
-  std::string message;  ///< last line that it wrote
+  std::string message;  ///< last line that the unit wrote
   std::string host;
 };
 
 /// Returns the program that runs, with a hash of its file (64 bits, FNV-1a).
 Program this_program();
 
-/// Throws `Error` (Value), with what to do, if `plan` was made with another program than `now`.
+/// Throws `Error` (Value) if `plan` was made with another program than `now`, and says how to proceed.
 void require_same_program(const std::string& folder, const Plan& plan, const Program& now);
 
 /// Reads plan.json and units.jsonl. Throws `Error` (Io, Syntax).
 Plan read_plan(const std::string& folder);
 
-/// Adds the units that are not there yet (identical arguments, and the same attempt of a repetition),
-/// numbered after the existing ones. Creates the folder, or adds to that of the same program. Returns the
-/// number of units added. Throws `Error`.
+/// Adds those units that are new (units with identical arguments and the same attempt are not), numbered
+/// after the existing ones. Creates the folder, or adds to that of the same program. Returns the number of
+/// units added. Throws `Error`.
 int add_to_plan(const std::string& folder, Plan plan);
 
 /// Numbers of the units in done/, in claims/ and in failed/.
@@ -104,7 +103,7 @@ std::string ranges(const std::vector<int>& numbers);
 /// Returns the present time, UTC, ISO 8601.
 std::string time_text();
 
-/// Attempts after which `next` leaves a unit alone.
+/// Number of attempts after which `next` no longer tries a unit.
 inline constexpr int kAttempts = 3;
 
 }  // namespace plumb::harness::cluster

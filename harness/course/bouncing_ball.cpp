@@ -144,7 +144,7 @@ Finding scene_says_gravity(const Lab& lab) {
 // Compares the speed after one second at three step sizes.
 Finding any_step_size(const Lab& lab) {
   struct Fall {
-    double speed, way;  // ratios to the expected values, without the method's own offset of at most a step
+    double speed, way;  // ratios to the expected values, apart from the method's own offset of at most a step
   };
   const auto fall = [&](int finer) -> Fall {
     const Trace trace = lab.run(falling(), 1, finer);
@@ -190,7 +190,7 @@ bool pulled_into_floor(const Lab& lab, const Trace& trace) {
   return false;
 }
 
-// Returns true if the first change of vy leaves a fraction (1 - e) of it: the impulse then has the factor e
+// Returns true if the first change of vy leaves the fraction (1 - e) of it: the impulse then has the factor e
 // instead of 1 + e.
 bool keeps_rest(const Trace& trace, double e) {
   const double v = trace.first(0).velocity.y;
@@ -309,7 +309,7 @@ bool trembles(const Trace& trace) {
   return false;
 }
 
-// Returns true if a ball without gravity rises more slowly some time after its bounce.
+// Returns true if a ball without gravity rises more slowly some time after its bounce than right after it.
 bool loses_what_it_got(const Trace& trace) {
   for (std::size_t k = 1; k < trace.states.size(); ++k) {
     const double before = trace.states[k - 1][0].velocity.y, after = trace.states[k][0].velocity.y;

@@ -15,7 +15,7 @@ namespace {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-// Solves three linear equations by Cramer's rule; nothing if they have no single solution.
+// Solves three linear equations by Cramer's rule; nullopt if they have no single solution.
 std::optional<std::array<double, 3>> solve(const Matrix3& a, const std::array<double, 3>& b) {
   const auto determinant = [](const Matrix3& m) {
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
@@ -68,7 +68,7 @@ Finding force_accelerates(const Lab& lab) {
 
 Finding ten_times_the_mass(const Lab& lab) {
   const double mass = 10, force = 6;
-  // Two more balls, above and below, on which the force does not act.
+  // Adds two balls, above and below, on which the force does not act.
   Scene scene =
       scene_of("mass", {},
                {make(Ball{.name = "above", .position = {0, 3}, .mass = mass}), make(Ball{.mass = mass}),
@@ -146,8 +146,8 @@ Finding push_ends(const Lab& lab) {
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = force / mass * duration, step = force / mass * lab.dt();
   const double vx = trace.last(0).velocity.x;
-  // An engine that evaluates forces only at the start of each step may apply the push for up to one step more
-  // or less.
+  // An engine that evaluates forces only at the start of each step may apply the push for up to one step too
+  // long or too short.
   return Judgement()
       .read("vx after the push", "m/s", vx, v, step + lab.rounding(v, t))
       .read("way after 1 s, at the speed that the push gave", "m", trace.last(0).position.x,
@@ -188,7 +188,7 @@ Finding drag(const Lab& lab) {
       .finding();
 }
 
-// A spring fitted to the motion: m dv/dt = -stiffness (x - rest) - damping v.
+// A spring that was fitted to the motion: m dv/dt = -stiffness (x - rest) - damping v.
 struct Acting {
   double stiffness, rest, damping;  // N/m, m, N s/m
 
@@ -196,9 +196,9 @@ struct Acting {
   bool damped(double k) const { return std::abs(damping) > 0.015 * k; }
 };
 
-// Fits a linear spring to the changes of velocity in the first seconds, by least squares; returns nothing if
-// another law acts. A method that evaluates the force half a step later shows a damping of h k/2, which is
-// less than the threshold `damped`.
+// Fits a linear spring to the changes of velocity in the first seconds, by least squares; nullopt if another
+// law acts. A method that evaluates the force half a step later shows a damping of h k/2, which is less than
+// the threshold `damped`.
 std::optional<Acting> acting(const Trace& trace, double mass, double rest) {
   Matrix3 sums{};
   std::array<double, 3> right{};
@@ -233,7 +233,7 @@ std::optional<Acting> acting(const Trace& trace, double mass, double rest) {
   return Acting{-slope, rest - constant / slope, -damping};
 }
 
-// Two balls at rest on a spring, at distance `first`, m. With the masses 1.6 and 0.8 kg they swing like a
+// Two balls at rest on a spring, at distance `first`, m. With the masses 1.6 and 0.8 kg they oscillate with a
 // reduced mass of 1.6/3 kg.
 constexpr double kFirstMass = 1.6, kSecondMass = 0.8, kReduced = 1.6 / 3, kApart = 2;  // kg; m at rest
 
@@ -283,7 +283,7 @@ Finding spring(const Lab& lab) {
   law.stiffness = k;
   scene.forces.emplace_back(law);
   const Trace trace = lab.run(scene, 10);
-  // The same spring, released when it is too short.
+  // The same spring, released from a compressed state.
   Scene shortened = scene;
   // Its end in the world is not the origin.
   const Vec2d end{-0.4, 0.3};
@@ -302,7 +302,7 @@ Finding spring(const Lab& lab) {
   };
   const double h = lab.substep() > 0 ? lab.substep() : lab.dt();
   std::optional<Acting> acts = acting(trace, mass, rest);
-  // A wrong mass looks like a wrong spring: what acts is known only if the ball has its mass.
+  // A wrong mass looks like a wrong spring, so the law is known only if the ball has the right mass.
   const bool acts_wrongly =
       acts && (!acts->seems(acts->stiffness, k) || !acts->seems(acts->rest, rest) || acts->damped(k));
   if (acts_wrongly && !weighs_right(lab, scene.bodies.front())) acts.reset();

@@ -77,7 +77,7 @@ Finding parting_is_left_alone(const Lab& lab) try {
           "Two balls that overlap are driven apart: correct positions, and leave velocities as they are.")
       .finding();
 } catch (const Error& error) {
-  if (error.field() == "overlap") return {};  // an engine that refuses such a start
+  if (error.field() == "overlap") return {};  // an engine may refuse such a start
   throw;
 }
 
@@ -147,7 +147,7 @@ Finding heavy_hits_light(const Lab& lab) {
   const Trace trace = meet(1);
   const double j = 2 * v / (1 / heavy + 1 / light);
   const double after_heavy = v - j / heavy, after_light = j / light, wrong_j = 2 * v / (heavy + light);
-  const double together = v * heavy / (heavy + light);  // after any number of weak impacts
+  const double together = v * heavy / (heavy + light);  // if they stay together: any number of weak impacts
   int changes = 0;                                      // steps in which the heavy ball's velocity changes
   for (std::size_t k = 1; k < trace.states.size(); ++k)
     changes += std::abs(trace.states[k][0].velocity.x - trace.states[k - 1][0].velocity.x) > 1e-6 * v;
@@ -159,7 +159,7 @@ Finding heavy_hits_light(const Lab& lab) {
     return std::abs(t.last(0).velocity.x - after_heavy) + std::abs(t.last(1).velocity.x - after_light);
   };
   const double off_at_1 = off(meet(1 / 1.8));
-  // Changes only the masses: every other quantity of a correct motion stays correct, along y as well.
+  // Changes only the masses. With a correct motion, all other quantities stay correct, along y as well.
   const auto alike_at = [&](double mass) {
     const Trace t = head_on(lab, {.position = {-3, 0}, .velocity = {v, 0}, .mass = mass, .radius = 1},
                             {.position = {0, 0}, .mass = mass, .radius = 0.8}, 2);
@@ -241,7 +241,7 @@ Finding oblique(const Lab& lab) {
   const double tolerance = 2 * v * (v * lab.dt() * s / d) + kShare * v;
   const Vec2d a = trace.last(0).velocity, b = trace.last(1).velocity;
   const Vec2d ta = q.inverse() * turned.last(0).velocity, tb = q.inverse() * turned.last(1).velocity;
-  // Rotated with the scene, except for mistakes that follow the coordinate axes.
+  // Rotates the result with the scene. Mistakes that follow the coordinate axes differ.
   const auto gives = [](Vec2d first, Vec2d second) {
     return std::vector<double>{first.x, first.y, second.x, second.y, first.x, first.y, second.x, second.y};
   };

@@ -12,8 +12,8 @@
 namespace plumb::course {
 namespace {
 
-// Returns the separation speed of two balls that overlap at the start; nothing should drive them apart. It is
-// 0 for an engine that refuses such a start.
+// Returns the separation speed of two balls that overlap at the start; nothing should drive them apart.
+// Returns 0 for an engine that refuses such a start.
 double kick(const Lab& lab, int finer) try {
   const double r = 0.5, deep = 0.1;
   const Trace trace = head_on(lab, {.position = {-r + deep / 2, 0}, .radius = r, .restitution = 0},
@@ -141,8 +141,8 @@ Finding break_shot(const Lab& lab) {
       .finding();
 }
 
-// Lets 10 kg and 1 kg overlap at rest and measures how far each is moved: in proportion to its inverse mass,
-// which leaves the centre of mass in place.
+// Lets 10 kg and 1 kg overlap at rest, and measures how far each is moved: it should be in proportion to its
+// inverse mass, which leaves the centre of mass in place.
 Finding overlap_is_shared(const Lab& lab) try {
   const double heavy = 10, light = 1, deep = 0.1, r = 0.4;
   const Trace trace =

@@ -59,7 +59,7 @@ void compare_with_second_run(const Check& check, const Lab& lab, Finding& findin
   }
 }
 
-// Names a mistake that shows in free flight: it explains a failed check better than the figures do.
+// Names a mistake that shows in free flight, which explains a failed check better than its figures do.
 void look_at_flights(const std::vector<Recorded>& runs, Finding& finding) {
   for (const Recorded& run : runs) {
     const std::optional<Seen> seen = seen_in_flight(run);
@@ -128,10 +128,10 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
         look_at_flights(outcome.runs, finding);
       if (!named.empty() && finding.mistake != named) finding.follows = named;
-      // After a failure without a name, or with another name, a later mistake is named only on strong
-      // evidence: the first cause may affect any check.
+      // After a failure that has no name, or another one, a later mistake is named only on strong evidence:
+      // the first cause may affect any check.
       const bool later = (!named.empty() && finding.mistake != named) || unexplained;
-      // An experiment with many bodies that all show the mistake then proves nothing.
+      // In that case, an experiment with many bodies that all show the mistake proves nothing.
       const bool proven = finding.proven && (!unexplained || outcome.check->repeatable);
       const bool sure = proven || (unexplained ? finding.exact : finding.computed);
       if (later && !sure && finding.verdict == Verdict::Fail && !finding.mistake.empty()) {

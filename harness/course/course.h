@@ -17,7 +17,8 @@ struct Check {
   std::string title;  ///< the expected behaviour, in a line
   std::string wants;  ///< capability that the engine must declare in answer to "hello" (docs/protocol.md)
   Finding (*run)(const Lab& lab) = nullptr;
-  /// False if the motion depends on details in which correct engines differ: many bodies that collide.
+  /// False if the motion depends on details in which correct engines differ, as with many bodies that
+  /// collide.
   bool repeatable = true;
 };
 
@@ -44,13 +45,13 @@ struct Outcome {
   std::vector<Recorded> runs{};  ///< runs of the check, in order; those of a second attempt last
 };
 
-/// Name of the mistake of an engine whose repeated runs of one scene differ: none of its figures can be
+/// Name of the mistake of an engine whose repeated runs of one scene differ: none of its figures can then be
 /// explained.
 inline constexpr const char* kRunsDiffer = "runs_differ";
 
-/// Runs `chapters` on `engine`, one check after another, and calls `done` for each at the end of its chapter,
-/// because a mistake is identified by its effect on all checks of the chapter. If the engine fails, hangs or
-/// returns a non-finite figure, the check is broken. After `kPatience` hangs the rest is skipped.
+/// Runs `chapters` on `engine`, one check after another. Calls `done` for each check at the end of its
+/// chapter, because a mistake is identified by its effect on all checks of the chapter. If the engine fails,
+/// hangs or returns a non-finite figure, the check is broken. After `kPatience` hangs the rest is skipped.
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
                              const std::function<void(const Outcome&)>& done);

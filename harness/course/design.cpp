@@ -9,7 +9,7 @@
 namespace plumb::course {
 namespace {
 
-// The variants of a chapter, before anything is measured.
+// The design variants for a chapter, before anything is measured.
 std::vector<Manner> variants(int chapter) {
   switch (chapter) {
     case 1:
@@ -140,7 +140,7 @@ std::optional<int> measured_corrections(const Lab& lab, Manner like, double left
 }
 
 std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
-  // The centres are 1 m apart, so that a normal that is not normalised changes nothing.
+  // The centres are 1 m apart, so that a normal that is not normalised is right too.
   constexpr double kRadius = 0.505, kDeep = 0.01, kGravity = 9.81;  // m, m, m/s^2
   constexpr int kMost = 60;
   const Body floor =

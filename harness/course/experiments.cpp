@@ -81,7 +81,7 @@ Experiment pushed_box() {
   return {std::move(scene), 0.8};
 }
 
-// A torque on a box that turns in the air.
+// A torque on a box that rotates in the air.
 Experiment twisted_box() {
   Scene scene = turning_box();
   Torque torque;
@@ -91,7 +91,7 @@ Experiment twisted_box() {
   return {std::move(scene), 0.8};
 }
 
-// A disc that spins lands on the ground, which comes first.
+// A disc that spins and lands on the ground; the ground is the first body.
 Experiment spinning_disc() {
   return {scene_of("spinning disc", {0, -kGravity},
                    {ground(0.2, 0.5), disc({.name = "disc",
@@ -155,7 +155,7 @@ void add_stick(Scene& scene, const std::string& a, const std::string& b, double 
   scene.joints.emplace_back(stick);
 }
 
-// Joins the last body to the one before it, or to the world, and puts it where the hinge has no gap.
+// Joins the last body to the one before it, or to the world, and moves it such that the hinge has no gap.
 void add_hinge(Scene& scene, Vec2d anchor_a, Vec2d anchor_b) {
   Body& b = scene.bodies.back();
   const auto turned = [](const Body& body, Vec2d local) {
@@ -189,7 +189,7 @@ Experiment two_sticks() {
   return {std::move(scene), 0.6};
 }
 
-// Two rods on a hinge off their axes, the first on a hinge of the world or in the air.
+// Two rods on a hinge that is off their axes; the first is on another hinge of the world, or in the air.
 Experiment two_rods(bool hangs) {
   Scene scene = scene_of("two rods", {0, -kGravity},
                          {make(Crate{.name = "a",

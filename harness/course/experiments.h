@@ -4,7 +4,7 @@
 
 #include "engine/scene/scene.h"
 
-/// Scenes beside those of the checks, on which mistakes differ that give one motion in a check.
+/// Additional scenes, which tell mistakes apart that give the same motion in a check.
 namespace plumb::course {
 
 struct Experiment {

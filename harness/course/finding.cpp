@@ -68,8 +68,8 @@ Judgement& Judgement::otherwise_if(bool seen, std::string name, std::string says
   return *this;
 }
 
-// Returns the largest distance of a reading from the mistake's figure, in units of the tolerance; above 1 the
-// mistake does not match. A mistake that gives no figure for any wrong reading explains nothing.
+// Returns the largest distance of a reading from the mistake's figure, in units of the tolerance; if it is
+// above 1, the mistake does not match. A mistake that gives no figure for any wrong reading explains nothing.
 double Judgement::miss(const Mistake& mistake) const {
   double worst = 0;
   bool explains = false;
@@ -87,7 +87,7 @@ double Judgement::miss(const Mistake& mistake) const {
   return explains ? worst : std::numeric_limits<double>::infinity();
 }
 
-// Returns true if a mistake gives every wrong reading, each as exactly as a right one has to be.
+// Returns true if a mistake gives every wrong reading as exactly as a right reading must be.
 bool Judgement::certain(const Mistake& mistake) const {
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const Reading& reading = readings_[i];

@@ -27,18 +27,18 @@ struct Finding {
   std::vector<Reading> readings;
   std::string mistake;    ///< name of a mistake with such figures: "explicit_euler"; empty if none is known
   std::string says;       ///< the diagnosis, the reason or the error, for people
-  std::string symptom;    ///< a sign of several possible causes, seen besides; may be empty
-  bool observed = false;  ///< `mistake` describes an observation other than the figures that it would give
+  std::string symptom;    ///< another observed sign, which may have several causes; may be empty
+  bool observed = false;  ///< `mistake` was recognised by an observation other than its figures
   bool proven = false;    ///< an experiment or a direct measurement excludes every other cause
   bool certain = false;   ///< `mistake` gives every wrong figure, within the tolerance of the right one
   bool exact = false;     ///< the motion of `mistake` was computed, and its figures are exactly the engine's
   bool computed = false;  ///< the motion of `mistake` was computed, and equals the engine's
   bool diverged =
-      false;            ///< broken by numbers that grow without end: its motion until then may show the cause
+      false;            ///< broken by numbers that grow without end; the motion until then may show the cause
   std::string follows;  ///< name of a mistake found in an earlier check that may also explain this failure
 };
 
-/// Returns a sentence about the first reading that is wrong, without a cause, and what was seen besides.
+/// Returns a sentence about the first reading that is wrong, without a cause, and about other observations.
 std::string describe(const Finding& finding);
 
 /// Stands for a figure that a mistake leaves undetermined.
@@ -63,7 +63,7 @@ class Judgement {
   /// identified by figures, and is named only if the motion that it gives equals the engine's (prediction.h).
   Judgement& mistake_if(bool seen, std::string name, std::string says);
 
-  /// Adds a mistake that evidence other than the readings proves, named if nothing else matches.
+  /// Adds a mistake that evidence other than the readings proves. It is named only if nothing else matches.
   Judgement& otherwise_if(bool seen, std::string name, std::string says);
 
   /// Adds a symptom with several possible causes. If nothing else matches it is reported, and no mistake is

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewest = 6;  // fewest steps from which a pattern is inferred
 
-// Returns the radius of a circle around the body's centre that holds its shape.
+// Returns the radius of a circle around the body's centre that contains its shape.
 double reach(const Body& body) {
   if (const auto* circle = std::get_if<Circle>(&body.shapes.front().geometry)) return circle->radius;
   const auto* box = std::get_if<Box>(&body.shapes.front().geometry);
@@ -46,8 +46,8 @@ std::size_t length_of_flight(const Recorded& run, std::size_t b) {
   return states.size();
 }
 
-// Returns the ratio of each value to the one before, if it is constant and not 1. If the values vanish before
-// the ratio is seen twice, the body has stopped, and there is no ratio.
+// Returns the ratio of each value to the previous one, if it is constant and not 1. If the values vanish
+// before the ratio was seen twice, the body has stopped, and there is no ratio.
 std::optional<double> constant_ratio(std::span<const double> values) {
   constexpr double kVanishes = 1e-4;
   if (values.size() < kFewest || std::abs(values[0]) < 1e-9) return std::nullopt;
@@ -73,9 +73,9 @@ std::optional<double> largest_speed(std::span<const Vec2d> v, Vec2d gain) {
 
 bool whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
 
-// Returns the number of decimals to which all values are rounded. Their changes then differ from the correct
-// ones, `changes` up to `slack`, by at most one unit of the last decimal, but not by nothing: a wrong change
-// may have few decimals as well.
+// Returns the number of decimals to which all values are rounded. The changes of rounded values differ from
+// the correct ones (`changes`, up to `slack`) by at most one unit of the last decimal. They must differ,
+// because a wrong change may have few decimals as well.
 std::optional<int> decimals(std::span<const double> values, std::span<const double> changes, double slack) {
   if (values.size() < 2 * kFewest || values.front() == values.back()) return std::nullopt;
   double unit = 10;

@@ -75,7 +75,7 @@ Finding hinged_rod(const Lab& lab) {
     return most;
   };
   const double at_post = gap_on_post();
-  // A rod at rest along x, its anchor 2 cm off the hinge, without gravity: what is left of the gap.
+  // A rod at rest along x without gravity, whose anchor is 2 cm off the hinge: returns the gap that remains.
   const auto left_of = [&](Vec2d off) {
     Scene parted = scene;
     parted.gravity = {};
@@ -95,8 +95,8 @@ Finding hinged_rod(const Lab& lab) {
   };
   const bool turns_wrong =
       !held && stays() && left_of({parted, 0}) < parted / 4 && left_of({0, parted}) > parted;
-  // A rod along x, whose anchor needs no turning: a hinge along one axis lets go along the other here as
-  // well.
+  // A rod along x, whose anchor need not be rotated. A hinge that acts along one axis only does not hold
+  // along the other one here either.
   const auto holds_unturned = [&] {
     Scene unturned = scene;
     unturned.gravity = {};
@@ -192,7 +192,7 @@ Finding hinge_turns_both(const Lab& lab) {
     gap = std::max(gap, length(end(1, -half_b) - end(0, half_a)));
   }
   const double moved = length(p - p0) / length(p0), kept = lab.spin_kept_by_positions(w, trace.duration());
-  // Methods lose some of both, and gain none.
+  // Methods may lose some of both, but gain none.
   const auto tolerance = [](double ratio, double least) {
     return ratio > 1 ? 0.05 : std::max(0.05, 1 - least);
   };

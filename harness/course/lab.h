@@ -41,7 +41,7 @@ struct Recorded {
   double dt = 0;  ///< s, between the states of the trace
 };
 
-/// Thrown if the engine does not support such scenes; `what()` is the reason.
+/// Thrown if the engine does not support the scene; `what()` is the reason.
 class NotYet : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -87,13 +87,13 @@ class Lab {
   double turn_kept(double w, double time) const;
 
   /// Returns the fraction of a spin of `w` rad/s that a first-order method keeps over `time` s if a step
-  /// moves joined points back together and takes displacement/h for their velocities: the next displacement
-  /// starts along the last chord instead of the tangent, which takes (w h)^2 of w a step, so dw/dt = -w^3 h.
-  /// Returns 1 for other orders.
+  /// moves joined points back together and takes displacement/h for their velocities. The next displacement
+  /// then starts along the last chord instead of the tangent. This removes (w h)^2 of w in each step, so
+  /// dw/dt = -w^3 h. Returns 1 for other orders.
   double spin_kept_by_positions(double w, double time) const;
 
-  /// Returns the factor on joint gaps, relative to dt = 1/60 s and at least 1: a step along the tangent
-  /// leaves a circle by the fraction (w dt)^2/2 of its radius.
+  /// Returns the factor on joint gaps relative to dt = 1/60 s, at least 1. A step along the tangent leaves a
+  /// circle by the fraction (w dt)^2/2 of its radius.
   double coarseness() const;
 
   /// Returns the displacement in `time` s from velocity `v` under acceleration `a`, as the declared method

@@ -8,12 +8,12 @@
 namespace plumb::course {
 namespace {
 
-// m, distance from the origin above which a path shows only that it diverges.
+// m, distance from the origin beyond which a path only shows that it diverges.
 constexpr double kFar = 30;
 
-constexpr double kLever = 0.5;  // m: turns an angle into a length, half the size of the checks' boxes
+constexpr double kLever = 0.5;  // m, per rad of an angle: half the size of the checks' boxes
 
-// Returns the nearest place in the range in which paths are compared.
+// Returns the nearest place within the range in which paths are compared.
 Vec2d in_range(Vec2d at) {
   const double far = std::hypot(at.x, at.y);
   return far <= kFar ? at : kFar / far * at;
@@ -24,8 +24,8 @@ bool left_range(std::span<const BodyState> states) {
                      [](const BodyState& s) { return !(dot(s.position, s.position) <= kFar * kFar); });
 }
 
-// Returns the sum of the squared distances of the bodies' positions, and of their angles unless one has left
-// the range. What is not a number is farther than anything else.
+// Returns the sum of the squared distances of the bodies' positions, and of their angles unless a body has
+// left the range. A NaN is farther than any number.
 double square_distance(std::span<const BodyState> a, std::span<const BodyState> b, bool left) {
   double sum = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
@@ -96,7 +96,7 @@ bool static_moves(const std::vector<Recorded>& runs) {
 }
 
 bool pushes_farther(const std::vector<Recorded>& seen, const std::vector<Recorded>& predicted, double share) {
-  // Factor for contacts found at other times, and for several contacts of one pair.
+  // Factor of tolerance for contacts that are found at other times, and for several contacts of one pair.
   constexpr double kMore = 1.25;
   for (std::size_t r = 0; r < std::min(seen.size(), predicted.size()); ++r) {
     if (!seen[r].scene.joints.empty()) continue;

@@ -10,10 +10,10 @@
 /// Compares an engine's motion and figures with those of a mistake.
 namespace plumb::course {
 
-/// Compares the first `runs` runs, which are those of the check without its experiments on engines that fail
-/// it. Each is compared up to the first state in which a body of `seen` has left the range around the origin
-/// in which paths are compared, that state included; places outside count as the nearest ones inside. So an
-/// engine that throws a body away is far from one that keeps it, and the distances over one `seen` obey the
+/// Compares the first `runs` runs: those that the check makes without its experiments for engines that fail.
+/// Each run is compared up to and including the first state in which a body of `seen` has left the range
+/// around the origin in which paths are compared; places outside count as the nearest ones inside. So an
+/// engine that throws a body away is far from one that keeps it, and the distances for one `seen` obey the
 /// triangle inequality.
 double distance(const std::vector<Recorded>& seen, const std::vector<Recorded>& a,
                 const std::vector<Recorded>& b, std::size_t runs);

@@ -2,12 +2,12 @@
 
 #include "harness/course/predictable.h"
 
-// The mistakes that mix up the x and y of a vector: each vector of an engine, in each way.
+// The mistakes that mix up the x and y of a vector: each vector of an engine, in each possible way.
 namespace plumb::course {
 namespace {
 
 struct Vector {
-  const char* quantity;  ///< for the learner's engine
+  const char* quantity;  ///< name for the learner's engine
   const char* chapters;
   const char* what;
 };

@@ -102,9 +102,9 @@ std::vector<Kind> kinds() {
 constexpr std::array<const char*, 4> kBodies{"", "the first body", "the second body", "both bodies"};
 constexpr unsigned kBoth = 3;
 
-// Returns false for edits that change nothing, a minus that is squared or speeds where there are none, and
-// for those that another one repeats: an arm appears in products with the spin and with the inverse inertia
-// alone, so that either may be left out, or have the wrong sign.
+// Returns false for edits that change nothing (the minus of a squared quantity; speeds where there are none),
+// and for those that repeat another edit. An arm appears only in products with the spin and with the inverse
+// inertia, so leaving the arm out, or changing its sign, equals doing so with the other factor.
 bool matters(const Rows& rows, const Places& places, const Kind& kind, Instead instead) {
   const bool positions = (rows.rows & ~(kOverlapRow | kCorrectionRow)) == 0;
   if (positions && (places.places & ~kInSpeed) == 0) return false;
@@ -113,8 +113,8 @@ bool matters(const Rows& rows, const Places& places, const Kind& kind, Instead i
   return instead != Instead::Zero || places.places == kEverywhere.places;
 }
 
-// Returns the name of an edit after its effect, where other mistakes have the same one. Iterations repair a
-// wrong effective mass: an edit of the change alone then moves bodies as one of all masses does.
+// Returns a name for an edit by its effect, if other mistakes have the same effect. Iterations repair a wrong
+// effective mass, so an edit of the change alone moves bodies like one of all masses.
 const char* name_of(const Rows& rows, const Places& places, const Kind& kind, Instead instead,
                     unsigned bodies) {
   const bool both = bodies == kBoth, in_change = (places.places & kInChange) != 0;
@@ -142,7 +142,7 @@ const char* name_of(const Rows& rows, const Places& places, const Kind& kind, In
       return kind.name;
     case Quantity::Velocity:
     case Quantity::PointVelocity:
-      // The speed of the points is then reversed, whichever way each of them is.
+      // The speed of the points is then reversed, in whatever direction each of them moves.
       if (both && kind.quantity == Quantity::PointVelocity && rows.rows == kFrictionRow &&
           instead != Instead::Zero)
         return "friction_backwards";

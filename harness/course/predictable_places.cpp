@@ -2,14 +2,14 @@
 
 #include "harness/course/predictable.h"
 
-// The mistakes of student/misplaced.cpp: each point turned in each wrong way, each law that changes the wrong
-// quantity, and each corner of a box that stands for another.
+// The mistakes of student/misplaced.cpp: each point rotated in each wrong way, each law that changes the
+// wrong quantity, and each corner of a box that is used in place of another.
 namespace plumb::course {
 namespace {
 
 struct Points {
   const char *points, *chapters, *what;
-  bool may_stay;  ///< no other list has these points not turned
+  bool may_stay;  ///< "not rotated" is not in another list
 };
 
 constexpr Points kPoints[] = {

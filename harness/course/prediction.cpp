@@ -22,20 +22,21 @@ namespace {
 // A mistake is dropped if another one fits better by this factor.
 constexpr double kClearly = 5;
 
-// Paths nearer than this fit equally well: one value with contacts, one in free flight, where only rounding
-// differs.
+// Paths nearer than this fit equally well: kEqual with contacts, kRounding in free flight, where only
+// rounding differs.
 constexpr double kEqual = 0.01, kRounding = 1e-6;
 
-// Steps of the learner's engine that the searches of a chapter may take: half a minute at most. A check of a
-// box with 40 sweeps takes 5 to 12 microseconds a step. With fewer, mistakes of engines whose design is
-// not known are not found, as each is tried in ten designs; with more, a learner waits.
+// Steps of the learner's engine that the searches of a chapter may take: half a minute at most. In a check of
+// a box with 40 iterations a step takes 5 to 12 microseconds. With fewer steps, mistakes of engines of
+// unknown design are not found, because each mistake is tried in ten designs. With more, a learner waits.
 constexpr long kSteps = 2'500'000;
 
-// Checks of a chapter for which edits and factors are tried if none explains them: they take most of the
-// time.
+// Number of checks of a chapter for which edits and factors are tried if nothing else explains the check.
+// They take most of the time.
 constexpr std::size_t kSearches = 2;
 
-// The same for a mistake with a fitted factor: its path must be nearer.
+// For a mistake with a fitted factor, the path must be nearer than this: kExactPath if the design is known or
+// only one reading is wrong, otherwise kFittedPath.
 constexpr double kFittedPath = 0.02, kExactPath = 0.001;
 
 // The mistakes that fit a check, and how many were not tried.
@@ -44,8 +45,8 @@ struct Search {
   std::size_t untried = 0;
 };
 
-// Returns true if the learner's engine without a mistake fails in the same way: the declared method itself
-// then causes the motion, and no mistake has to explain it.
+// Returns true if the learner's engine fails in the same way without a mistake: then the declared method
+// itself causes the motion, and no mistake has to explain it.
 bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::size_t check) {
   const auto& right = predictions.of({}, check);
   return right && right->finding.verdict == Verdict::Fail && same_readings(outcome.finding, right->finding);
@@ -87,7 +88,8 @@ bool changes_nothing(Predictions& predictions, std::size_t manner, std::size_t c
   return true;
 }
 
-// Keeps the best mistake of each name. Of a generated family, all that fit equally well are described.
+// Keeps the best mistake of each name. If several mistakes of a generated family fit equally well, describes
+// them all.
 std::vector<Fit> one_for_each_name(const std::vector<Fit>& sorted) {
   std::vector<Fit> out;
   for (const Fit& fit : sorted) {
@@ -114,7 +116,8 @@ bool moves(const std::vector<Recorded>& runs) {
   });
 }
 
-// Adds each variant of a mistake that fits; `exactly`: only those that give the engine's paths.
+// Adds each variant of a mistake that fits. With `exactly`, only variants that give the tested engine's exact
+// paths.
 void add_fits(const Predictable& mistake, Predictions& predictions, const Outcome& outcome, std::size_t check,
               bool exactly, std::vector<Fit>& out) {
   for (const std::size_t manner : predictions.likely()) {
@@ -135,7 +138,7 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
     out.back().generated = mistake.generated;
     predictions.refute(planted, check, out.back());
     out.back().exact = share <= kEqual && moves(wrong->runs) && same_figures(outcome.finding, wrong->finding);
-    // A mistake made in some cases only is still named where its motion is exactly this.
+    // A mistake that is made only in some cases is still named if its motion is exactly the tested engine's.
     if (out.back().refuted && !out.back().exact) out.pop_back();
   }
 }
@@ -143,7 +146,7 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
 // Returns true if a mistake predicts every verdict and every wrong reading of the chapter.
 bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 0; }
 
-// Returns true if a mistake has another name in the chapter of `digit`, which applies there.
+// Returns true if a mistake has a different name in the chapter of `digit`, which applies there.
 bool renamed(const std::vector<Predictable>& mistakes, const Predictable& mistake, char digit) {
   if (mistake.generated || mistake.chapters.find(digit) != std::string::npos) return false;
   return std::any_of(mistakes.begin(), mistakes.end(), [&](const Predictable& other) {
@@ -151,10 +154,10 @@ bool renamed(const std::vector<Predictable>& mistakes, const Predictable& mistak
   });
 }
 
-// Searches for the mistakes that fit, the best first, until the learner's engine has taken
-// `until` steps in all. Mistakes that explain the whole chapter by another check, `likely`, come first; other
+// Searches for the mistakes that fit, the best first, until the learner's engine has taken `until` steps in
+// all. First come mistakes that explain the whole chapter according to another check (`likely`). Other
 // mistakes are returned only if none of these fits, and generated families only if no other mistake explains
-// everything. Mistakes that give the engine's very paths come before those that come near them, and the
+// everything. Mistakes that give the tested engine's exact paths precede those that come near them; the
 // latter count only for engines of an unknown design.
 Search search(const std::vector<Predictable>& mistakes, Predictions& predictions,
               const std::vector<Outcome>& chapter, std::size_t check, const std::string& named,
@@ -164,7 +167,7 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
   const Outcome& outcome = chapter[check];
   if (!predictions.of({}, check)) return found;
   const char digit = static_cast<char>('0' + outcome.chapter->number);
-  // Bodies that meet nothing move alike in every design.
+  // Bodies without contacts or joints move in the same way in every design.
   const bool free = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
   for (const bool exactly : {true, false}) {
     if (!out.empty() || (!exactly && free)) break;
@@ -176,7 +179,8 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
       if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
       for (const Predictable& mistake : mistakes) {
         if (mistake.generated != generated || (mistake.exactly && !exactly)) continue;
-        // Includes mistakes of earlier chapters, which may have passed those checks.
+        // Includes mistakes of earlier chapters, because an engine with such a mistake may have passed those
+        // checks.
         const bool belongs =
             exactly ? mistake.chapters.front() <= digit : mistake.chapters.find(digit) != std::string::npos;
         if (!belongs && named != mistake.name) continue;
@@ -188,7 +192,7 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
       }
     }
   }
-  // A known design leaves no room for what comes near and contradicts other checks.
+  // If the design is known, mistakes that only come near and contradict other checks are wrong.
   if (predictions.design_known())
     std::erase_if(out, [](const Fit& fit) { return !fit.exact && !explains_all(fit); });
   std::stable_sort(out.begin(), out.end(), better);
@@ -262,23 +266,23 @@ void add_fitted(Predictions& predictions, const std::vector<Outcome>& chapter, s
   if (out.size() > 1) out.resize(1);
 }
 
-// Drops the mistakes that fit clearly worse than the best, here or in the other checks.
+// Drops the mistakes that fit clearly worse than the best one, here or in the other checks.
 void narrow(std::vector<Fit>& found, const Outcome& outcome) {
   if (!found.empty()) {
     const bool exact = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
     const Fit best = found.front();
-    // Contacts found at other times than here shift a path. If the best path is nearer than such a shift,
-    // there was none.
+    // Contacts that are found at other times than here shift a path. If the best path is nearer than such a
+    // shift, there was no shift.
     const double equal = exact ? kRounding : best.off < kExactPath ? kExactPath : kEqual;
     const double most = kClearly * std::max(best.off, equal);
-    // The other checks refute a mistake unless its motion in this check fits clearly better than that of the
-    // best, or the best does not explain them either.
+    // The other checks refute a mistake, with two exceptions: its motion in this check fits clearly better
+    // than that of the best mistake, or the best mistake does not explain the other checks either.
     const double least = best.off / kClearly;
     std::erase_if(found, [&](const Fit& fit) {
       const bool worse = explains_all(best) && !explains_all(fit);
       return fit.off > most || (worse && (fit.off >= least || best.off <= equal));
     });
-    // If figures refute none, the motions in the other checks decide.
+    // If the figures refute none, the motions in the other checks decide.
     double nearest = std::numeric_limits<double>::infinity();
     int signs = std::numeric_limits<int>::max();
     for (const Fit& fit : found)
@@ -302,7 +306,7 @@ void choose(std::vector<Fit>& found, const std::string& known, const std::set<st
   keep([&](const Fit& fit) { return alone.contains(fit.name); });
 }
 
-// Returns what the first check that a mistake fits says of it.
+// Returns the description of a mistake from the first check that it fits.
 std::string says_of(const std::vector<Search>& found, const std::string& name) {
   for (const Search& search : found)
     for (const Fit& fit : search.fits)
@@ -337,10 +341,10 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
   const bool close = found.size() == 1 && found.front().off <= kEqual;
   if (finding.observed && !finding.mistake.empty() && (among || (!computed(finding.mistake) && !close)))
     return;
-  // A generated family is no better evidence than an experiment.
+  // A mistake of a generated family is no better evidence than an experiment.
   if (finding.proven && std::all_of(found.begin(), found.end(), [](const Fit& fit) { return fit.generated; }))
     return;
-  // One that was not tried may fit as well.
+  // A mistake that was not tried may fit as well.
   if (!found.empty() && search.untried > 0) {
     finding.mistake.clear();
     finding.says = "Of the mistakes that were tried, this gives the motion.";
@@ -361,8 +365,8 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
     for (const Fit& fit : found) finding.says += fmt::format(" {}: {}", fit.name, fit.says);
     return;
   }
-  // Does not name a mistake that was only suspected if its motion differs, nor one of unknown motion whose
-  // figures are only near.
+  // Drops the name of a mistake that was only suspected and whose motion differs. Also drops the name of one
+  // whose motion cannot be computed and whose figures are only near.
   if (finding.proven || finding.mistake.empty()) return;
   const bool known = computed(finding.mistake);
   if (!known && !finding.observed && finding.certain) return;
@@ -393,7 +397,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
   for (std::size_t i = 0; i < chapter.size(); ++i) {
     const Finding& finding = chapter[i].finding;
     if (!fails(finding) || !chapter[i].check->repeatable || finding.mistake == kRunsDiffer) continue;
-    // Leaves half of the rest to later checks, which may tell more.
+    // Leaves half of the remaining steps to later checks, which may be more informative.
     const long until = predictions.steps() + (kSteps - predictions.steps()) / 2;
     const bool all = in_vain < kSearches;
     found[i] = search(all ? mistakes : listed, predictions, chapter, i, named, likely, until);
@@ -421,7 +425,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
       name_check(mistakes, found[i], finding);
       finding.says.insert(0, ended);
     }
-    // Drops a suspicion that no motion confirms, also where motions cannot be compared.
+    // Drops a suspicion that no motion confirms, including checks whose motions cannot be compared.
     if (!chapter[i].check->repeatable && finding.observed && !finding.proven && finding.mistake != known)
       unname(finding);
     // Names no second mistake for a failure that the first mistake explains equally well.
@@ -438,7 +442,7 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
         std::any_of(fits.begin(), fits.end(), [&](const Fit& fit) { return finding.mistake == fit.name; });
     if (finding.mistake.empty() && fits.empty() && known.empty() && found[i].untried > 0)
       finding.says += untried_text(found[i].untried);
-    // The figures of a check whose motion cannot be compared choose among mistakes of one motion.
+    // If motions cannot be compared, the figures of the check choose among mistakes that give one motion.
     if (!chapter[i].check->repeatable && std::any_of(likely.begin(), likely.end(), [&](const Fit& fit) {
           return finding.mistake == fit.name;
         }))

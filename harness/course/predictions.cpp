@@ -19,31 +19,33 @@ namespace {
 // contact that is found a step sooner or later shifts a path by about a hundredth of it.
 constexpr double kSamePath = 0.1;
 
-// Correct engines of different design differ by this much in their paths, so a wrong one may deviate as much.
+// If figures are exactly equal, paths may deviate by kManners times the difference between correct engines of
+// different design, or by kLoosePath of the mistake's distance from the correct paths.
 constexpr double kManners = 2, kLoosePath = 0.3;
 
-// Largest distance that a factor near the best one leaves, as a fraction of the engine's distance from the
-// correct paths.
+// A search for a factor gives up if even near the best factor this distance remains, as a fraction of the
+// tested engine's distance from the correct paths.
 constexpr double kHopeless = 0.2;
 
 // A design is dropped if another one is nearer to the engine in the checks that it passes, by this factor.
 constexpr double kClearlyNearer = 5;
 
-// Largest distance that a mistake leaves in an experiment which tells it from others, as a fraction of the
-// engine's distance from the correct paths.
+// Largest distance from the tested engine's paths in an experiment at which a mistake still counts as
+// confirmed, as a fraction of that engine's distance from the correct paths.
 constexpr double kNearest = 0.05;
 
-// Paths nearer than this to those of a correct engine count as not changed by a mistake.
+// A mistake changes nothing if its paths are nearer than this to those of a correct engine.
 constexpr double kUnchanged = 1e-6;
 
-// Largest distance of the engine's paths from those of a mistake that explains them, as a fraction of their
-// distance from the correct ones: what iterations that have not converged leave.
+// Largest distance of the tested engine's paths from those of the mistake that explains them, as a fraction
+// of their distance from the correct ones. Iterations that have not converged cause such differences.
 constexpr double kExactly = 1e-3;
 
-// The same for bodies that meet nothing: what rounding leaves.
+// The same for bodies without contacts or joints: only rounding differs.
 constexpr double kExactlyFree = 1e-9;
 
-// m, the most that iterations leave over all states, also where the paths are far from the correct ones.
+// m, largest difference that iterations cause over all states, even if the paths are far from the correct
+// ones.
 constexpr double kMostLeft = 0.01;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -69,8 +71,8 @@ Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
   known_ = least <= kUnchanged && (told_apart || (chapter.front().chapter->number < 4 && measured_push(lab)));
 }
 
-// Returns the distance of the engine's paths from those of a correct engine of a design, in the checks that
-// it passes.
+// Returns the distance of the tested engine's paths from those of a correct engine of a design, in the checks
+// that it passes.
 double Predictions::misfit(std::size_t manner) {
   double sum = 0;
   for (std::size_t i = 0; i < chapter_.size(); ++i) {
@@ -103,7 +105,8 @@ std::optional<Attempt> Predictions::attempt(const Planted& planted, std::size_t 
   return out;
 }
 
-// Runs a check until its paths are farther than `limit` from the engine's; returns nullopt in that case.
+// Runs a check until its paths are farther than `limit` from the tested engine's; returns nullopt in that
+// case.
 std::optional<Attempt> Predictions::within(const Planted& planted, std::size_t check, double limit) {
   if (std::isinf(limit)) return attempt(planted, check, {});
   const auto right = attempts_.find({Planted{"", planted.manner}, check});
@@ -128,8 +131,8 @@ const std::optional<Attempt>& Predictions::nearby(const Planted& planted, std::s
   return attempts_.emplace(std::pair{planted, check}, std::move(run)).first->second;
 }
 
-// Returns true if a mistake is too far from the engine already in the run that leaves the correct paths
-// first: most mistakes change nothing there, and running the check up to that run would take longer.
+// Returns true if a mistake is already too far from the tested engine in the run that leaves the correct
+// paths first. Most mistakes change nothing in that run, and running the check up to it would take longer.
 bool Predictions::screened_out(const Planted& planted, std::size_t check, double limit) {
   const auto& right = of({"", planted.manner}, check);
   if (!right || std::isinf(limit)) return false;
@@ -166,7 +169,7 @@ bool Predictions::screened_out(const Planted& planted, std::size_t check, double
   return false;
 }
 
-// Returns the engine's run of an experiment; nullopt if it does not support such scenes.
+// Returns the tested engine's run of an experiment; nullopt if it does not support the scene.
 const std::optional<Recorded>& Predictions::seen_in(std::size_t experiment) {
   const auto [place, is_new] = seen_in_.try_emplace(experiment);
   if (!is_new) return place->second;
@@ -179,7 +182,7 @@ const std::optional<Recorded>& Predictions::seen_in(std::size_t experiment) {
   return place->second;
 }
 
-// Returns the distance of the engine's paths from those of a mistake in an experiment.
+// Returns the distance of the tested engine's paths from those of a mistake in an experiment.
 std::optional<double> Predictions::far_in(std::size_t experiment, const Planted& planted) {
   const auto& seen = seen_in(experiment);
   if (!seen) return std::nullopt;
@@ -218,7 +221,8 @@ void Predictions::tell_apart(std::vector<Fit>& found) {
     const auto exact = [&](std::size_t k) { return far[k] <= limit[k]; };
     bool any = false;
     for (std::size_t k = 0; k < far.size(); ++k) any = any || exact(k);
-    // Designs that are not quite the engine's leave a distance, much less than that of another mistake.
+    // A design that is not exactly the tested engine's leaves a distance, but a much smaller one than another
+    // mistake.
     if (!any && !free && !(least <= kNearest * all)) continue;
     std::size_t k = 0;
     std::erase_if(found, [&](const Fit&) {
@@ -229,9 +233,9 @@ void Predictions::tell_apart(std::vector<Fit>& found) {
   }
 }
 
-// Returns a distance of the engine's paths from those of a mistake above which `near` is false. With r for
-// the correct paths, w for the mistake's and e for the engine's, `near` requires |e - w| <= a |r - w| + b,
-// and |r - w| <= |r - e| + |e - w|.
+// Returns a distance of the tested engine's paths from those of a mistake above which `near` is certainly
+// false. With r for the correct paths, w for the mistake's and e for the tested engine's, `near` requires |e
+// - w| <= a |r - w| + b, and |r - w| <= |r - e| + |e - w|.
 double Predictions::farthest(std::size_t check, std::size_t manner) {
   const auto [place, is_new] = farthest_.try_emplace({check, manner}, kInfinity);
   const auto& right = of({"", manner}, check);
@@ -280,7 +284,7 @@ void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {
   fit.signs += sees_another(check, of(planted, check)->finding);
 }
 
-// Returns true if a check detects a mistake in the predicted motion, but not in the engine's.
+// Returns true if a check detects a mistake in the predicted motion, but not in the tested engine's.
 bool Predictions::sees_another(std::size_t check, const Finding& predicted) const {
   return predicted.observed && predicted.mistake != seen_[check];
 }
@@ -336,7 +340,7 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
                                  0.75, 1,  1.25, 1.5, 2,    3,   5,   9,    15};
   const auto count = static_cast<std::ptrdiff_t>(std::size(kFactors));
   const double all = right ? distance(seen, seen, right->runs, right_runs) : 0;
-  // A quantity that plays no part here changes nothing, whatever its factor.
+  // A quantity that is not used here changes nothing, whatever its factor.
   if (far(kFactors[0], kInfinity) == all && far(kFactors[count - 1], kInfinity) == all) return std::nullopt;
   std::ptrdiff_t best = 0;
   for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -348,7 +352,8 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
   double lower = high - kGolden * (high - low), upper = low + kGolden * (high - low);
   double at_lower = far(lower, kInfinity), at_upper = far(upper, kInfinity);
   for (int i = 0; i < 24; ++i) {
-    // A twentieth of the interval changes the path little: if it is not near then, it never is.
+    // A twentieth of the interval changes the path only a little: if the path is not near now, it never will
+    // be.
     if (i == 7 && least > kHopeless * all) return std::nullopt;
     if (at_lower < at_upper) {
       high = std::exchange(upper, lower);

@@ -30,18 +30,18 @@ struct Planted {
   auto operator<=>(const Planted&) const = default;
 };
 
-/// How well a mistake fits a check.
+/// Quality of the fit of a mistake to a check.
 struct Fit {
   std::string name, says;
   Planted planted;
-  double off = 0;  ///< ratio of the paths' distance to the mistake's distance from the correct paths
-  // Other checks of the chapter in which it predicts another verdict, and those in which other readings.
+  double off = 0;  ///< distance of the paths over the mistake's distance from the correct paths
+  // Number of other checks of the chapter for which it predicts another verdict, or other readings.
   int verdicts = 0, readings = 0;
-  double elsewhere = 0;    ///< largest `off` of the other checks that fail
+  double elsewhere = 0;    ///< largest `off` in the other failed checks
   bool generated = false;  ///< one of a family
   bool exact = false;      ///< its figures equal the engine's, and its paths fit as well
-  bool refuted = false;    ///< another check, which the engine passes, would clearly fail
-  int signs = 0;           ///< number of checks that detect a mistake in its motion, but not in the engine's
+  bool refuted = false;    ///< it would clearly fail another check, which the tested engine passes
+  int signs = 0;  ///< number of checks that detect a mistake in its motion, but not in the tested engine's
 };
 
 /// Runs each check at most once for each mistake.
@@ -52,9 +52,9 @@ class Predictions {
   /// Returns nullopt if the check throws.
   const std::optional<Attempt>& of(const Planted& planted, std::size_t check);
 
-  /// Also returns nullopt if the paths are too far from the engine's for `near`. Such a run ends as soon as
-  /// that is certain, which for most mistakes is early in the first scene.
-  /// `exactly`: also if they are too far for `exactly` below.
+  /// Does the same, but also returns nullopt if the paths are too far from the tested engine's for `near`.
+  /// Such a run ends as soon as that is certain, which for most mistakes is early in the first scene. With
+  /// `exactly`, also returns nullopt if they are too far for `exactly` below.
   const std::optional<Attempt>& nearby(const Planted& planted, std::size_t check, bool exactly);
 
   /// Returns the fraction of an overlap that a step removes.
@@ -62,42 +62,44 @@ class Predictions {
 
   double dt() const { return lab_.dt(); }
 
-  /// Returns the number of steps that the learner's engine has taken so far: it measures the time of a search
-  /// alike on every machine.
+  /// Returns the number of steps that the learner's engine has taken so far. It measures the time of a search
+  /// in the same way on every machine.
   long steps() const { return steps_; }
 
   std::size_t manners() const { return manners_.size(); }
 
-  /// Returns the designs that are not clearly farther than another from the engine, in the checks that it
+  /// Returns the designs that fit the tested engine about as well as the best one, in the checks that it
   /// passes.
   const std::vector<std::size_t>& likely() const { return likely_; }
 
-  /// Returns true if a correct engine of a likely design gives the engine's paths in all checks that it
-  /// passes. A mistake must then give its paths in those that it fails.
+  /// Returns true if a correct engine of a likely design gives the tested engine's paths in all checks that
+  /// it passes. A mistake must then give its paths in the checks that it fails.
   bool design_known() const { return known_; }
 
-  /// Returns true if the engine's paths are those of a mistake, but for what iterations leave.
+  /// Returns true if the tested engine's paths are those of a mistake, up to differences due to iterations.
   bool exactly(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong);
 
-  /// Counts the other checks of which a mistake predicts another verdict, or other wrong readings.
+  /// Counts the other checks for which a mistake predicts another verdict, or other wrong readings.
   void refute(const Planted& planted, std::size_t check, Fit& fit);
 
-  /// Returns the distance of the engine's paths from those of a mistake, divided by the distance of the
-  /// mistake's from the correct ones. If only velocities are wrong it is 0: only readings decide then.
+  /// Returns the distance of the tested engine's paths from those of a mistake, divided by the distance of
+  /// the mistake's paths from the correct ones. Returns 0 if only velocities are wrong: then only readings
+  /// decide.
   double off(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong);
 
-  /// Returns true if the engine's paths equal those of a mistake. If its figures are exactly equal, paths may
-  /// differ by more: by the differences between correct engines, and by the correction of overlaps that only
-  /// the mistake causes.
+  /// Returns true if the tested engine's paths equal those of a mistake. If its figures are exactly equal,
+  /// paths may differ by more: by the differences between correct engines, and by the correction of overlaps
+  /// that only the mistake causes.
   bool near(std::size_t check, std::size_t manner, const Attempt& wrong);
 
-  /// Keeps those of several mistakes that give the engine's very paths in further scenes as well
-  /// (experiments.h), if any do in a scene in which others do not. Where bodies meet nothing, engines of
-  /// every design move alike: a mistake that gives another motion there is dropped in any case.
+  /// Selects among several mistakes by further scenes (experiments.h): keeps those that give exactly the
+  /// tested engine's paths there, if in some scene only some of the mistakes do. Without contacts and joints,
+  /// engines of every design move in the same way, so a mistake that gives another motion there is always
+  /// dropped.
   void tell_apart(std::vector<Fit>& found);
 
-  /// Returns the factor that brings the learner's engine nearest to the engine's paths, or nullopt if no
-  /// factor brings it near.
+  /// Returns the factor with which the learner's engine is nearest to the tested engine's paths; nullopt if
+  /// it is not near with any factor.
   std::optional<double> factor(const std::string& quantity, std::size_t manner, std::size_t check);
 
  private:

@@ -112,7 +112,7 @@ Finding ragdoll_flies(const Lab& lab) {
     l += about(trace.last(i), centre, velocity);
   }
   const double gap = widest_gap(scene, trace), fall = lab.way(0, -kGravity, t);
-  // Tolerates the loss that all limbs would have if they circled the centre on sticks held by position
+  // Tolerates the loss that would occur if all limbs circled the centre on sticks held by position
   // corrections.
   const double lost = std::max(0.05, 1 - lab.spin_kept_by_positions(spin, t));
   // Soft steps move jointed bodies by semi-implicit Euler, free ones exactly.

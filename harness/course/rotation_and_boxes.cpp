@@ -18,7 +18,7 @@ constexpr const char* kContacts =
     "\"shapes\":[\"circle\",\"box\"] and \"features\":[\"contacts\"]: boxes that turn and collide";
 
 Finding torque_spins(const Lab& lab) {
-  // Not a square, in which w^2 + h^2, 2 w h, and half of (w + h)^2 are the same.
+  // Not a square, for which w^2 + h^2, 2 w h and half of (w + h)^2 are equal.
   const double mass = 3, width = 1.2, height = 0.5, torque = 0.4225;
   const double share = mass / 12, inertia = share * (width * width + height * height);
   Scene scene = scene_of("torque", {}, {make(Crate{.mass = mass, .width = width, .height = height})});
@@ -235,12 +235,12 @@ Finding least_overlap(const Lab& lab) {
       upright({.position = {x, start}, .velocity = {0, -v}, .width = 0.8, .height = 0.6, .restitution = e});
   const Trace trace = lab.run(scene_of("edge", {}, {box, platform}), 1);
   const double t = trace.duration();
-  // Moves by the whole overlap along x.
+  // Position of a box that was moved by the whole overlap along x.
   const double beside = (4 + 0.8) / 2;
   const bool out_at_the_side =
       std::abs(trace.last(0).position.x - beside) < 0.01 && std::abs(trace.last(0).velocity.x) < 0.002 * v;
   const auto gap = [&](const auto& s) { return s[0].position.y - top; };
-  // A box that has sunk in until its overlap along y is the larger one is moved out at the side rightly.
+  // If a box has sunk in until its overlap along y is the larger one, it is right to move it out at the side.
   bool sinks_first = false;
   for (const auto& states : trace.states) {
     if (std::abs(states[0].position.x - x) > 1e-6) break;

@@ -45,7 +45,7 @@ Scene scene_of(std::string name, Vec2d gravity, std::vector<Body> bodies);
 PointForce push(const std::string& body, Vec2d force, Vec2d point = {});
 
 /// Returns the least gain of downward speed in a step, divided by g dt, over the steps in which a ball of
-/// radius r is above the floor at 0, before and after. It is 1 for any method.
+/// radius r is above the floor at 0 before and after the step. It is 1 for any method.
 double least_gain_above(const Lab& lab, const Trace& trace, double r, double g);
 
 /// Returns the largest change of velocity, m/s, of two balls that pass a static box without touching it: one

@@ -35,7 +35,7 @@ struct Swing {
 
 // Returns the swing of a pendulum of length `l`, m, released at `amplitude`, over `time` s, whose string is
 // held by position corrections as in `Lab::spin_kept_by_positions`. Such a step also removes h^2 times the
-// string's tension over m l from w: dw/dt = -g/l sin(a) - h w (w^2 + g/l cos(a)), integrated here by the
+// string's tension over m l from w. So dw/dt = -g/l sin(a) - h w (w^2 + g/l cos(a)), integrated here by the
 // fourth-order Runge-Kutta method.
 Swing swing_by_positions(double amplitude, double l, double h, double time, double due) {
   constexpr int kSteps = 4000;
@@ -69,7 +69,7 @@ bool opposite(const Trace& trace) {
   return length(trace.last(0).velocity + trace.last(1).velocity) < 1e-6 * length(trace.last(0).velocity);
 }
 
-// A stick of 1 m between two balls that move across it at 1 m/s each: it turns at 2 rad/s.
+// A stick of 1 m between two balls that move perpendicular to it at 1 m/s each: it turns at 2 rad/s.
 Scene turning_stick() {
   Scene scene = scene_of("stick", {},
                          {make(Ball{.name = "a", .position = {-0.5, 0}, .velocity = {0, -1}, .radius = 0.1}),
@@ -94,8 +94,8 @@ Scene chain(int links) {
   return scene;
 }
 
-// Returns the fraction of a ball's speed along its stick that is left after a step: 0 for a direction of
-// length 1, at any length of the stick.
+// Returns the fraction of a ball's speed along its stick that remains after a step. It is 0 if the direction
+// is normalised, for every length of the stick.
 double speed_left(const Lab& lab, double length) {
   Scene scene =
       scene_of("one stick", {},
@@ -152,7 +152,7 @@ Finding stick_keeps_its_length(const Lab& lab) {
   const double spin = cross(trace.last(1).position - trace.last(0).position,
                             trace.last(1).velocity - trace.last(0).velocity) /
                       (end * end);
-  // With position corrections it may lose exactly as much as that method loses, to second order.
+  // An engine that corrects positions may lose as much as that method loses, to second order.
   const double slowed = w * lab.spin_kept_by_positions(w, t);
   const bool by_positions = lab.first_order() && std::abs(spin - slowed) <= wh * wh * slowed;
   return Judgement()
@@ -200,7 +200,7 @@ Finding stick_weighs_masses(const Lab& lab) {
   const double t = trace.duration(), both = force * t / (heavy + light);
   const double momentum = heavy * trace.last(0).velocity.x + light * trace.last(1).velocity.x;
   scene.forces = {push("light", {-force, 0})};
-  // Ends before a stick that stretches would be drawn out to the other side, after 0.43 s.
+  // Ends before a stick that stretches would be pulled through to the other side, after 0.43 s.
   const Trace pushed = lab.run(scene, 0.4);
   const double when_pushed = -force * pushed.duration() / (heavy + light);
   // Two balls of 1 kg, for which ma + mb equals 1/ma + 1/mb, move together, first pulled, then pushed.
@@ -275,7 +275,7 @@ Finding pendulum(const Lab& lab) {
     const Trace t = lab.run(turning_stick(), 1);
     return std::abs(length(t.last(1).position - t.last(0).position) - 1) < 0.05;
   };
-  // With position corrections it may lose exactly as much as that method loses, to second order.
+  // An engine that corrects positions may lose as much as that method loses, to second order.
   const Swing slowed = swing_by_positions(amplitude, l, lab.substep(), trace.duration(), due);
   const double share = std::pow(peak * lab.dt(), 2);
   const bool by_positions = lab.first_order() &&

@@ -59,8 +59,8 @@ Finding ball_hits_rod(const Lab& lab) {
         make(Crate{.name = "rod", .position = at, .mass = rod_mass, .width = width, .height = height});
     return lab.run(scene_of("rod", {}, rod_first ? std::vector{rod, ball} : std::vector{ball, rod}), 0.6);
   };
-  // Rods so light that the lever has most of the effective mass: iterations do not repair an impulse computed
-  // without it. On the long one, a lever that is not squared is as wrong as none.
+  // Rods so light that the lever arm dominates the effective mass: iterations do not repair an impulse
+  // computed without it. On the long rod, an arm that is not squared is as wrong as none.
   struct LightRod {
     double mass, height, reach;
   };
@@ -164,9 +164,9 @@ Finding turned_box(const Lab& lab) {
       .finding();
 }
 
-constexpr double kDrop = 1.2, kTilt = 30;  // m and degrees, of a square that lands on a corner
+constexpr double kDrop = 1.2, kTilt = 30;  // m and degrees, of the square that lands on a corner
 
-// Lands a square on a corner, with nothing to turn it but the corner's arm r: the corner leaves the ground
+// Lands a square on a corner, so that only the corner's arm r can rotate it: the corner leaves the ground
 // with e v.
 BodyState on_corner(const Lab& lab, double v, double e, double side, bool ground_first) {
   const Body box = make(Crate{.position = {0.3, kDrop},
@@ -210,9 +210,10 @@ Finding lands_flat(const Lab& lab) {
     const double j = (1 + e) * v / (1 / box.mass + arm * arm * eases);
     return Hit{j / box.mass - v, arm * j * eases};
   };
-  // A step may correct the overlap that it finds at the corner, which turns the box, before the impulse acts.
-  // With 1/60 s the overlap is 13 mm, it turns the box by 0.015 rad, and the spin changes by 3.7 %. With less
-  // tolerance engines that do so fail; with twice as much an inertia that is 8 % off passes.
+  // A step may correct the overlap that it finds at the corner before the impulse acts, which rotates the
+  // box. With 1/60 s the overlap is 13 mm; correcting it rotates the box by 0.015 rad, and the spin changes
+  // by 3.7 %. With a smaller tolerance, engines that do so would fail; with twice this tolerance, an inertia
+  // that is 8 % off would pass.
   const double way = v * (lab.substep() > 0 ? lab.substep() : lab.dt());
   const double fall = kDrop - to_corner * std::cos((45 - kTilt) / kDegrees);
   const double overlap = way * std::ceil(fall / way) - fall;
@@ -379,8 +380,8 @@ Finding box_rests(const Lab& lab) {
       .finding();
 }
 
-// Lets a disc that spins meet another head-on. The impulse across stops the sliding of their rims, as between
-// wheels: it is below mu times the one along the normal.
+// Lets a disc that spins meet another head-on. The impulse along the tangent stops the sliding of their rims,
+// as between wheels: it is less than mu times the one along the normal.
 Finding discs_rub(const Lab& lab) {
   const double v = 1, w = 4, ra = 0.5, rb = 0.4, ma = 2, mb = 1, e = 0.5;
   const double ia = ma * ra * ra / 2, ib = mb * rb * rb / 2;
@@ -400,7 +401,7 @@ Finding discs_rub(const Lab& lab) {
   a.shapes.front().friction = b.shapes.front().friction = 1;
   const Trace trace = lab.run(scene_of("discs", {}, {a, b}), 1);
   const double j = (1 + e) * v / (1 / ma + 1 / mb);
-  // A contact that is found a step late is one step's displacement deep, which changes an arm.
+  // A contact that is found a step late has a depth of one step's displacement, which changes an arm.
   const double share = 2 * v * lab.dt() / rb + 0.01;
   const Vec2d va = q.inverse() * trace.last(0).velocity, vb = q.inverse() * trace.last(1).velocity;
   const double spin_a = w - ra * across / ia, spin_b = -rb * across / ib;

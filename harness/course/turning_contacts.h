@@ -11,7 +11,7 @@ namespace plumb::course {
 inline constexpr const char* kLever =
     "The arm r is measured from the world's origin: measure it from the body's centre to the point.";
 
-/// Checks a ball that hits a rod beside its centre.
+/// Checks a ball that hits a rod off-centre.
 Finding ball_hits_rod(const Lab& lab);
 
 /// Checks a ball that bounces off the sides of a static box that is turned.

@@ -157,7 +157,7 @@ class Questions {
     return {};
   }
 
-  // Lets the query see a shape by a random rule: one of 64 categories.
+  // Makes the query see a shape by a random rule: one of 64 categories.
   std::string filtered() {
     const Known& target = some();
     QueryFilter filter;

@@ -52,7 +52,7 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
     Blow then = at;
     then.push(own, friction * own);
     if (!stopped && then.along() * way <= 0) {
-      // Ends this part at the impulse where the slip stops.
+      // Ends this part at the impulse at which the slip stops.
       own *= at.along() / (at.along() - then.along());
       stopped = true;
     }
@@ -146,7 +146,7 @@ std::string blown(Random& random, const Accuracy& accuracy) {
       const double share = (slip != 0 ? slip < 0 : tangent > 0) ? mu : -mu;
       normal = wanted / (nn + share * nt), tangent = share * normal;
       right.push(normal, tangent);
-      if (normal < 0 || right.along() * slip < 0) return {};  // turned round: another branch
+      if (normal < 0 || right.along() * slip < 0) return {};  // reversed: another branch of the law
       right = blow;
     }
     right.push(normal, tangent);

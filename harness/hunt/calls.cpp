@@ -24,7 +24,7 @@ std::string Caller<Real, Target>::make() {
   Make call = on_world();
   if (!bodies_.empty() && random_.chance(0.85)) {
     body_ = random_.pick(bodies_);
-    // Chooses sleeping bodies preferentially: these are what a call may fail to wake.
+    // Prefers sleeping bodies, because a call may fail to wake these.
     for (int tries = 0; tries < 4 && (world_.awake(body_) || world_.type(body_) != BodyType::Dynamic);
          ++tries)
       body_ = random_.pick(bodies_);
@@ -125,7 +125,7 @@ std::string Caller<Real, Target>::mass_by_shapes() {
     moment += weight * of.centroid;
     about_origin += world_.density(shape) * of.second + weight * dot(of.centroid, of.centroid);
   }
-  if (!(mass > 1e-6)) return {};  // the world has a rule of its own for bodies without mass
+  if (!(mass > 1e-6)) return {};  // the world treats bodies without mass in its own way
   const Vec2d centre = (1 / mass) * moment;
   const double inertia = about_origin - mass * dot(centre, centre);
   // Outlines are polygons of 360 corners.

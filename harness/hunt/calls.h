@@ -12,8 +12,8 @@ namespace plumb::harness::hunt {
 /// Draws a call for the state of `world` and makes it through `target`: the world itself, or its recorder.
 /// Draws the default values of a definition as often as others. Returns a description of the first error
 /// afterwards (a getter whose answer differs from the set value, a change of mass that changes the motion, a
-/// sleeping body that is not woken, a hash that does not change), or an empty text. Ignores calls that are
-/// rejected with an `Error`.
+/// sleeping body that is not woken, a hash that does not change), or an empty text. Calls that are rejected
+/// with an `Error` do not count.
 template <class Real, class Target>
 std::string make_call(Random& random, const BasicWorld<Real>& world, Target& target);
 

@@ -78,8 +78,8 @@ std::string Caller<Real, Target>::turned_by(double turn, const std::vector<doubl
     const auto [a, b] = world_.bodies(joints[i]);
     if (!std::holds_alternative<RevoluteDefinition>(world_.kind(joints[i])) || a == b) continue;
     const double right = before[i] + (b == body_ ? turn : -turn), now = world_.read(joints[i]).angle;
-    // Rotations of half a circle and more may be counted either way, and so may the angle of a joint that has
-    // not been stepped since it was created.
+    // Rotations of half a circle and more may be counted in either direction, and so may the angle of a joint
+    // that has not been stepped since it was created.
     const bool either = std::abs(turn) > 3 || (std::abs(before[i]) < 3.15 && std::abs(right) > 3.1);
     if (!either && std::abs(now - right) > 1e-3 * (1 + 1e-3 * std::abs(right)))
       return fmt::format("a hinge of '{}' reads {:.6g} rad after a rotation, not {:.6g}", world_.name(body_),

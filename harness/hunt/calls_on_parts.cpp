@@ -112,7 +112,7 @@ std::string Caller<Real, Target>::change() {
 template <class Real, class Target>
 std::string Caller<Real, Target>::loads() {
   const JointReading reading = world_.read(joint_);
-  // Near its present load, so that a slightly larger or smaller load decides.
+  // Chooses limits near the joint's present load, so that a slightly larger or smaller load decides.
   const double force = random_.chance(0.2) ? 0 : reading.force * random_.within(0.85, 1.02),
                torque = random_.chance(0.6) ? 0 : reading.torque * random_.within(0.85, 1.02);
   target_.set_load_events(joint_, force, torque);

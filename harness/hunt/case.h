@@ -13,14 +13,14 @@
 namespace plumb::harness::hunt {
 
 enum class ActionKind : std::uint8_t {
-  Create,        ///< creates a body of the scene, which does not exist before
+  Create,        ///< creates a body of the scene, which is absent until then
   Destroy,       ///< a body
-  CreateJoint,   ///< creates a joint of the scene, which does not exist before
+  CreateJoint,   ///< creates a joint of the scene, which is absent until then
   DestroyJoint,  ///< a joint
-  Teleport,      ///< a body to `position` and `angle`
+  Teleport,      ///< moves a body to `position` and `angle`
   Push,          ///< a body: its velocity becomes `position` per second, its angular velocity `angle`
   SetType,       ///< of a body
-  SetFilter,     ///< of all shapes of a body: they collide with nothing, or with everything
+  SetFilter,     ///< changes all shapes of a body: they collide with nothing, or with everything
   DestroyShape,  ///< the last shape of a body
   Sleep,         ///< a body with its island
 };
@@ -63,8 +63,8 @@ struct Expectation {
   double upper = std::numeric_limits<double>::infinity();
   double from = 0;                                      ///< s
   double to = std::numeric_limits<double>::infinity();  ///< s
-  std::vector<std::string> needs{};       ///< bodies or joints without which it does not apply; or `kMasses`
-  std::map<std::string, double> until{};  ///< s: bodies without which it applies only until then
+  std::vector<std::string> needs{};       ///< bodies or joints required for the expectation; or `kMasses`
+  std::map<std::string, double> until{};  ///< s: without these bodies it applies only until then
   std::string why{};                      ///< the expected behaviour, in one line
 };
 
@@ -80,8 +80,7 @@ struct Case {
   std::vector<std::string> sensors{};  ///< bodies whose shapes are sensors
   std::vector<Action> actions{};       ///< in the order of their steps
   std::vector<Expectation> expectations{};
-  std::string
-      case_file{};  ///< path of the case file whose expectations hold, as long as the scene is its own
+  std::string case_file{};  ///< the case file whose expectations hold while the scene is unchanged
 
   /// Returns true if only a World can run it.
   bool world_only() const { return !actions.empty() || !sensors.empty(); }

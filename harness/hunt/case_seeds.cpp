@@ -17,9 +17,9 @@
 namespace plumb::harness::hunt {
 namespace {
 
-constexpr double kStep = 1.0 / 60;  // s, of the file's own scene
+constexpr double kStep = 1.0 / 60;  // s, for the file's own scene
 constexpr int kSubsteps = 4;
-constexpr std::string_view kPrefix = "expected ";  // of the names of checks of a file's expectations
+constexpr std::string_view kPrefix = "expected ";  // of the checks of a file's expectations
 constexpr double kLongest = 10;                    // s, of a variation
 constexpr double kSeconds = 10;                    // processor time limit of Precise
 
@@ -33,7 +33,7 @@ void draw_finer_steps(Draft& draft) {
   out.sleeping = draft.random.chance(0.3);
 }
 
-// Multiplies masses and, where they are given, inertias.
+// Multiplies masses, and inertias if they are given.
 void draw_masses(Draft& draft) {
   const double all = draft.random.ladder(0.01, 100);
   for (Body& body : draft.out.scene.bodies) {

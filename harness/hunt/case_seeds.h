@@ -25,7 +25,8 @@ CaseSeed read_seed(const std::string& path);
 /// arguments give the same case on every machine.
 Case vary(std::uint64_t seed, std::uint64_t index, const std::vector<CaseSeed>& seeds);
 
-/// Judges the engine by the expectations of the case's file, if its scene is the file's; nothing otherwise.
+/// Judges the engine by the expectations of the case's file if its scene is the file's; otherwise returns
+/// nullopt.
 Verdict case_file_verdict(const Case& one, const Engine& engine);
 
 }  // namespace plumb::harness::hunt

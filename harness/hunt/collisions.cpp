@@ -17,8 +17,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // Largest growth of a perturbation for which the errors of a step stay below the bound.
 constexpr double kPerturbation = 1e-7, kGrown = 8;
-// Time between two impacts of one body, as a fraction of a step, up to which they count as simultaneous: for
-// these, mechanics determines no answer.
+// Two impacts of one body count as simultaneous if the time between them is at most this fraction of a step;
+// mechanics determines no answer for these.
 constexpr double kAtOnce = 0.01;
 // Tolerance of positions: kShare of the largest disc, the displacement of a step, and the displacement at
 // kDrift of the largest speed since the first impact. Tolerance of velocities: kSpeed of the largest speed.
@@ -294,7 +294,7 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
     if (discs->impacts() > 0) ++since;
     struck = discs->impacts() > before ? 0 : struck + 1;
     double fastest = 0, off = 0, wrong = 0, grown = 0;
-    // A step that ends at an impact ends before it in some runs.
+    // A step that ends at an impact may end just before it in some runs.
     bool alike = true;
     for (Discs& other : others) {
       if (!other.step(step)) return {};
@@ -314,7 +314,7 @@ Verdict collisions_relation(const Case& one, const Engine& engine, const Motion&
       if (apart > off) off = apart, worst = disc.body;
       wrong = std::max(wrong, length(state.velocity - disc.velocity));
     }
-    // Leaves out scenes with slow discs, which may fall asleep: bodies do at a twentieth of their size per
+    // Leaves out scenes with slow discs, because bodies may fall asleep below a twentieth of their size per
     // second.
     for (const Disc& disc : discs->discs())
       if (one.sleeping && disc.velocity != Vec2d{} && length(disc.velocity) < 0.3 * disc.radius) return {};

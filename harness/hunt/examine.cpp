@@ -20,7 +20,7 @@ bool is_always_due(const std::string& name) {
 }
 
 // Checks the relations that are due in every scene, and two of the others in turn, because each costs a run
-// or more; if `law` names one, only that.
+// or more. If `law` names one, checks only that.
 void check_some(const std::vector<Relation>& relations, const Engine& engine, const Case& one,
                 const std::string& law, const Motion& motion, Examined& out) {
   std::vector<const Relation*> apply;
@@ -71,7 +71,8 @@ Examined examine(const Engine& engine, const Case& one, const std::string& law) 
     // A run that ended early is not checked against the other laws.
     if (each.name == "finite") return out;
   }
-  // A run that broke a law is already known to be wrong. Promises hold for wrong motions as well.
+  // A run that broke a law is already known to be wrong, so the relations are not checked. Promises must hold
+  // for wrong motions as well.
   if (!law.empty() || out.objections.empty()) check_some(relations(), engine, one, law, motion, out);
   check_some(promises(), engine, one, law, motion, out);
   return out;

@@ -10,7 +10,7 @@ namespace plumb::harness::hunt {
 /// Result of one case on one engine.
 struct Examined {
   std::vector<Objection> objections{};  ///< at most one per judge
-  std::string skipped{};                ///< reason for which the engine rejected it
+  std::string skipped{};                ///< reason why the engine rejected the case
 };
 
 /// Runs `one` and evaluates every judge, or only that of `law`.

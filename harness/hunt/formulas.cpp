@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kFormulas = 25;
 constexpr double kTolerance = 1e-9;
-// Error that a rounding causes at the end of a function's domain, as of acos at 1: the square root of the
+// Error that rounding causes at the end of a function's domain (such as acos at 1): the square root of the
 // rounding.
 constexpr double kRootOfRounding = 1e-7;
 // Relative error of a slope by finite differences, if two step widths agree to a tenth of that.
@@ -208,7 +208,8 @@ std::string wrong_formula(const Expression& expression, double x, double y) {
   return {};
 }
 
-/// Writes persistent force laws as formulas. Returns nothing if there is none, or one that cannot be written.
+/// Writes persistent force laws as formulas. Returns nullopt if there is none, or if one cannot be written as
+/// a formula.
 std::optional<Case> as_formulas(const Case& one) {
   Case out = one;
   bool any = false;
@@ -283,8 +284,8 @@ bool has_laws_as_formulas(const Case& one, const Engine& engine) {
   return engine.kind != Engine::Kind::Other && !one.world_only() && as_formulas(one).has_value();
 }
 
-// Laws that are evaluated a step late, and laws solved implicitly with the velocities, differ by the
-// displacement in a few steps and by the velocity that forces add in one.
+// Laws that are evaluated a step late, and laws that are solved implicitly with the velocities, differ by two
+// things: the displacement in a few steps, and the velocity that forces add in one step.
 Verdict as_formulas_relation(const Case& one, const Engine& engine, const Motion& motion) {
   const auto other = as_formulas(one);
   if (!other || !motion.failure.empty()) return {};

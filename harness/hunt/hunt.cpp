@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 // Processor time limits for a scene, and for a run.
 constexpr double kSceneSeconds = 60, kRunSeconds = 10;
 constexpr double kMoreSeconds = 30;  // after the time limit, for shrinking findings
-// Stands for the law in a task whose scene's process died: each engine is then examined by itself.
+// Replaces the law in a task whose scene's process died: each engine is then examined separately.
 constexpr std::uint64_t kCrashed = 0xFF;
 
 /// A task packed into a number: a scene, or one finding in it to be shrunk.

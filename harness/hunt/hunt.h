@@ -13,8 +13,8 @@
 namespace plumb::harness::hunt {
 
 struct HuntOptions {
-  std::vector<const Idiom*> families{};  ///< structures to draw from; none: all, unless there are `cases`
-  std::vector<CaseSeed> cases{};  ///< case files whose scenes are varied; with families every second scene
+  std::vector<const Idiom*> families{};  ///< structures to draw from; empty: all, unless there are `cases`
+  std::vector<CaseSeed> cases{};  ///< case files whose scenes are varied; with families, every second scene
   std::vector<Engine> engines{};
   std::uint64_t seed = 1;
   double seconds = 60;       ///< of wall time; 0: no limit
@@ -29,7 +29,7 @@ struct Kind {
   std::string name;  ///< judge, and the parts of the smallest scene
   std::vector<std::string> engines{};
   std::vector<std::string> idioms{};  ///< structures in which it appeared
-  std::uint64_t first = 0;            ///< number of scenes drawn until it appeared
+  std::uint64_t first = 0;            ///< number of scenes drawn before it appeared
   std::uint64_t count = 0;            ///< number of findings
   Finding smallest{};
   std::string file{};  ///< file of the smallest scene, in the folder
@@ -50,7 +50,7 @@ struct HuntEvents {
 Case draw(const HuntOptions& options, std::uint64_t index);
 
 /// Draws scenes, runs and judges them, and shrinks the failing ones. Resumes an earlier hunt in the folder.
-/// Throws `Error` (Io), also if the folder holds a hunt of another seed, engines or families.
+/// Throws `Error` (Io), also if the hunt in the folder has another seed, engines or families.
 Hunted hunt(const HuntOptions& options, const HuntEvents& events);
 
 /// Writes the finding's case to `folder`/`name`.json, and its picture with the command that replays it to

@@ -33,7 +33,7 @@ class Draft {
   double friction = 0.6;   ///< of the bodies being built, unless an idiom draws its own
   double restitution = 0;  ///< as friction
   double density = 1;      ///< kg/m^2
-  std::string idiom;       ///< idiom of the next bodies: part of their names
+  std::string idiom;       ///< idiom of the next bodies; part of their names
 
   Body& body(int index) { return out.scene.bodies[static_cast<std::size_t>(index)]; }
   const std::string& name(int index) const;  ///< of a body; "world" for -1
@@ -68,7 +68,7 @@ class Draft {
 
   /// Disables collisions among the bodies from `first` on.
   void pass_each_other(int first);
-  /// Adds a common rotation about a point to the bodies from `first` on.
+  /// Adds a common rotation about a point to the velocities of the bodies from `first` on.
   void whirl(int first, Vec2d about, double rate);
   int count() const { return static_cast<int>(out.scene.bodies.size()); }
 
@@ -88,9 +88,9 @@ struct Idiom {
   std::string title;  ///< "four blades on a hub"
   Role role = Role::Structure;
   double weight = 1;                                 ///< relative frequency
-  bool air = true, floor = true, enclosure = false;  ///< sites that a structure is built on
-  bool level = false;                                ///< only on floors that are flat and at rest
-  std::function<bool(const Draft&)> fits{};          ///< of a disturbance; none: always
+  bool air = true, floor = true, enclosure = false;  ///< sites that a structure may be built on
+  bool level = false;                                ///< only floors that are flat and at rest
+  std::function<bool(const Draft&)> fits{};  ///< of a disturbance: where it applies; empty: everywhere
   std::function<void(Draft&)> build{};
 };
 
@@ -105,7 +105,7 @@ struct Register {
   explicit Register(Idiom idiom);
 };
 
-/// Draws case `index` of a hunt; `wanted` names the structures to choose from, none: all. The same arguments
+/// Draws case `index` of a hunt; `wanted` names the structures to choose from, empty: all. The same arguments
 /// give the same case on every machine.
 Case compose(std::uint64_t seed, std::uint64_t index, const std::vector<const Idiom*>& wanted = {});
 

@@ -110,7 +110,7 @@ class Free {
     loads.force[body] += force;
     loads.torque[body] += arm.x * force.y - arm.y * force.x;
   }
-  // A force acts during a whole part between switches or not at all, so the part's middle decides.
+  // A part lies between two switches, so a force acts during the whole part or not at all: test its middle.
   bool acts(double start, double duration) const { return middle_ >= start && middle_ < start + duration; }
 
   void add(const LinearDrag& law, const std::vector<BodyState>& y, double, Loads& out) const {
@@ -181,7 +181,7 @@ class Free {
   const Scene& scene_;
   std::vector<double> inertia_;
   std::set<double> switches_;
-  mutable double middle_ = 0;  // s, of the part that is integrated
+  mutable double middle_ = 0;  // s, middle of the part that is being integrated
 };
 
 /// Returns true if shapes that may touch are so near to each other that they might touch within a sample.
@@ -225,7 +225,7 @@ std::vector<bool> pulled_beside_centre(const Scene& scene) {
 
 double bound_of(const Case& one, const Engine& engine, double fastest, double hardest, double time) {
   if (engine.kind == Engine::Kind::Precise) return kPreciseShare * largest_size(one.scene);
-  // Tolerates the displacement of three steps, and a velocity that is one step late.
+  // Tolerates the displacement of three steps, plus the effect of a velocity that is one step late.
   return kShare * largest_size(one.scene) + 3 * one.dt * fastest + one.dt * hardest * time;
 }
 
@@ -277,7 +277,7 @@ Verdict integrated_relation(const Case& one, const Engine& engine, const Motion&
     if (!(distance(coarse, fine) <= kKnown * bound)) return {};
     const double off = distance(motion.samples[k].states, fine);
     if (off <= bound) continue;
-    // Half the step halves a first-order error, so the change is the remaining uncertainty.
+    // A first-order error halves with the step, so the change is the remaining uncertainty.
     if (engine.kind != Engine::Kind::Precise) {
       const std::vector<double> change = apart(one, motion, run(engine, one, {.refine = 2}));
       if (k >= change.size() || change[k] > kSteady * bound) return {};

@@ -27,7 +27,7 @@ namespace {
 
 bool in_float(const Engine& engine) { return engine.kind == Engine::Kind::World; }
 
-/// Returns an objection with the text `what`, unless it is empty.
+/// Returns an objection with the text `what`; nullopt if the text is empty.
 Verdict objection(const char* name, std::string what, const char* right) {
   if (what.empty()) return {};
   return Objection{.law = name, .judge = name, .what = std::move(what), .right = right};
@@ -76,7 +76,8 @@ std::string damaged_world(const Case& one, std::string& flags) {
   std::vector<std::byte> bytes = sound;
   for (int i = 0; i < kDamages; ++i) {
     const auto at = kHeader + static_cast<std::size_t>(random.unit() * double(sound.size() - kHeader));
-    // Small bytes are mostly indices, counts and kinds, so replace them with small ones; others with any.
+    // Small bytes are mostly indices, counts and kinds: usually replace these with small values, and other
+    // bytes with any value.
     const int old = static_cast<int>(sound[at]);
     bytes[at] =
         static_cast<std::byte>(old < 64 && random.chance(0.8) ? random.whole(0, 25) : random.whole(0, 255));
@@ -193,7 +194,7 @@ std::string watched(Random& random) {
   }
   {
     // A mass on a spring whose force the program adds before each step, with w h < 0.3. Explicit Euler gains
-    // energy, (w h)^2 a step; the exact method gains less than the bound.
+    // the fraction (w h)^2 of its energy per step; the exact method gains less than the bound.
     const bool makes = random.chance(0.5);
     const double w = random.within(10, 18), from = s;
     WorldDefinition definition = weightless;

@@ -17,8 +17,8 @@ constexpr double kSeconds = 0.5;   // time limit of another engine
 constexpr double kShare = 0.2;     // tolerance, as a fraction of the largest body's size
 constexpr std::size_t kMost = 12;  // largest number of dynamic bodies for Precise
 constexpr double kCalm = 0.02;
-// Largest change of a rival's motion when its step is halved, as a fraction of the bound. A first-order
-// error is then halved, so twice the change is the error.
+// Largest change of a rival's motion when its step is halved, as a fraction of the bound. A first-order error
+// halves as well, so the error is twice the change.
 constexpr double kSteady = 0.25;
 
 /// Returns the possible error of a first-order method at each sample, m: the displacement of three steps, at
@@ -69,8 +69,8 @@ bool judged(const Case& one, const Motion& motion) {
          starts_apart(one.scene) && one.scene.bodies.size() <= 3 * kMost;
 }
 
-/// Returns the first sample at which `a` deviates from `b` by more than its bound; none if it does not
-/// before either ends.
+/// Returns the first sample at which `a` deviates from `b` by more than its bound; nullopt if it does not
+/// before either run ends.
 std::optional<std::size_t> parting(const Case& one, const Motion& a, const Motion& b,
                                    const std::vector<double>& bound, double times = 1) {
   const std::vector<double> off = apart(one, a, b);

@@ -40,8 +40,8 @@ double slack_of_places(const Case& one, const Sample& sample, const std::vector<
   return sum;
 }
 
-// Returns the energy error due to a tolerance of 1e-9 for bodies at rest: each is displaced by 1e-6 of its
-// extent, and moves at 1e-6 extents per second.
+// Returns the energy error that a tolerance of 1e-9 permits for bodies at rest: each body is displaced by
+// 1e-6 of its extent, and moves at 1e-6 extents per second.
 double slack_of_rounding(const Case& one, const std::vector<double>& extent) {
   double sum = 0;
   for (std::size_t i = 0; i < one.scene.bodies.size(); ++i) {
@@ -127,7 +127,8 @@ Verdict cost_law(const Case& one, const Engine& engine, const Motion& motion) {
   const double most = kCost * static_cast<double>(1 + one.scene.bodies.size() + one.scene.joints.size());
   for (std::size_t k = 0; k < motion.costs.size(); ++k) {
     if (motion.costs[k] <= most) continue;
-    // Other processes may have delayed it: a step that is really slow takes as long each time.
+    // Other processes may have delayed the step. It is repeated: a step that is really slow takes as long
+    // each time.
     double least = motion.costs[k];
     for (int again = 0; again < 3 && least > most; ++again) {
       Case part = one;

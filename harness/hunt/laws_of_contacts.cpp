@@ -154,7 +154,7 @@ Verdict penetration_law(const Case& one, const Engine& engine, const Motion& mot
         continue;
       }
       ++in[n];
-      // An overlap from the start or from an action may take longer, if it keeps shrinking.
+      // An overlap that existed at the start or comes from an action may last longer if it keeps shrinking.
       if (in[n] == lasting / 2 && lasting > 1) least[n] = depth;
       if (in[n] < lasting || depth < 0.7 * least[n]) {
         if (in[n] >= lasting) in[n] = 0, least[n] = INFINITY;

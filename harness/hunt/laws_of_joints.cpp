@@ -24,8 +24,8 @@ bool may_break(const Joint& joint) {
   return std::visit([](const auto& j) { return j.break_force > 0 || j.break_torque > 0; }, joint);
 }
 
-// Returns true if a rope's end reaches its pulley. The rope then has no direction, so the motion is not
-// determined.
+// Returns true if a rope's end reaches its pulley. The rope then has no direction, so the motion is
+// undetermined.
 bool at_its_pulley(const Case& one, const Joint& joint, const std::vector<BodyState>& states) {
   const auto* rope = std::get_if<PulleyJoint>(&joint);
   if (rope == nullptr) return false;
@@ -98,7 +98,7 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
         // Displacement error of a tangent step along a curved path, per substep.
         speed += std::abs(s.angular_velocity) * arm * std::min(1.0, std::abs(s.angular_velocity) * step);
       }
-      if (!(size > 0)) size = largest_size(one.scene);  // points, which have no size of their own
+      if (!(size > 0)) size = largest_size(one.scene);  // the bodies are points without a size
       const double gap = gaps.gap(i, states);
       const double bound =
           engine.kind == Engine::Kind::Precise ? 1e-5 * size : kGapShare * size + 2 * speed * step;

@@ -37,7 +37,7 @@ WorldDefinition definition_of(const Case& one) {
   return out;
 }
 
-/// A unique file name; removes the file in the end.
+/// A unique file name; the file is removed at the end.
 class Scratch {
  public:
   Scratch() {
@@ -61,7 +61,7 @@ class Scratch {
 double dt_of(const Case& one, int step) { return step % 5 == 4 ? 0.25 * one.dt : one.dt; }
 int steps_of(const Case& one) { return std::min(one.steps, kSteps); }
 
-// Calls begin late in some scenes, so that bodies sleep by then, and are rarer in others.
+// In some scenes calls begin late, so that bodies are asleep by then; in others they are rarer.
 int calls_of(const Case& one, Random& random, int step) {
   const int first = one.index % 3 == 0 ? 30 : 0;
   if (step < first || random.chance(one.index % 2 == 0 ? 0.5 : 0.85)) return 0;
@@ -133,7 +133,7 @@ class OtherMachine {
 struct Fault {};
 
 /// Returns errors of a world whose hook throws in a step and tries to change the world. The other world's
-/// hook does neither: the failed step must leave no trace, so both continue alike.
+/// hook does neither. The failed step must leave no trace, so both worlds must continue in the same way.
 template <class Real>
 std::string hooked(const BasicWorld<Real>& world, const Case& one) {
   BasicWorld<Real> other(definition_of(one));
@@ -203,7 +203,8 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
     }
     plain.step(dt_of(one, step), one.substeps);
     {
-      // Keeps the width if numbers are not rounded to nearest: -(a b) and (-a) b then differ.
+      // Keeps the width unless numbers are rounded to nearest, because -(a b) and (-a) b may differ in other
+      // rounding modes.
       const OtherMachine narrow(rounding, otherwise.widths && step % 2 == 0 && rounding == FE_TONEAREST
                                               ? VectorWidth::None
                                               : usual);

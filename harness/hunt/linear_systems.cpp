@@ -30,7 +30,7 @@ constexpr double kNearThreshold = 0.01;
 // diagonal.
 constexpr double kDependent = 1e-12;
 
-/// Pivots of complete pivoting in long double, in their order. Also tells if two were so near each other that
+/// Pivots of complete pivoting in long double, in their order. Also says if two candidates were so close that
 /// rounding may have chosen between them.
 std::vector<Wide> pivots_of(std::size_t n, const std::vector<double>& matrix) {
   std::vector<Wide> a(matrix.begin(), matrix.end()), out;
@@ -51,7 +51,7 @@ std::vector<Wide> pivots_of(std::size_t n, const std::vector<double>& matrix) {
   return out;
 }
 
-/// Returns a fraction near `threshold`, to either side, or one far above it.
+/// Returns a fraction near `threshold`, above or below it, or one far above it.
 double some_share(Random& random, double threshold) {
   return random.chance(0.7) ? threshold * (0.8 + 0.4 * random.unit()) : 0.01 + 0.9 * random.unit();
 }

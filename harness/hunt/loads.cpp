@@ -42,7 +42,7 @@ Load load_of(const Outline& outline, const Wind& wind, Vec2d velocity, double sp
   const auto flow_at = [&](Vec2d at) { return wind.velocity - velocity - spin * Vec2d{-at.y, at.x}; };
   const std::vector<Vec2d>& core = outline.core;
   const std::size_t count = core.size();
-  std::vector<double> angles;  // of the edges' normals
+  std::vector<double> angles;  // angles of the edges' normals
   for (std::size_t i = 0; i < count && count > 1; ++i) {
     const Vec2d along = core[(i + 1) % count] - core[i];
     const double size = length(along);
@@ -130,7 +130,7 @@ Verdict wind(const Case& one, const Engine& engine, const Motion&) {
     try {
       what = engine.kind == Engine::Kind::World ? blown<float>(body, random) : blown<double>(body, random);
     } catch (const Error&) {
-      continue;  // a shape that no world accepts
+      continue;  // a shape that the world rejects
     }
     if (!what.empty())
       return Objection{

@@ -39,7 +39,7 @@ struct Motion {
   std::vector<std::vector<Visit>> visits{};  ///< open after each step, sorted; empty without sensors
   std::vector<double> costs{};               ///< s, processor time of each step of a World
   std::vector<Digest> digests{};             ///< of a World after each step, if asked for
-  std::string broken_promise{};  ///< first promise that a World in a run mode broke; empty if none
+  std::string broken_promise{};  ///< first promise that a World in a run mode broke; empty if it broke none
 };
 
 /// An engine with its kind and precision.
@@ -58,7 +58,7 @@ struct RunOptions {
   bool flip_sleep = false;            ///< turns sleep on if it is off, and off if it is on
   RunMode mode = RunMode::Plain;      ///< of a World
   bool digests = false;               ///< fills `Motion::digests`
-  std::optional<double> tolerance{};  ///< of an engine that chooses its steps; none: its own
+  std::optional<double> tolerance{};  ///< of an engine that chooses its own steps; empty: its default
   double seconds = 2;                 ///< limit of processor time
 };
 

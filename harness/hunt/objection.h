@@ -12,7 +12,7 @@ namespace plumb::harness::hunt {
 /// Objection of a judge to a run.
 struct Objection {
   std::string law{};    ///< the law or relation that was broken
-  std::string judge{};  ///< the same; for an expectation, its name
+  std::string judge{};  ///< the same as `law`; for an expectation, its name
   std::string what{};   ///< the violation, in one line: "energy has grown"
   std::string right{};  ///< the correct behaviour, in one line
   double figure = 0, bound = 0;

@@ -87,8 +87,8 @@ Outline placed(const Outline& outline, const BodyState& state) {
 
 double separation(const Outline& a, const Outline& b) {
   const double apart = std::max(gap_along_normals(a.core, b.core), gap_along_normals(b.core, a.core));
-  // Points have no normals, and no normal of two collinear segments separates them: the sign of the gap is
-  // rounding in these cases.
+  // Points have no normals, and no normal of two collinear segments separates them. In these cases the sign
+  // of the gap is rounding.
   const double rounding = 1e-13 * (length(a.high - a.low) + length(b.high - b.low) + length(a.low));
   const bool overlap = apart < -rounding && apart > -kInfinity;
   const double cores = overlap ? apart : std::min(nearest(a.core, b.core), nearest(b.core, a.core));

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostBodies = 8;  // dynamic bodies, because the scene is run several times
 
-/// Runs a check in a separate process and returns its text as an objection.
+/// Runs a check in a separate process, and returns the check's text as an objection.
 Verdict judged(const char* name, const char* right, const std::function<std::string()>& check) {
   const std::string what = checked_apart(check);
   if (what.empty()) return {};
@@ -121,7 +121,8 @@ std::string balanced(const Case& one) {
       const Vec2d missing = body.mass * rate(velocity) - own - loads[i].force;
       const double turning =
           inertia * (rate(spin) + body.angular_damping * now.angular_velocity) - loads[i].torque;
-      // The error of a second-order difference is far larger than that of a fourth-order one.
+      // The error of a second-order difference is far larger than that of a fourth-order one, so their
+      // difference bounds it.
       const double slack = body.mass * length(rate(velocity) - rough(velocity)),
                    slack_turn = inertia * std::abs(rate(spin) - rough(spin));
       const double rounding = 1e-11 / h * (body.mass * (length(now.velocity) + 1) + inertia);
@@ -232,7 +233,7 @@ std::string estimated(const Case& one) {
   double off = 0;
   for (int k = 0; k < steps; ++k) {
     run.step(), truth.step();
-    // Only one of the runs may meet an event.
+    // If only one of the runs has an event, they cannot be compared.
     if (events_of(run.statistics()) > 0 || events_of(truth.statistics()) > 0) return {};
     const auto a = states_of(run), b = states_of(truth);
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -241,7 +242,8 @@ std::string estimated(const Case& one) {
   }
   const ErrorEstimate error = run.statistics().error;
   if (!error.known) return "does not estimate the error although it was requested";
-  // The documentation promises a factor of ten for some named motions; a thousand is allowed for any motion.
+  // The documentation promises a factor of ten for some named motions; any other motion is allowed a factor
+  // of a thousand.
   if (off > 1e-10 * largest_size(one.scene) && error.position < 1e-3 * off)
     return fmt::format("has an error of {:.3g} m, and estimates {:.3g} m", off, error.position);
   return {};

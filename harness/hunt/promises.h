@@ -26,7 +26,7 @@ Verdict twins(const Case& one, const Engine& engine, const Motion& motion);
 // Judges the wind on each shape of a World.
 Verdict wind(const Case& one, const Engine& engine, const Motion& motion);
 
-// Formulas, of any engine that has them.
+// Judges formulas, for any engine that supports them.
 Verdict formulas(const Case& one, const Engine& engine, const Motion& motion);
 
 // Judges linear systems, for any engine that solves them.
@@ -50,7 +50,7 @@ Verdict methods(const Case& one, const Engine& engine, const Motion& motion);
 Verdict blows(const Case& one, const Engine& engine, const Motion& motion);
 Verdict strikes(const Case& one, const Engine& engine, const Motion& motion);
 
-// The promises of Simulations; those of Worlds are run modes.
+// Judges promises of Simulations; those of Worlds are run modes.
 Verdict simulation_restored(const Case& one, const Engine& engine, const Motion& motion);
 Verdict simulation_stages(const Case& one, const Engine& engine, const Motion& motion);
 Verdict simulation_stops(const Case& one, const Engine& engine, const Motion& motion);

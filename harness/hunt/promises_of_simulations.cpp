@@ -128,7 +128,7 @@ Verdict simulation_overrun(const Case& one, const Engine& engine, const Motion&)
                   const std::string name = scene.bodies[*body].name;
                   const double dt = one.dt, mass = scene.bodies[*body].mass;
                   const int before = std::min(one.steps, 20);
-                  // Exceeds the speed limit within the step, by a force that is itself in range.
+                  // A force that is itself in range but exceeds the speed limit within the step.
                   const double force = std::min(9e11, 4e7 * mass / dt);
                   scene.forces.push_back(PointForce{
                       .body = name, .force = {force, 0}, .start = (before - 0.5) * dt, .duration = 3 * dt});

@@ -12,16 +12,16 @@ namespace plumb::harness::hunt {
 namespace {
 
 constexpr double kPerturbation = 1e-6;
-// Largest distance between equal motions, as a fraction of the largest body; perturbations must stay below
-// kCalm of that.
+// Largest distance between motions that count as equal, as a fraction of the largest body; the effect of
+// perturbations must stay below kCalm of the body.
 constexpr double kShare = 0.1, kCalm = 0.01;
 // kSampled: the same distance for an engine with a tolerance of 1e-9. kGrown: largest growth of
-// perturbations, so that errors of the tolerance stay below a hundredth of kSampled.
+// perturbations; errors of the tolerance then stay below a hundredth of kSampled.
 constexpr double kSampled = 1e-4, kGrown = 1000;
-constexpr double kTighter = 1e-11;  // tolerance for Precise, which usually has 1e-9
+constexpr double kTighter = 1e-11;  // tolerance of Precise here; otherwise it is usually 1e-9
 constexpr double kShift = 64;       // m, a power of two
 
-// Formulas are in the scene's own coordinates: a shifted or mirrored scene would need others.
+// Formulas use the scene's own coordinates: a shifted or mirrored scene would need others.
 bool plain(const Case& one, const Engine&) { return !one.world_only() && !has_formulas(one.scene); }
 
 template <class Map>
@@ -36,7 +36,7 @@ Motion reversed(Motion motion) {
   return motion;
 }
 
-/// Objects if the other run deviates from the first though a perturbation of the first does not.
+/// Objects if the other run deviates from the first one although perturbations of the first one do not.
 Verdict compare(const Case& one, const Engine& engine, const Motion& motion, const Motion& other,
                 const std::string& name, const std::string& right, double share = kShare) {
   if (!motion.failure.empty()) return {};

@@ -12,11 +12,11 @@ namespace plumb::harness::hunt {
 enum class RunMode : std::uint8_t {
   Plain,
   Restored,    ///< saved, and restored into a world of other settings with other bodies in it
-  RolledBack,  ///< steps ahead and rolls back, again and again
+  RolledBack,  ///< repeatedly steps ahead and rolls back
   Threaded,    ///< by two threads, which share all loops
   Scalar,      ///< without vector registers
   Narrow,      ///< with vector registers of 16 bytes
-  Observed,    ///< read, queried, saved and monitored after each step
+  Observed,    ///< is read, queried, saved and monitored after each step
   Refused,     ///< with calls between the steps that must be refused
   Overrun,     ///< with a body that exceeds the world's limits after half of the steps
   Asked,       ///< with queries, whose answers are compared with the shapes' outlines

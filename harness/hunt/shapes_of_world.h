@@ -19,8 +19,8 @@ Outline outline_in_body(const BasicWorld<Real>& world, ShapeId shape) {
 template <class Real>
 Outline outline_in_world(const BasicWorld<Real>& world, ShapeId shape) {
   const BodyId body = world.body(shape);
-  // The direction of its shapes, which is the angle up to whole turns; only approximate if it rotates by many
-  // turns a step.
+  // The direction of the body's shapes gives the angle up to whole turns. It is only approximate if the body
+  // rotates by many turns a step.
   const Vec2d at = world.position(body), along = world.world_point(body, {1, 0}) - at;
   return placed(outline_in_body(world, shape), {.position = at, .angle = std::atan2(along.y, along.x)});
 }

@@ -117,7 +117,7 @@ class Shrinker {
     return true;
   }
 
-  // Removes halves, quarters ... and single ones, as delta debugging does (Zeller 2002).
+  // Removes halves, quarters, ..., and finally single bodies, as delta debugging does (Zeller 2002).
   bool bodies() {
     bool any = false;
     for (std::size_t part = best_.scene.bodies.size() / 2; part >= 1; part /= 2) {
@@ -191,7 +191,7 @@ class Shrinker {
     set([](Case& one) -> int& { return one.substeps; }, 4);
     set([](Case& one) -> bool& { return one.sleeping; }, false);
     if (bare) set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, 0});
-    // A scene without gravity keeps none; otherwise the two changes would alternate.
+    // Sets no gravity in a scene that has none: otherwise the two changes would alternate.
     if (bare && !(best_.scene.gravity == Vec2d{0, 0}))
       set([](Case& one) -> Vec2d& { return one.scene.gravity; }, Vec2d{0, -10});
     for (std::size_t i = 0; i < best_.scene.bodies.size(); ++i) {
@@ -229,8 +229,8 @@ class Shrinker {
     return any;
   }
 
-  // Rounds to few digits, all bodies at once or one by one. With joints nothing is rounded, so that anchors
-  // fit.
+  // Rounds to few digits, for all bodies at once or one by one. Rounds nothing in scenes with joints, so that
+  // anchors still fit.
   void round_all(int digits) {
     const auto round = [&](Body& body) {
       for (double* value : {&body.position.x, &body.position.y, &body.angle, &body.velocity.x,

@@ -39,7 +39,7 @@ class StateWatch {
     double torque = 0;  // N m, applied
     double inertia = 0;
     bool held = false;     // by a joint
-    bool touched = false;  // has contacts, or touches that have begun and not ended
+    bool touched = false;  // has contacts, or touches that have begun but not ended
     Pair only{};           // the pair of its contact, if it has exactly one
   };
 
@@ -53,7 +53,7 @@ class StateWatch {
   }
   static double size_of(const Outline& outline) { return length(outline.high - outline.low); }
 
-  // Each returns an objection, or an empty text.
+  // Each of these returns an objection, or an empty text.
   std::string counts() const;
   std::string touches();
   std::string distances(double dt);
@@ -76,9 +76,9 @@ class StateWatch {
   const BasicWorld<Real>& world_;
   std::map<Key, Before> before_;
   std::set<Pair> open_;
-  std::set<Key> met_;  // pairs of bodies whose touch was open in the last step, or began or ended in it
+  std::set<Key> met_;  // pairs of bodies that touched in the last step, or began or ended to touch in it
   std::set<std::pair<Key, Key>> links_;  // pairs of bodies with such a touch
-  std::map<Key, BodyId> owners_;         // bodies of shapes, including destroyed shapes
+  std::map<Key, BodyId> owners_;         // bodies of all shapes, destroyed shapes included
   std::set<Key> whirled_;  // bodies that have rotated too far in a step for their angle to be known
   std::string failed_;
   std::map<Pair, int> wrong_;  // steps on end

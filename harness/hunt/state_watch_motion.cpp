@@ -69,7 +69,7 @@ std::string StateWatch<Real>::flights(double dt) const {
       // Continuous collision may stop it within the step, in front of an obstacle that it touches in the next
       // one: it then has only a part of its displacement and of its velocity gain.
       const double whole = length(way), part = whole > 0 ? dot(gone, way) / (whole * whole) : 1;
-      // Slower by no more than the forces would have changed its velocity on the rest of its path.
+      // Its velocity may be lower by at most what the forces would have added on the rest of its path.
       const Vec2d now = world_.velocity(body), lost = before.velocity + gain - now;
       const double most = dt > 0 ? 2 * length(gain) / dt * length(way - gone) : 0;
       const bool is_stopped = dynamic && part < 1 &&
@@ -94,8 +94,8 @@ std::string StateWatch<Real>::flights(double dt) const {
   return {};
 }
 
-// Returns true if a shape of another body is within `way` m of one of the body's shapes, or has moved away
-// from it in the step.
+// Returns true if a shape of another body is within `way` m of one of the body's shapes, apart from the other
+// body's displacement in the step.
 template <class Real>
 bool StateWatch<Real>::meets_something(BodyId body, double way) const {
   for (const ShapeId own : world_.shapes(body)) {
@@ -183,8 +183,8 @@ std::string StateWatch<Real>::wakings() const {
   return fmt::format("'{}' wakes, but no moving body has reached it", world_.name(woken.begin()->second));
 }
 
-// Checks bodies with exactly one contact, with a non-dynamic body at rest, whose friction has no component
-// along the normal: their momentum along the normal changes by their weight and the contact's impulse.
+// Checks bodies with exactly one contact, with a non-dynamic body at rest. Friction has no component along
+// the normal, so their momentum along the normal changes by their weight and the contact's impulse.
 template <class Real>
 std::string StateWatch<Real>::impulses(double dt) const {
   for (const BodyId body : world_.bodies()) {
@@ -195,8 +195,8 @@ std::string StateWatch<Real>::impulses(double dt) const {
     const std::vector<ContactReading> contacts = world_.contacts(body);
     if (contacts.size() != 1 || world_.linear_damping(body) != 0) continue;
     const ContactReading& contact = contacts.front();
-    // Other contacts may have begun and ended within the step. The normal is that of the step's start; it
-    // turns during the step if shapes overlap deeply, so these are skipped.
+    // Other contacts may have begun and ended within the step. Deep overlaps are skipped, because their
+    // normal turns during the step and the reading has that of the step's start.
     const double deepest = std::min(contact.separations[0], contact.separations[contact.count - 1]);
     const Aabb<double> box = world_.box(body);
     if (deepest < -0.05 * length(box.upper - box.lower)) continue;

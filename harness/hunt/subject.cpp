@@ -15,7 +15,7 @@ namespace {
 
 /// Initial state of one end of a joint.
 struct End {
-  const Body* body = nullptr;  // none: the fixed frame
+  const Body* body = nullptr;  // nullopt: the fixed frame
   Vec2d anchor{};              // m, in the body's frame
 
   double mass() const { return body != nullptr && body->type == BodyType::Dynamic ? body->mass : INFINITY; }
@@ -31,7 +31,7 @@ struct End {
 
 struct Held {
   End a, b;
-  double distance, angle;  // of the anchors, m; of b relative to a, rad
+  double distance, angle;  // separation of the anchors, m; angle of b relative to a, rad
 };
 
 template <class Kind>
@@ -46,8 +46,8 @@ Held held(const Scene& scene, const Kind& joint) {
   return out;
 }
 
-// Returns the largest energy of a spring: its effective mass, or inertia, is at most the lighter end's.
-// Returns 0 if both are infinite.
+// Returns an upper bound of a spring's energy: its effective mass, or inertia, is at most that of the lighter
+// end. Returns 0 if both are infinite.
 double spring_energy(const Spring& spring, double mass_a, double mass_b, double away) {
   const double mass = std::min(mass_a, mass_b), w = 2 * M_PI * spring.hertz;
   return std::isfinite(mass) ? 0.5 * mass * w * w * away * away : 0;

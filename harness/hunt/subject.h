@@ -7,8 +7,8 @@
 /// Facts about a case that several judges need.
 namespace plumb::harness::hunt {
 
-/// Returns the largest distance of each body's points from its centre of mass, m; for one without shapes that
-/// of the farthest anchor.
+/// Returns the largest distance of each body's points from its centre of mass, m. For a body without shapes
+/// this is the distance of its farthest anchor.
 std::vector<double> extents(const Scene& scene);
 
 /// Returns the smallest extent of a dynamic body, m; 1 if there is none.
@@ -28,8 +28,8 @@ std::vector<std::size_t> joint_groups(const Scene& scene);
 /// speeds, time-dependent forces, or actions during the run.
 bool driven(const Case& one);
 
-/// Returns an upper bound, J: the work of motors with a speed up to `time`, and the initial energy of springs
-/// and of motors that follow a pose.
+/// Returns an upper bound of the energy from drives, J: the work of motors with a speed up to `time`, and the
+/// initial energy of springs and of motors that follow a pose.
 double stored(const Scene& scene, double time);
 
 /// Returns true if no two shapes that may touch penetrate at the start by more than a hundredth of the

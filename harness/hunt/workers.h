@@ -16,9 +16,9 @@ struct Answer {
   std::string text;  ///< the returned text, or how the process died
 };
 
-/// Forked processes that execute one task after the other, without forking for each. One that dies or exceeds
-/// its time limit is replaced; the task of one that was killed from outside is done again. Call without
-/// threads running.
+/// Forked processes that execute one task after the other, without a fork for each. A process that dies or
+/// exceeds its time limit is replaced; the task of a process that was killed from outside is repeated. Call
+/// this without threads running.
 class Workers {
  public:
   using Work = std::function<std::string(std::uint64_t task)>;

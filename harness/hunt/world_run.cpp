@@ -128,7 +128,7 @@ bool is_driven_by_joints(const Scene& scene) {
   });
 }
 
-/// Sets the width of vector registers for as long as it lives.
+/// Sets the width of vector registers during its lifetime.
 class WithWidth {
  public:
   explicit WithWidth(RunMode mode) {

@@ -18,12 +18,13 @@ struct FamilyRow {
   std::string family, title, axis, unit, engine, setting;
   std::vector<double> values{};         ///< of the axis, ascending
   std::vector<std::string> outcomes{};  ///< as many
-  std::vector<std::string> reasons{};   ///< as many; empty except beside the ends of the surviving range
+  std::vector<std::string> reasons{};   ///< one for each value; empty except next to the surviving range
 
-  /// Returns the longest run of values that survive, as first and one past the last; equal if none does.
+  /// Returns the longest range of values that survive, as the index of the first one and one past the last;
+  /// equal if there is none.
   std::pair<std::size_t, std::size_t> survived_range() const;
   std::size_t survived() const;
-  bool skipped() const;  ///< the engine lacks a feature that the family needs
+  bool skipped() const;  ///< true if the engine lacks a feature that the family needs
 };
 
 struct LimitsData {

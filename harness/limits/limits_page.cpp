@@ -82,7 +82,8 @@ std::string counts(const std::vector<FamilyRow>& rows) {
 
 bool whole(const FamilyRow& row) { return !row.skipped() && row.survived() == row.outcomes.size(); }
 
-// Lists for each family the settings of plumb that survive all of it, or else the one that gets farthest.
+// Lists for each family the settings of plumb that survive all of it. If there is none, lists the setting
+// that survives most.
 std::string advice(const std::vector<std::vector<const FamilyRow*>>& families) {
   std::string out =
       "### Settings for each extreme\n\n| extreme | values | survived completely by |\n|---|---|---|\n";

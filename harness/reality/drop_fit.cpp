@@ -12,9 +12,10 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// Tolerance of fitted motions: figures have three digits.
+/// Tolerance of fitted motions, because figures have three digits.
 constexpr double kFitted = 1e-5;
-/// Largest number of steps, each with one motion with derivatives per drop, and of attempts in all steps.
+/// Largest number of steps, each of which needs one motion with derivatives per drop, and of attempts in all
+/// steps.
 constexpr int kMostSteps = 14, kMostTries = 60;
 /// Decrease of the loss below which the fit ends.
 constexpr double kDone = 1e-5;

@@ -29,7 +29,7 @@ double first_touch(const BodyState& start, std::span<const double> values, doubl
   return after;
 }
 
-/// Positions of measured frames, each as long after the computed one as the fitted delay.
+/// Positions of measured frames; each frame is later than the computed time by the fitted delay.
 struct Place {
   std::size_t before = 0;
   double share = 0;  // fraction of the interval to the next frame

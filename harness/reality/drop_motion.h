@@ -26,7 +26,7 @@ inline MeasuredPose pose_of(const BodyState& state) { return {state.position, st
 /// Returns the exact motion under a law, to a tolerance.
 Poses solve(const DropStart& start, const DropLaw& law, std::span<const double> values, double tolerance);
 
-/// Derivatives of a pose by the law's parameters; empty if one does not exist.
+/// Derivatives of a pose with respect to the law's parameters; empty if one does not exist.
 using PoseDerivatives = std::optional<std::vector<MeasuredPose>>;
 
 /// The exact motion with its derivatives, by time.
@@ -37,9 +37,9 @@ struct DerivedPoses {
 DerivedPoses solve_derived(const DropStart& start, const DropLaw& law, std::span<const double> values,
                            double tolerance);
 
-/// Returns the measured poses, each as long after the computed one as the fitted delay.
+/// Returns the measured poses; each is later than the computed time by the fitted delay.
 Poses measured(const DropStart& start, const DropLaw& law, std::span<const double> values);
-/// Returns the velocities of the measured poses, 1/s: their derivatives by the delay.
+/// Returns the rates of the measured poses, 1/s: their derivatives by the delay.
 Poses measured_rates(const DropStart& start, const DropLaw& law, std::span<const double> values);
 
 /// Weight of a squared angle relative to squared positions in `pose_distance`, m^2: inertia over mass of a

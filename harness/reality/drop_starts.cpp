@@ -12,8 +12,8 @@ constexpr double kGravity = 9.81;
 /// Largest and smallest number of frames before the first impact from which a start is computed.
 constexpr int kMostFrames = 8, kLeastFrames = 4;
 
-/// m/s: rise of the vertical velocity from one frame to the next that shows an impact between them. Free
-/// fall lowers it by 0.04 m/s; the slowest first impacts of these drops raise it by 1 m/s.
+/// m/s: an impact lies between two frames if the vertical velocity rises by at least this. Free fall lowers
+/// it by 0.04 m/s; the slowest first impacts of these drops raise it by 1 m/s.
 constexpr double kRise = 0.1;
 
 /// Returns the last frame before the first impact's influence on the measured positions; -1 if there is none.
@@ -101,7 +101,7 @@ const std::vector<DropLaw>& drop_laws() {
     for (Body& body : scene.bodies) {
       for (Shape& shape : body.shapes) {
         shape.friction = values[4];
-        // Sets only the coefficient of the square: the maximum of two equal coefficients has no derivative by
+        // Sets only the restitution of the square: the maximum of two equal coefficients has no derivative by
         // one of them.
         shape.restitution = body.type == BodyType::Dynamic ? values[5] : 0;
       }
@@ -119,7 +119,7 @@ const std::vector<DropLaw>& drop_laws() {
     out.push_back({"friction after the stop", "", 0.9, 0.1, 0, 1});
     return out;
   }();
-  // Friction is the geometric mean of two equal coefficients: a change of one counts half.
+  // Friction is the geometric mean of two equal coefficients, so a change of one of them counts half.
   static const std::vector<std::vector<ScaledNumber>> numbers{
       {{"bodies.square.shapes.width", 2}, {"bodies.square.shapes.height", 2}},
       {},

@@ -14,7 +14,7 @@ namespace {
 /// Tolerance of the exact motion that engines are compared with.
 constexpr double kExact = 1e-9;
 
-/// Number of drops of the training half that a law is fitted on.
+/// Number of drops of the training half to which a law is fitted.
 constexpr std::size_t kFittedDrops = 120;
 
 Poses run(const reference::Backend& engine, const DropStart& start, const DropLaw& law,

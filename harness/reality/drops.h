@@ -26,7 +26,7 @@ struct DropStart {
 };
 
 /// Returns the drops whose motion before the first impact is known from four frames or more. The state at the
-/// start is the parabola through these frames, which are noisier one by one.
+/// start is taken from the parabola through these frames, because single frames are noisier.
 std::vector<DropStart> starts_of(std::span<const MeasuredDrop> drops);
 
 /// A number of a drop's scene (engine/scene/number.h) that is proportional to a parameter.
@@ -41,7 +41,7 @@ struct DropLaw {
   std::string name, text;
   std::vector<Parameter> parameters;
   std::function<void(Scene&, std::span<const double>)> apply;
-  std::vector<std::vector<ScaledNumber>> numbers{};  ///< by parameter: the numbers of the scene that it sets
+  std::vector<std::vector<ScaledNumber>> numbers{};  ///< by parameter: numbers of the scene that it sets
 };
 const std::vector<DropLaw>& drop_laws();
 
@@ -73,11 +73,11 @@ struct EngineFinding {
   int failed = 0;         ///< drops that it did not finish
   Differences numerical;  ///< against the same law solved to a tolerance
   Differences measured;   ///< against the measurement
-  Differences share;      ///< ratio of `numerical` to the law's error, without unit
+  Differences share;      ///< `numerical` over the law's error, without unit
 };
 
 struct DropFindings {
-  int drops = 0, left_out = 0;  ///< all drops; of these those with too few frames before impact
+  int drops = 0, left_out = 0;  ///< number of all drops; of those with too few frames before the impact
   int tested = 0;
   std::vector<DropFinding> laws;
   std::vector<EngineFinding> engines;

@@ -50,8 +50,8 @@ struct Quantiles {
   Estimate median, ninetieth;
 };
 
-/// An engine at a step, whose impacts are at a disc where the measured contact was. Errors are those of the
-/// velocity after the impact, as above.
+/// An engine at a step. Its impacts are those of a disc at the place of the measured contact. Errors are
+/// those of the velocity after the impact, as above.
 struct EllipseEngine {
   std::string engine, law;
   double dt = 0;          ///< s; 0: to a tolerance
@@ -64,14 +64,15 @@ struct EllipseEngine {
 };
 
 struct EllipseFindings {
-  int impacts = 0, doubted = 0;                  ///< measured impacts; number of these left out as doubtful
-  std::vector<EllipseFinding> laws;              ///< in the order of `ellipse_laws`
-  EllipseFinding bound;                          ///< the best impulse at the contact, with the best inertia
-  std::size_t best = 0, best_of_all_floors = 0;  ///< laws with the least `validated`
+  int impacts = 0, doubted = 0;      ///< number of measured impacts; of those left out as doubtful
+  std::vector<EllipseFinding> laws;  ///< in the order of `ellipse_laws`
+  EllipseFinding bound;              ///< for the best impulse at the contact, with the best inertia
+  std::size_t best = 0, best_of_all_floors = 0;  ///< index of the law with the least `validated`
   std::vector<EllipseEngine> engines;            ///< under the first law
 };
 
-/// Fits every law on one half of the impacts and tests it on the other, and the engines on that.
+/// Fits every law to one half of the impacts and tests it on the other half; tests the engines on the other
+/// half too.
 EllipseFindings examine_ellipse(std::span<const MeasuredImpact> impacts, std::uint64_t seed,
                                 std::span<const reference::Backend* const> engines = {});
 

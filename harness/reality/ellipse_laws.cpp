@@ -11,8 +11,8 @@ using precise::ImpactCoefficients;
 using precise::ImpactPoint;
 using Values = std::span<const double>;
 
-// Bounds of inertia over mass for the ellipse of 70 mm x 50 mm: a uniform one has 4.6e-4 m^2, one with its
-// mass nearer to the centre less.
+// Bounds of inertia over mass for the ellipse of 70 mm x 50 mm. A uniform ellipse has 4.6e-4 m^2; one with
+// its mass nearer to the centre has less.
 const Parameter kInertia{"inertia / mass", "m^2", 4e-4, 3e-5, 2e-4, 7e-4};
 const Parameter kFriction{"friction", "", 0.2, 0.03, 0, 1};
 const Parameter kRestitution{"restitution", "", 0.55, 0.03, 0, 1};
@@ -22,12 +22,12 @@ const Parameter kExponent{"exponent", "", 0.25, 0.1, 0, 2};
 const Parameter kOblique{"restitution lost by obliquity", "", 0.1, 0.05, -1, 1};
 const Parameter kSlope{"restitution along the floor", "1/m", 0, 0.3, -4, 4};
 
-/// Speed beyond which restitution falls, m/s. It is below all that were measured, so that only the exponent
-/// and the coefficient at this speed remain to be fitted.
+/// Speed beyond which restitution falls, m/s. It is below all measured speeds, so that only the exponent and
+/// the coefficient at this speed remain to be fitted.
 constexpr double kYieldSpeed = 2;
 
-/// Position at which restitution along the floor is its constant part, m: about the middle of the impacts, so
-/// that the two parameters can be distinguished.
+/// Position on the floor at which restitution equals its constant part, m: about the middle of the impacts,
+/// so that the two parameters can be distinguished.
 constexpr double kMiddle = 0.38;
 
 using Rule = ContactImpulse (*)(const ImpactPoint&, const ImpactCoefficients&);

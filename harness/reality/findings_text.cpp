@@ -12,7 +12,7 @@ std::string with_interval(const Estimate& estimate, double scale, int digits) {
                      digits, scale * estimate.high, digits);
 }
 
-/// Formats an estimate with three significant digits, enough to tell a rounding error from none.
+/// Formats an estimate with three significant digits, enough to distinguish a rounding error from zero.
 std::string significant(const Estimate& estimate, double scale) {
   return fmt::format("{:.3g} [{:.3g} {:.3g}]", scale * estimate.value, scale * estimate.low,
                      scale * estimate.high);

@@ -52,8 +52,7 @@ class Simplex {
   }
 
  private:
-  /// Evaluates a point on the line from the worst corner through the middle of the others, at `factor`
-  /// times the worst one's distance beyond it.
+  /// Evaluates middle + factor (middle - worst), with the worst corner and the middle of the others.
   Fit beyond(const std::vector<Fit>& corners, double factor) {
     std::vector<double> point(parameters_.size());
     const double others = static_cast<double>(corners.size() - 1);
@@ -86,7 +85,7 @@ Fit minimise(std::span<const Parameter> parameters, int evaluations,
   for (const Parameter& parameter : parameters) start.push_back(parameter.start);
   Fit best;
   for (int i = 0; i < kStarts; ++i) {
-    // Each simplex is smaller than the one before, and points the other way.
+    // Each new simplex is smaller than the previous one, and points in the opposite direction.
     const double scale = (i % 2 == 0 ? 1.0 : -1.0) / (1 << (i / 2));
     const Fit found =
         Simplex(parameters, evaluations / kStarts, loss).search(i == 0 ? start : best.values, scale);

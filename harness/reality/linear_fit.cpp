@@ -15,7 +15,7 @@ constexpr std::size_t kRefits = 200;
 /// Largest number of steps of a refit. Each solves a least-squares problem, weighted by the errors of the
 /// step before.
 constexpr int kMostSteps = 60;
-/// Change of the loss at which a refit is done.
+/// Change of the loss below which a refit ends.
 constexpr double kDone = 1e-7;
 
 using Values = std::vector<double>;

@@ -40,7 +40,7 @@ std::string fitted_line(const EllipseFinding& law) {
                      escaped(law.text), fitted_text(law.parameters, law.fitted));
 }
 
-/// Returns the name of an engine with its rate, and what it could not finish.
+/// Returns the name of an engine with its rate, and the number of runs that it could not finish.
 std::string name_of(const std::string& engine, double dt, int failed, const char* what) {
   std::string out = dt > 0 ? fmt::format("{} {:.0f} Hz", engine, 1 / dt) : engine;
   if (failed > 0) out += fmt::format(" ({} {} failed)", failed, what);

@@ -11,7 +11,7 @@ namespace plumb::harness::reality {
 namespace {
 
 constexpr int kBootstraps = 1000;
-/// Quantiles that 95 % of the samples lie between.
+/// Quantiles between which 95 % of the samples lie.
 constexpr double kLow = 0.025, kHigh = 0.975;
 
 std::size_t below(std::mt19937_64& random, std::size_t count) { return random() % count; }

@@ -7,22 +7,23 @@
 
 namespace plumb::harness::reality {
 
-/// A statistic of a sample, and the interval that holds 95 % of its bootstrap values.
+/// A statistic of a sample, and the interval that contains 95 % of its bootstrap values.
 struct Estimate {
   double value = 0, low = 0, high = 0;
 };
 
-/// A random half of 0 .. count - 1, and the other. The same for a seed on every machine.
+/// A random half of 0 .. count - 1, and the other half. The same on every machine for one seed.
 struct Halves {
   std::vector<std::size_t> train, test;
 };
 Halves halves_of(std::size_t count, std::uint64_t seed);
 
-/// Returns the quantile `share` (0..1) of `values`, between two of them linearly. Nan for none.
+/// Returns the quantile `share` (0..1) of `values`, interpolated linearly between two of them. NaN if there
+/// are none.
 double quantile(std::vector<double> values, double share);
 
-/// Returns the mean of the middle half: it ignores outliers as the median does, and does not jump from one
-/// value to the next when all change a little. Nan for none.
+/// Returns the mean of the middle half. It ignores outliers as the median does, and does not jump from one
+/// value to the next when all values change a little. NaN if there are none.
 double middle_mean(std::vector<double> values);
 
 /// Returns a value with the interval that holds 95 % of its bootstrap values.

@@ -36,7 +36,7 @@ void for_each_line(const std::filesystem::path& path, std::string_view kind,
       const Json json = Json::parse(line);
       if (json.at("kind") == kind) take(json);
     } catch (const std::exception& error) {
-      if (file.eof()) break;  // no line end: the writer was stopped within the line
+      if (file.eof()) break;  // no line end: the writer was stopped within this line
       throw Error(Error::Kind::Syntax, subject, fmt::format("line {}", number), "",
                   fmt::format("is not a line of results: {}", error.what()));
     }
@@ -66,8 +66,8 @@ class Latest {
 
 const std::string kAnyPlumb = "any of plumb's", kAnySetting = "any setting";
 
-/// Returns the best cell of each scene among the engines and settings of a group, named by the group and "any
-/// setting". Groups with one engine and setting are left out; an empty name is no group.
+/// Returns the best cell of each scene among the engines and settings of a group, named after the group and
+/// "any setting". Groups with one engine and setting are left out; an empty name is not a group.
 std::vector<Cell> best_of(const std::vector<Cell>& cells,
                           const std::function<std::string(const Cell&)>& group) {
   std::map<std::string, std::set<std::string>> members;

@@ -23,11 +23,11 @@ struct Endurance {
 
 struct Extremes {
   std::vector<stress::Cell> cells;      ///< the last of each engine, setting, family and value
-  std::vector<std::string> thresholds;  ///< last line in thresholds.jsonl by engine, setting, name
+  std::vector<std::string> thresholds;  ///< last line in thresholds.jsonl for each engine, setting and name
   bool empty() const { return cells.empty() && thresholds.empty(); }
 };
 
-/// Reads the folder's stress.jsonl and thresholds.jsonl, if there. Ignores a truncated last line. Throws
+/// Reads the folder's stress.jsonl and thresholds.jsonl, if they exist. Ignores a truncated last line. Throws
 /// `Error` (Io, Syntax) that names file and line.
 Extremes read_extremes(const std::string& folder);
 

@@ -112,7 +112,7 @@ std::vector<const Result*> replayed(std::span<const Result> scene) {
   return out;
 }
 
-// Returns figures that identify a run: another build changes them.
+// Returns figures that identify a run. They change with the build.
 std::string figures_of(const Result& row) {
   std::string out = row.engine_version;
   for (const MetricField& field : kMetricFields)

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kFrames = 241;                   // frames of the truth's motion
 constexpr std::size_t kLargestMotion = 40000;  // poses per scene; scenes of many bodies have fewer frames
 // Size limit of a page, so that browsers open it within three seconds and mail can carry it: 20 MB with the
-// charts' library. A run takes about 450 bytes; each kind of settings is stored once. Motions get the room
+// charts' library. A run takes about 450 bytes; each kind of settings is stored once. Motions get the space
 // that runs leave.
 constexpr std::size_t kRoom = 18'000'000;  // bytes
 constexpr std::size_t kShown = 14'000;     // runs
@@ -106,12 +106,12 @@ Json missed_json(const Result& row) {
   return out;
 }
 
-// Rounds a number for drawing to 7 digits, which are also all that is written of it.
+// Rounds a number to 7 digits for drawing. Only these digits are written.
 double drawn(double value) {
   return std::isfinite(value) ? std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr) : value;
 }
 
-/// Effective settings, each kind stored once, because they take more room than the rest of a run.
+/// Effective settings; each kind is stored once, because settings take more space than the rest of a run.
 class SettingsTable {
  public:
   std::size_t place_of(const Result& row) {
@@ -154,7 +154,7 @@ Json row_json(const Result& row, SettingsTable& settings) {
   return json;
 }
 
-// Counts all runs of a scene, also those that are not shown.
+// Counts all runs of a scene, including those that are not shown.
 Json runs_json(std::span<const Result> rows) {
   std::map<std::string, int> statuses;
   std::map<std::string, std::pair<std::string, int>> failures;  // by text: status, runs
@@ -205,7 +205,7 @@ Json motion_json(const Stage& stage) {
   return {{"times", stage.times}, {"poses", frames}};
 }
 
-/// Motions of a scene. They are stored separately, because their room is known only when the rest of the
+/// Motions of a scene. They are stored separately, because their space is known only when the rest of the
 /// scene is.
 struct Motions {
   Json truth;                             ///< null if there is none

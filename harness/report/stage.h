@@ -22,7 +22,7 @@ struct Stage {
       truth;  ///< one row per time, one pose per body; empty if there is no known answer
 };
 
-/// Returns the stage of the scene that the command line calls `label`; nothing if no scenario has this name.
+/// Returns the stage of the scene that the command line calls `label`; nullopt if no scenario has this name.
 std::optional<Stage> stage_of(const std::string& label, int frames);
 
 }  // namespace plumb::harness::report

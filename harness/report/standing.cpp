@@ -15,7 +15,7 @@ std::optional<double> median(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
-  // Values are ratios, so the middle of two is their geometric mean.
+  // Values are ratios, so the median of an even number is the geometric mean of the middle two.
   return values.size() % 2 == 1 ? values[middle] : std::sqrt(values[middle - 1] * values[middle]);
 }
 

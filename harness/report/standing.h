@@ -15,10 +15,10 @@ struct Standing {
   sweep::Dominance dominance;
   const MetricField* metric = nullptr;
   int worse = 0;          ///< the rival's points that no setting of plumb dominates
-  int clearly_worse = 0;  ///< of these: those whose costs differ by more than the noise
+  int clearly_worse = 0;  ///< number of these whose costs differ by more than the noise
   /// Medians over the rival's points. `cost_ratio`: cost of plumb's cheapest point that is at least as
-  /// accurate, over the point's. `error_ratio`: error of plumb's most accurate point that is at least as
-  /// cheap, over the point's.
+  /// accurate, over the cost of the rival's point. `error_ratio`: error of plumb's most accurate point that
+  /// is at least as cheap, over the error of the rival's point.
   std::optional<double> cost_ratio{}, error_ratio{};
   int unreached = 0;       ///< the rival's points that are more accurate than any of plumb's
   std::string why_none{};  ///< reason if the rival has no point: skipped, failed, ...

@@ -19,7 +19,7 @@ struct Cell {
   Finding finding{};
   long steps = 0;             ///< steps that were made
   double seconds = 0;         ///< wall time of the cell
-  double engine_seconds = 0;  ///< part of it that the engine took for the steps
+  double engine_seconds = 0;  ///< part of it that the engine spent on the steps
   std::size_t memory = 0;     ///< bytes, at the peak, of its process
 
   bool counted() const { return finding.verdict != Verdict::Skipped; }

@@ -10,7 +10,7 @@
 #include "engine/scene/scene.h"
 #include "harness/stress/verdict.h"
 
-/// Families of scenes along an axis into the extreme, which show where an engine breaks.
+/// Families of scenes along an axis towards an extreme, which show where an engine breaks.
 namespace plumb::harness::stress {
 
 /// Worst deviation of a run.
@@ -23,7 +23,7 @@ struct Finding {
   std::string reason{};  ///< one sentence; empty if it is ok
 };
 
-/// Watches one run and decides if it was accurate enough to use.
+/// Watches one run, and decides whether it was accurate enough to use.
 class Judge {
  public:
   virtual ~Judge() = default;
@@ -38,7 +38,7 @@ using Motion = std::function<void(double time, std::span<BodyState> out)>;
 /// A part of a run that is sampled evenly.
 struct Stretch {
   int samples = 0;
-  int every = 1;  ///< steps from sample to sample
+  int every = 1;  ///< steps between two samples
 };
 
 /// One scene of a family.
@@ -56,9 +56,9 @@ struct Family {
   std::string name{};
   std::string title{};  ///< "a heavy box on a light one"
   std::string axis{};   ///< "mass ratio"
-  std::string unit{};   ///< of the axis; empty for numbers
+  std::string unit{};   ///< unit of the axis; empty for plain numbers
   std::vector<double> values{};
-  double usual = 1;     ///< the value of `values` that any engine with the features should survive
+  double usual = 1;     ///< the value in `values` that any engine with the features should survive
   std::string rule{};   ///< the bounds and their reasons, in one line
   double patience = 1;  ///< factor on the time limit of a cell
   std::function<Trial(double value)> build{};

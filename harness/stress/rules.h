@@ -43,15 +43,15 @@ Rule farthest_from_start(const Scene& scene, double bound, double explodes);
 Rule sum_of_gaps(const Scene& scene, double bound, double explodes);
 
 /// Limits the energy gained and lost since the start, as fractions of `scale`, J. A gain of ten times the
-/// scale is an explosion.
+/// scale counts as an explosion.
 Rule energy_gained(const Scene& scene, double scale, double bound);
 Rule energy_lost(const Scene& scene, double scale, double bound);
 
 /// Limits the distance of a body's centre from the exact one, m.
 Rule off_the_path(const Scene& scene, const Motion& exact, double bound, double explodes);
 
-/// Limits to one half the fraction of the first body's path length that is missing, once its exact path is
-/// `least` long, m.
+/// Once the first body's exact path is at least `least` long, m, limits the missing fraction of its path
+/// length to one half.
 Rule path_not_covered(const Scene& scene, const Motion& exact, double least);
 
 /// Limits the relative error of body `body`'s angular velocity against `rate`, rad/s.

@@ -123,7 +123,7 @@ void run(const Task& task, const Witness& witness, Cell& cell) {
   play(task, trial, settings, witness, cell);
 }
 
-/// Memory shared by a child and its parent, with the facts of a cell whose process died.
+/// Memory shared by a child and its parent. It keeps the facts of a cell whose process died.
 class Notes {
  public:
   explicit Notes(std::size_t count) : bytes_(std::max<std::size_t>(1, count) * kBytes) {

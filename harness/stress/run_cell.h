@@ -22,17 +22,17 @@ struct Task {
 /// Returns the cell of `task` before anything has run.
 Cell blank(const Task& task);
 
-/// Called once the settings are known and after every sample, so that the facts survive if the run's process
-/// dies.
+/// Called once when the settings are known and after every sample, so that the facts survive if the run's
+/// process dies.
 using Witness = std::function<void(const Cell& so_far)>;
 
 /// Runs a cell in this process. Exceptions of the engine become an outcome; crashes, hangs and memory
 /// exhaustion are left to the caller.
 Cell run_cell(const Task& task, const Witness& witness);
 
-/// Runs all `tasks`, each in a process of its own and at most `jobs` at a time. `limits.seconds` of a cell is
-/// multiplied by its family's patience. Calls `done` as they end, in any order; after an interrupt the
-/// unfinished ones are left out.
+/// Runs all `tasks`, each in a process of its own and at most `jobs` at a time. The time limit of a cell is
+/// `limits.seconds` times its family's patience. Calls `done` as cells end, in any order; after an interrupt,
+/// unfinished cells are left out.
 void run_cells(const std::vector<Task>& tasks, int jobs, const ChildLimits& limits,
                const std::function<void(std::size_t, const Cell&)>& done);
 

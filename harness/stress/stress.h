@@ -17,18 +17,18 @@ struct StressOptions {
   std::string folder;                   ///< folder of stress.jsonl
   int jobs = 1;                         ///< cells run at a time
   bool quick = false;                   ///< every third value of each axis
-  double cell_seconds = 10;             ///< wall-time limit of a cell; a family may take a multiple
+  double cell_seconds = 10;             ///< time limit of a cell; a family may have a multiple of it
   std::size_t cell_memory = 2ul << 30;  ///< bytes of address space of a cell's process and its children
 };
 
 struct StressEvents {
   std::function<void(const Progress&)> progress{};
-  /// Receives a family's cells when all are complete, also if they were complete before.
+  /// Receives a family's cells when all are complete, including those that were complete before.
   std::function<void(const Family&, const std::vector<Cell>&)> finished{};
 };
 
 struct Stressed {
-  std::vector<Cell> cells;  ///< by family, engine, setting and value, in the order asked for
+  std::vector<Cell> cells;  ///< by family, engine, setting and value, in the requested order
   bool interrupted = false;
 };
 

@@ -16,7 +16,7 @@ enum class Verdict {
   Explodes,    ///< bodies fly off, or energy grows without bound
   NotFinite,   ///< a non-finite state: "NaN"
   Crashed,     ///< its process died, or ran out of memory
-  Timeout,     ///< no end within the time limit of a cell
+  Timeout,     ///< did not end within the time limit of a cell
   Refused,     ///< the engine declined with a message, before or during the run
   Skipped,     ///< lacks a feature that the family always needs: not counted
 };

@@ -26,7 +26,8 @@ const scenarios::Instance* instance_of(const Result& row, const AgainOptions& op
   return found == options.instances.end() ? nullptr : &*found;
 }
 
-// A row whose reference cannot be computed, as in `Cases::sampled`, fails again with the same words.
+// Repeats the failure of a row whose reference cannot be computed (see `Cases::sampled`), with the same
+// error.
 Result failed_again(const Result& row, const Error& error) {
   Result out = row;
   out.cost.reset();

@@ -23,7 +23,8 @@ class Cases {
   /// Returns true if there is an answer that no engine computed.
   bool has_truth() const { return has_truth_; }
 
-  /// Returns the reference for a run with steps of `dt`. Throws `Error` (Run) if the engine has no limit.
+  /// Returns the reference for a run with steps of `dt`. Throws `Error` (Run) if the engine's motion has no
+  /// limit.
   const Case& at(const reference::Backend& backend, double dt) {
     return sampled(backend, sample_interval(dt));
   }

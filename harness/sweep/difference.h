@@ -24,7 +24,7 @@ std::string_view name_of(Verdict verdict);
 
 /// Least number of repetitions; with fewer, a rank test has little power.
 inline constexpr std::size_t kEnough = 9;
-/// Chance that any cost of a comparison is called better or worse although nothing changed.
+/// Probability that any cost of a comparison is called better or worse although nothing changed.
 inline constexpr double kChance = 0.05;
 
 /// A figure of a run that differs from before, bit for bit.
@@ -43,7 +43,7 @@ struct Difference {
   Verdict cost = Verdict::Unknown;
   double cost_before = 0, cost_after = 0;  ///< ns a step, medians
   double chance = 1;            ///< p-value of the rank test, before the correction for multiple tests
-  std::size_t repetitions = 0;  ///< the smaller number of the two
+  std::size_t repetitions = 0;  ///< the smaller number of repetitions of the two
 };
 
 /// Compares runs with the same requested settings, in the order of `before`, then those only in `after`.

@@ -60,7 +60,8 @@ std::optional<Space::Place> Explorer::next(double dearest) {
   const std::vector<Point> known = front();
   for (const std::vector<Space::Place> seeds = space_.seeds(); seed_ < seeds.size();) {
     const Space::Place& place = seeds[seed_++];
-    // Seeds come from coarse to fine; steps finer than those of a point at the error floor are useless.
+    // Seeds are ordered from coarse to fine; steps finer than those of a point at the error floor are
+    // useless.
     const bool exact =
         !known.empty() && known.back().error <= kErrorFloor && place[0] > known.back().place[0];
     const double steps =
@@ -108,7 +109,7 @@ std::optional<Space::Place> Explorer::step_from(const Point& point, double least
 }
 
 std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dearest) {
-  // Seeds that differ in more than the step are few, and help to leave local optima near the start.
+  // There are few seeds that differ in more than the step; they help to leave local optima near the start.
   for (const Space::Place& seed : space_.seeds()) {
     if (seed[0] != space_.start()[0] || points_.contains(seed)) continue;
     points_[seed] = {};
@@ -123,7 +124,7 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
   const std::span<const Point> before(known.data(), static_cast<std::size_t>(met - known.begin()));
   const std::span<const Point> lefts = before.last(std::min(before.size(), kLefts));
   if (known.empty()) {
-    // No setting ran to its end, but finer steps may.
+    // No setting has run to its end so far, but finer steps may.
     for (const Space::Place& seed : space_.seeds()) {
       if (points_.contains(seed)) continue;
       points_[seed] = {};
@@ -132,7 +133,7 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
     return {};
   }
   if (goal.error) {
-    // If no point meets the goal, a finer one may. Otherwise settings that cost more than the one that meets
+    // If no point meets the goal, a finer one may. Otherwise, settings that cost more than the one that meets
     // it are useless.
     const double most = right != nullptr ? right->cost * kMargin : dearest;
     if (right != nullptr)

@@ -8,15 +8,15 @@
 
 namespace plumb::harness::sweep {
 
-/// Chooses the settings of one engine that are worth running next: the seeds, then neighbours of the Pareto
-/// front, where its gaps are widest first. Pure bookkeeping: it runs nothing.
+/// Chooses the settings of one engine that are worth running next: first the seeds, then neighbours of the
+/// Pareto front, where its gaps are widest first. It does only the bookkeeping and runs nothing.
 class Explorer {
  public:
   explicit Explorer(Space space) : space_(std::move(space)) {}
 
   const Space& space() const { return space_; }
 
-  /// Returns the next setting to try and marks it as tried, or nothing if the front has no untried neighbour.
+  /// Returns the next setting to try and marks it as tried; nullopt if the front has no untried neighbour.
   /// Settings with an expected cost above `dearest` are skipped; costs are in the unit of `tell`.
   std::optional<Space::Place> next(double dearest);
 
@@ -25,9 +25,9 @@ class Explorer {
   struct Goal {
     std::optional<double> error, cost;
   };
-  /// Returns the next setting that may be nearer to the goal: neighbours of the front's points on both sides
-  /// of it. Returns nothing if none is left: the search cannot improve, or the goal is out of reach below
-  /// `dearest`.
+  /// Returns the next setting that may be nearer to the goal, among the neighbours of the front's points on
+  /// both sides of it. Returns nullopt if none is left: the search cannot improve, or the goal cannot be
+  /// reached below `dearest`.
   std::optional<Space::Place> next_towards(const Goal& goal, double dearest);
 
   /// Records the outcome of a run. Errors below `kErrorFloor` are recorded as `kErrorFloor`.
@@ -56,7 +56,7 @@ class Explorer {
   Space space_;
   std::map<Space::Place, Known> points_;
   std::size_t seed_ = 0;
-  std::map<int, std::pair<int, int>> axes_;  // changes along an axis: without and with effect on the error
+  std::map<int, std::pair<int, int>> axes_;  // changes by axis: without and with effect on the error
 };
 
 }  // namespace plumb::harness::sweep

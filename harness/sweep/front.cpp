@@ -146,7 +146,7 @@ std::optional<Order> observed_order(std::span<const Point> points) {
   std::vector<double> slopes;
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
     const Point &coarse = sorted[i], &fine = sorted[i + 1];
-    // The finest pair may be below the plateau if its error still falls.
+    // The finest pair may be below the plateau while its error still falls.
     const bool last =
         i + 2 == sorted.size() && fine.error <= coarse.error / 2 && fine.error > 2 * kErrorFloor;
     if (fine.row->dt == coarse.row->dt || (fine.error < kPlateau * least && !last)) continue;

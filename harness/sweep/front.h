@@ -13,7 +13,7 @@
 /// runs.
 namespace plumb::harness::sweep {
 
-/// Floor of errors, in the metric's unit: smaller ones are rounding errors in double.
+/// Floor of errors, in the metric's unit: smaller errors are rounding in double.
 inline constexpr double kErrorFloor = kRoundingFloor;
 
 /// A setting of an engine on one scene, as a point of the work-precision plane.
@@ -33,13 +33,13 @@ const MetricField& headline_metric(std::span<const Result> rows);
 /// Returns the Pareto front, from cheap to accurate: costs rise, errors fall.
 std::vector<Point> front_of(std::vector<Point> points);
 
-/// Returns the front's cost of `error`, ns per simulated second; a point that is better at the same cost
-/// counts too. Interpolates linearly in log-log between neighbours; nothing beyond the most accurate point.
-/// Larger errors than the cheapest point's cost as much as that point.
+/// Returns the cost at which the front reaches `error`, ns per simulated second; a point that is better at
+/// the same cost counts too. Interpolates linearly in log-log between neighbours; returns nullopt beyond the
+/// most accurate point. An error larger than that of the cheapest point costs as much as that point.
 std::optional<double> cost_at_error(std::span<const Point> front, double error);
 
-/// Returns the error that the front reaches for `cost`, interpolated alike; nothing below its cheapest
-/// point's cost.
+/// Returns the error that the front reaches at `cost`, interpolated in the same way; nullopt below its
+/// cheapest point's cost.
 std::optional<double> error_at_cost(std::span<const Point> front, double cost);
 
 /// Observed order of convergence in the step.
@@ -49,7 +49,7 @@ struct Order {
 };
 
 /// Computes the order from points that differ in dt alone. Leaves out pairs whose finer error is within
-/// `kPlateau` of the smallest error of all, because rounding dominates there.
+/// `kPlateau` of the smallest error, because rounding dominates there.
 std::optional<Order> observed_order(std::span<const Point> points);
 
 inline constexpr double kPlateau = 4;
@@ -58,13 +58,13 @@ inline constexpr double kPlateau = 4;
 struct Dominance {
   std::string label, rival;
   int points = 0;           ///< the rival's
-  int dominated = 0;        ///< of these: some point of plumb is at least as accurate and at least as cheap
-  int front = 0;            ///< points on the rival's own front
+  int dominated = 0;        ///< those that some point of plumb equals or beats in accuracy and cost
+  int front = 0;            ///< number of points on the rival's own front
   int front_dominated = 0;  ///< of these
-  int failed = 0;           ///< runs of the rival that crashed, hung or diverged: they have no point
+  int failed = 0;           ///< runs of the rival that crashed, hung or diverged, and so have no point
   struct Exception {
-    std::string settings;    ///< as `settings_text` has them
-    std::string metric;      ///< that the scene is judged by
+    std::string settings;    ///< text of `settings_text`
+    std::string metric;      ///< metric by which the scene is judged
     double error = 0;        ///< in the metric's unit
     double cost = 0;         ///< ns per simulated second
     double cost_ratio = 0;   ///< plumb's cost of this error over the rival's; 0: never reached

@@ -91,7 +91,7 @@ std::string decades(const SceneTrade& trade, const std::string& title, std::span
   return out;
 }
 
-// Thins the decades evenly to at most `most`.
+// Reduces the decades evenly to at most `most`.
 std::vector<double> columns_of(std::vector<double> decades_found, int most) {
   const auto count = static_cast<std::size_t>(most);
   if (decades_found.size() > count) {

@@ -6,7 +6,7 @@
 namespace plumb::harness::sweep {
 namespace {
 
-// Repeatedly takes the middle of each remaining part, so that the first few points are spread over all.
+// Repeatedly takes the middle of each remaining part, so that the first few points are spread over the whole.
 void spread(std::span<const Point> points, std::vector<Point>& out) {
   std::vector<std::span<const Point>> left{points};
   for (std::size_t i = 0; i < left.size(); ++i) {

@@ -17,7 +17,7 @@ namespace plumb::harness::sweep {
 
 namespace {
 
-constexpr int kPatience = 20;  // tenths of a second
+constexpr int kPatience = 20;  // tenths of a second to wait for the lock
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Journal::Journal(const std::string& path) : path_(path) {
   if (!folder.empty()) make_folder(folder.string());
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) fail("cannot be written");
-  // The children of a killed process release the lock a moment later.
+  // Children of a killed process release the lock slightly later.
   int locked = flock(file_, LOCK_EX | LOCK_NB);
   for (int i = 0; i < kPatience && locked != 0 && errno == EWOULDBLOCK; ++i) {
     usleep(100'000);

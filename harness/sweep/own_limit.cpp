@@ -60,7 +60,7 @@ double distance(const States& a, const States& b) {
   return out;
 }
 
-// Returns finer and finer settings, with the engine's defaults otherwise.
+// Returns settings with finer and finer steps, and the engine's defaults otherwise.
 std::vector<reference::StepSettings> refinements(const reference::Backend& backend, const Ladder& ladder) {
   std::vector<reference::StepSettings> out;
   if (backend.method({}).scheme == reference::Scheme::Adaptive) {

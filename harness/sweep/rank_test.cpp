@@ -44,7 +44,7 @@ double rank_test(std::span<const double> a, std::span<const double> b) {
       for (std::size_t s = width - 1; s >= static_cast<std::size_t>(rank); --s)
         ways[k * width + s] += ways[(k - 1) * width + s - static_cast<std::size_t>(rank)];
   }
-  // Compare distances from the expected sum, times the number of values so that they are integers.
+  // Compares distances from the expected sum, multiplied by the number of values so that they are integers.
   const long count = static_cast<long>(ranks.size());
   const long expected = static_cast<long>(total) * static_cast<long>(a.size());
   const long distance = std::labs(static_cast<long>(observed) * count - expected);

@@ -126,7 +126,7 @@ void Record::take_over(const std::string& folder, const std::set<std::string>& l
 }
 
 void Record::ran(const std::string& label, const Trial& trial) {
-  // Embed the result's own JSON: parsing and writing it again would give the same.
+  // Embeds the result's own JSON, because parsing and writing it again would give the same text.
   journal_.append(fmt::format(R"({{"kind":"run","label":{},"rough":{},"result":{}}})", Json(label).dump(),
                               sample_json(trial.rough).dump(), to_json(trial.result)));
   of(label).add(trial);

@@ -15,7 +15,7 @@ namespace plumb::harness::sweep {
 struct Trial {
   Result result;
   CostSample rough;                 ///< one repetition, measured while other runs were in progress
-  std::vector<CostSample> samples;  ///< repetitions that took turns with the others'
+  std::vector<CostSample> samples;  ///< repetitions measured in turns with those of other trials
 };
 
 /// Known data of an instance.
@@ -39,9 +39,9 @@ class Record {
 
   InstanceRecord& of(const std::string& label) { return instances_[label]; }
 
-  /// Takes over the runs of another sweep in `folder` on these instances, except those that are known. Its
-  /// rough costs guide the search; measured costs are not taken over. Throws `Error` (Io; Syntax; Value if it
-  /// is of another build).
+  /// Takes over the runs of another sweep in `folder` on these instances, except those that are known
+  /// already. Its rough costs guide the search; its measured costs are not taken over. Throws `Error` (Io;
+  /// Syntax; Value if it is of another build).
   void take_over(const std::string& folder, const std::set<std::string>& labels);
 
   void ran(const std::string& label, const Trial& trial);

@@ -23,26 +23,27 @@ std::vector<std::string> engines_of(std::span<const Result> rows);
 std::vector<Result> latest(std::vector<Result> rows);
 
 /// Removes costs so that each scene has costs of only one kind of machine: `machine` if it is not empty,
-/// otherwise the kind with the most costs (the first of equals). Costs of rows with an unknown machine are
-/// kept. Marks the others with `cost_left_out`. Throws `Error` (Name) if no cost is of `machine`.
+/// otherwise the kind with the most costs (the first of equals). Rows whose costs are removed are marked with
+/// `cost_left_out`. Costs of rows with an unknown machine are kept. Throws `Error` (Name) if no cost is of
+/// `machine`.
 void keep_costs_of_one_machine(std::vector<Result>& rows, const std::string& machine = "");
 
 /// Returns the kinds of machine that costs of these rows were measured on, those with the most costs first.
 std::vector<std::string> machines_of(std::span<const Result> rows);
 
-/// Calls `take` with each row of a file of results, or of `results.jsonl` in a folder, in order: however many
-/// there are, one at a time is in memory. Ignores a truncated last line. Throws `Error` (Io, Syntax) that
-/// names file and line.
+/// Calls `take` with each row of a file of results, or of `results.jsonl` in a folder, in order. Only one row
+/// at a time is in memory. Ignores a truncated last line. Throws `Error` (Io, Syntax) that names file and
+/// line.
 void for_each_row(const std::string& folder_or_file, const std::function<void(Result)>& take);
 
 /// Reads the latest rows of a file of results, or of `results.jsonl` in a folder. Ignores a truncated last
 /// line. Throws `Error` (Io, Syntax) that names file and line.
 std::vector<Result> read_all_costs(const std::string& folder_or_file);
 
-/// Throws `Error` (Value) if there are no rows: tables of nothing would look like a result.
+/// Throws `Error` (Value) if there are no rows, because an empty table would look like a result.
 void require_rows(const std::vector<Result>& rows, const std::string& folder_or_file);
 
-/// Reads the same, with the costs of one kind of machine a scene.
+/// Does the same, with the costs of one kind of machine per scene.
 std::vector<Result> read_rows(const std::string& folder_or_file, const std::string& machine = "");
 
 /// Returns true if there is a file that `read_rows` would read.

@@ -34,7 +34,7 @@ class Space {
   /// Returns the place of `settings`, if they are in the space.
   std::optional<Place> find(const reference::StepSettings& settings) const;
 
-  /// Returns the engine's defaults at the rung nearest to 1/60 s.
+  /// Returns the engine's defaults at the step of the ladder nearest to 1/60 s.
   Place start() const;
   /// Returns the starting points: the defaults at steps over the whole ladder, `start` first.
   std::vector<Place> seeds() const;
@@ -44,8 +44,8 @@ class Space {
     int axis;
     double cost_factor;  ///< expected ratio of the costs
   };
-  /// Returns the places that differ in one axis: one rung or numeric value up or down, or any other of
-  /// unordered values.
+  /// Returns the places that differ in one axis: by one step of the ladder or one numeric value up or down,
+  /// or by any other of unordered values.
   std::vector<Neighbour> neighbours(const Place& place) const;
 
   int axes() const { return 1 + static_cast<int>(knobs_.size()); }

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 // Largest fraction of an instance's time for one run.
 constexpr double kDearest = 0.04;
-constexpr std::size_t kAtOnce = 2;  // runs between two evaluations of the fronts
+constexpr std::size_t kAtOnce = 2;  // number of runs between two evaluations of the fronts
 constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns = 0.3e6};
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
 // Overhead of a repetition besides stepping: starting and ending a process, and its page faults.
@@ -62,7 +62,7 @@ class InstanceSweep {
   bool explore(const std::function<void(double share, const std::string& what)>& progress);
   bool measure(const std::function<void(double share, const std::string& what)>& progress);
 
-  /// Returns how many settings on the front have no measured cost, because the time was too short.
+  /// Returns how many settings on the front have no measured cost, because time ran out.
   int dropped() const { return dropped_; }
 
  private:
@@ -161,7 +161,7 @@ std::optional<RunRequest> InstanceSweep::request(Entrant& entrant, const Space::
   return RunRequest{&scene_case, entrant.backend, settings, nullptr, kRough};
 }
 
-// Returns a few runs, engines taking turns.
+// Returns a few runs; the engines take turns.
 std::vector<RunRequest> InstanceSweep::next_runs() {
   std::vector<RunRequest> out;
   const double duration = instance_.build().duration;
@@ -308,7 +308,7 @@ bool InstanceSweep::measure(const std::function<void(double, const std::string&)
     const double needed = seconds_since(start) * (options_.repetitions - round) / (round + 1.0);
     const double left = allowed - seconds_since(start);
     if (round > 0 || needed <= left) continue;
-    // The machine is slower than expected: drop the least important.
+    // If the machine is slower than expected, drops the least important points.
     const auto fit =
         static_cast<std::size_t>(static_cast<double>(chosen.size()) * std::max(left, 0.0) / needed);
     const std::size_t least = std::min(chosen.size(), options_.engines.size());
@@ -344,8 +344,8 @@ void append_rows(Journal& results, std::span<const Result> rows) {
     if (!there.contains(key_of(row))) results.append(to_json_with_environment(row));
 }
 
-// Returns the settings that must be the same when a sweep resumes. A scene without an answer comes from a
-// file, which may have been edited.
+// Returns the settings that must be the same when a sweep resumes. A scene without a known answer comes from
+// a file, which may have been edited, so the scene is included.
 std::string settings_of(const SweepOptions& options) {
   std::string out =
       fmt::format("{} repetitions, dt {} and finer", options.repetitions, options.ladder.coarsest);

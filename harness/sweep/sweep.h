@@ -21,7 +21,7 @@ struct SweepOptions {
   std::vector<const reference::Backend*> engines;
   std::string folder;   ///< folder of results.jsonl and sweep.jsonl
   double budget = 540;  ///< s of wall time for all instances
-  /// s for finding the fronts of all instances. If set, no cost is measured and no result is written: a later
+  /// s for finding the fronts of all instances. If set, no cost is measured and no result is written; a later
   /// sweep with this folder in `from` does that. 0: fronts and costs.
   double only_explore = 0;
   std::vector<std::string>
@@ -33,7 +33,7 @@ struct SweepOptions {
 };
 
 struct SweepEvents {
-  /// Called once per instance with its rows, when they are complete; also for instances that were complete
+  /// Called once per instance with its rows when they are complete, including instances that were complete
   /// before.
   std::function<void(std::span<const Result>)> finished{};
   /// `done` and `total` are thousandths of the budget.
@@ -46,10 +46,10 @@ struct Swept {
   int dropped = 0;  ///< settings whose cost was not measured, because the budget was too small
 };
 
-/// Runs every engine over its knobs on every instance, closing in on its Pareto front of error and cost. Then
-/// measures costs in repetitions in which all points of an instance take turns. Appends everything to
-/// `sweep.jsonl` as it comes, and an instance's rows to `results.jsonl` when it is complete. The same call
-/// resumes an interrupted sweep. Throws `Error` (Io; Value if the folder is another sweep's).
+/// Runs every engine on every instance with the values of its knobs, and approaches its Pareto front of error
+/// and cost. Then measures costs in repetitions in which all points of an instance take turns. Appends
+/// everything to `sweep.jsonl` as it comes, and an instance's rows to `results.jsonl` when it is complete.
+/// The same call resumes an interrupted sweep. Throws `Error` (Io; Value if the folder is another sweep's).
 Swept sweep(const SweepOptions& options, const SweepEvents& events = {});
 
 }  // namespace plumb::harness::sweep

@@ -15,7 +15,7 @@ struct EngineTrade {
   std::vector<Point> points{};  ///< all of them
   std::vector<Point> front{};
   std::string why_none{};        ///< reason for an empty front: skipped or failed, and why
-  std::optional<Order> order{};  ///< in dt, of the series with the most pairs of steps
+  std::optional<Order> order{};  ///< order in dt, from the series with the most pairs of steps
 };
 
 /// Trade-off in the rows of one scene. Points refer to the rows from which it was computed.
@@ -25,7 +25,7 @@ struct SceneTrade {
   const MetricField* metric = nullptr;
   std::vector<EngineTrade> engines;
   std::vector<double> errors;  ///< decades that some engine's front spans, from large to small
-  std::vector<double> costs;   ///< the same for costs, ns per simulated second, from cheap to dear
+  std::vector<double> costs;   ///< the same for costs, ns per simulated second, from cheap to expensive
 };
 
 /// `metric` null: the scene's headline. `rows` are of one label.

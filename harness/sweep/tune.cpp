@@ -25,7 +25,7 @@ constexpr CostBudget kRough{.repetitions = 1, .at_most_ns = 10e6, .at_least_ns =
 constexpr CostBudget kMeasured{.repetitions = 9, .at_most_ns = 15e6, .at_least_ns = 1e6};
 // Largest fraction of the search's time for one run.
 constexpr double kDearest = 0.06;
-// Number of settings whose costs are measured well: the rough costs of the best do not rank them reliably.
+// Number of best settings whose costs are measured well, because rough costs do not rank them reliably.
 constexpr std::size_t kFinalists = 3;
 constexpr int kRungs = 11;
 // Fraction of the time that the search may take; the rest is for measuring costs and for the last runs.
@@ -98,7 +98,7 @@ void Tuner::enter() {
     if (why.empty() && !cases_.has_truth()) {
       const OwnLimit& limit = cases_.limit(*backend);
       why = limit.problem.empty() ? "" : "its solutions do not converge: " + limit.problem;
-      // The uncertainty of the limit is that of the errors.
+      // The uncertainty of the limit is also an uncertainty of the errors.
       if (why.empty() && goal_.error && limit.distance > *goal_.error / 2)
         why = fmt::format("{}: not accurate enough for this tolerance", limit.source);
     }
@@ -178,10 +178,11 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
     for (std::size_t i = 0; i < std::min(kFinalists, entrant.trials.size()); ++i)
       finalists.push_back({&entrant, &entrant.trials[i]});
   }
-  // Collect the samples separately first: a trial's rough cost orders it until all are measured.
+  // Collects the samples separately first, because a trial's rough cost orders the trials until all are
+  // measured.
   std::vector<std::vector<CostSample>> samples(finalists.size());
-  // Keep to the total time: the search leaves a part of it, and a round begins only if it is likely to end in
-  // time.
+  // Keeps to the total time: the search leaves a part of it, and a round begins only if it will probably end
+  // in time.
   const Clock::time_point begin = Clock::now();
   for (int round = 0; round < options_.repetitions; ++round) {
     const double each = round == 0 ? 0 : seconds_since(begin) / round;
@@ -251,7 +252,7 @@ TuneAnswer Tuner::answer(Entrant& entrant) {
       out.problem = entrant.last_failure.empty() ? "no run finished in time" : entrant.last_failure;
     return out;
   }
-  if (meets(*measured.front())) return out;  // none of those that met the goal did so twice
+  if (meets(*measured.front())) return out;  // none of the settings that met the goal met it twice
   fill(out, *measured.front());
   out.problem =
       options_.tolerance

@@ -16,13 +16,13 @@ namespace plumb::harness::sweep {
 /// Goal of a search for settings: least cost for a given error, or least error for a given cost.
 struct TuneOptions {
   scenarios::Instance instance;
-  std::string run_as{};  ///< the argument of `plumb run`; empty: its label
+  std::string run_as{};  ///< the argument of `plumb run`; if empty, its label
   std::vector<const reference::Backend*> engines;
   const MetricField* metric = nullptr;
   std::optional<double> tolerance{};  ///< in the metric's unit
   std::optional<double> budget_ns{};  ///< for one step of the game
   double step = 1.0 / 60;             ///< s, of the game: dt is this step or a repeated half of it
-  double seconds = 45;                ///< for the search; measuring costs follows
+  double seconds = 45;                ///< s, for the search; measuring costs comes on top
   double seconds_a_run = 10;
   int jobs = 1;
   int repetitions = 9;
@@ -32,16 +32,16 @@ struct TuneOptions {
 struct TuneAnswer {
   std::string engine;
   bool found = false;
-  std::string problem;     ///< reason if there is none
-  Result row;              ///< the run of the settings, with measured cost; if none is found, the nearest
+  std::string problem;     ///< reason if there is no answer
+  Result row;              ///< the run of the settings, with measured cost; without an answer, the nearest
   double error = 0;        ///< of the metric; the larger if two runs differ
   double ns_a_step = 0;    ///< for one step of the game
-  int tried = 0;           ///< settings that were run
-  bool confirmed = false;  ///< repeated at the end, with the same error to the bit
+  int tried = 0;           ///< number of settings that were run
+  bool confirmed = false;  ///< true if the repeated run had the same error to the bit
 };
 
 struct Tuned {
-  bool has_truth = false;           ///< else each engine is compared with its own limit
+  bool has_truth = false;  ///< true if there is a truth; else each engine is compared with its own limit
   std::vector<TuneAnswer> answers;  ///< best first, then those without an answer
   bool interrupted = false;
 };

@@ -32,7 +32,7 @@ Trial arch(double share, double resolution) {
   trial.scene.bodies = {held(block("ground", 4 * kArchRadius, 2, {0, -1}, kFriction))};
   for (int i = 0; i < kVoussoirs; ++i) trial.scene.bodies.push_back(voussoir_body(i, share * kArchRadius));
   // If the arch is too thin by a small fraction, its hinges open from rest like tilting blocks. The arm is
-  // the arch's radius, and the centre of mass lies that fraction of the thickness beside the hinge.
+  // the arch's radius, and the offset of the centre of mass from the hinge is that fraction of the thickness.
   const double beyond = resolution / 2 * kThinnestArch * kArchRadius;
   trial.duration = 2 * time_to_tilt(beyond, kArchRadius, kArchRadius * kArchRadius, kDrop / kArchRadius);
   trial.broke = [bodies = trial.scene.bodies](double time, std::span<const BodyState> states) {
@@ -48,7 +48,7 @@ Trial arch(double share, double resolution) {
 
 std::array<Vec2d, 4> voussoir(int index, double thickness) {
   const double inner = kArchRadius - thickness / 2, outer = kArchRadius + thickness / 2;
-  // Symmetric to the bit, and level on the ground.
+  // Symmetric in every bit, and level on the ground.
   const auto ray = [](int joint) {
     const double angle = joint * std::numbers::pi / kVoussoirs;
     if (joint == 0 || joint == kVoussoirs) return Vec2d{joint == 0 ? 1.0 : -1.0, 0};

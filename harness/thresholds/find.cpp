@@ -14,8 +14,8 @@ namespace {
 
 double resolution_of(const FindOptions& options) { return std::pow(10.0, -options.digits); }
 
-/// Returns the facts known before the first run; refused if the engine cannot run the scene at the end that
-/// holds.
+/// Returns the facts known before the first run; the outcome is "refused" if the engine cannot run the scene
+/// at the holding end.
 Finding described(const Request& request, const FindOptions& options) {
   const Threshold& threshold = *request.threshold;
   Finding out{.name = threshold.name,
@@ -94,7 +94,7 @@ Finding find_one(const Request& request, const FindOptions& options) {
                                                       : search(std::move(finding), request, options);
 }
 
-// Runs each search in a process that starts processes for its runs; killing it kills its runs too.
+// Runs each search in a process that starts processes for its runs. If it is killed, its runs are killed too.
 void find_all(std::span<const Request> requests, const FindOptions& options,
               const std::function<void(std::size_t, const std::optional<Finding>&)>& done) {
   std::vector<Finding> findings;

@@ -29,8 +29,8 @@ struct FindOptions {
 /// outcome.
 Finding find_one(const Request& request, const FindOptions& options);
 
-/// Finds all of them, `options.jobs` searches at a time. `done` is called as they end, with nothing for those
-/// that an interrupt has ended.
+/// Finds the values of all requests, `options.jobs` searches at a time. Calls `done` as they end, with
+/// nullopt for those that an interrupt has ended.
 void find_all(std::span<const Request> requests, const FindOptions& options,
               const std::function<void(std::size_t, const std::optional<Finding>&)>& done);
 

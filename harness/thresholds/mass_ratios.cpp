@@ -9,13 +9,13 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// Heavy bodies carried by light ones. Rigid bodies carry any mass: any limit is the engine's own.
+// Heavy bodies carried by light ones. Rigid bodies carry any mass, so any limit is the engine's own.
 namespace plumb::harness::thresholds {
 namespace {
 
 constexpr double kDuration = 10;  // s
-// Displacement, m, and rotation, rad, that count as a failure: above the margin of a centimetre that some
-// engines keep around shapes.
+// Displacement, m, and rotation, rad, that count as a failure. They exceed the margin of a centimetre that
+// some engines keep around shapes.
 constexpr double kMoved = 0.05;
 constexpr int kLinks = 10;
 constexpr double kStretch = 0.01;  // largest stretch, as a fraction of the chain's length
@@ -38,7 +38,7 @@ Trial stack(double ratio, double) {
 }
 
 Trial chain(double ratio, double) {
-  constexpr double kAngle = std::numbers::pi / 6;  // of the chain from the vertical
+  constexpr double kAngle = std::numbers::pi / 6;  // tilt of the chain from the vertical
   const Vec2d along = rotation_of(-std::numbers::pi / 2 + kAngle) * Vec2d{1, 0};
   Trial trial{.scene = {.name = "heavy_tip", .gravity = {0, -kGravity}}, .duration = kDuration};
   Scene& scene = trial.scene;

@@ -27,7 +27,7 @@ Trial over_the_edge(std::span<const double> shares, double overhang, double exac
                                        {end - kLength / 2, height}, kFriction));
     height += kHeight;
   }
-  // The stack tilts as one: its arm is at most its height, and its inertia exceeds a block's by the arm
+  // The stack tilts as a whole: its arm is at most its height, and its inertia exceeds a block's by the arm
   // squared.
   const double count = static_cast<double>(shares.size()), arm = count * kHeight / 2;
   trial.duration =

@@ -28,7 +28,7 @@ Body Slope::ground(double friction) const {
   return held(block("ground", 200, kThickness, at(0, -kThickness / 2), friction, angle_));
 }
 
-// Solves a/2 (T^2 - kSettled^2) = 2 way.
+// Solves a/2 (T^2 - kSettled^2) = 2 `way` for T.
 double time_to_slip(double way, double acceleration) {
   return std::sqrt(kSettled * kSettled + 4 * way / acceleration);
 }

@@ -38,7 +38,7 @@ class Slope {
 /// (m) since `kSettled`.
 double time_to_slip(double way, double acceleration);
 
-inline constexpr double kSettled = 1;  ///< s, for an engine's contacts to settle
+inline constexpr double kSettled = 1;  ///< s, in which an engine's contacts settle
 
 /// Returns 1.5 times the time, s, in which a body tilts by `tilt`. Its centre of mass is `offset` beside the
 /// vertical through its pivot. From rest phi'' = rate^2 (phi + offset / arm), so phi = (offset / arm)

@@ -8,12 +8,12 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// A box on a slope stays if tan(theta) <= mu, and else slides with g cos(theta) (tan(theta) - mu). Source:
-// Coulomb's law, any mechanics text.
+// A box on a slope stays if tan(theta) <= mu, and otherwise slides with g cos(theta) (tan(theta) - mu).
+// Source: Coulomb's law, any mechanics text.
 namespace plumb::harness::thresholds {
 namespace {
 
-// Displacement that counts as a slide; creep of several mm/s stays below it.
+// Displacement that counts as a slide. Creep of several mm/s does not reach it.
 constexpr double kSlide = 0.1;  // m
 
 Trial box_on_slope(double angle, double friction, double resolution) {

@@ -6,7 +6,8 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// Speed limits: a bullet stopped by a thin wall, and a free body undisturbed.
+// Speed limits: the highest speed at which a thin wall stops a bullet, and at which a free body moves
+// undisturbed.
 namespace plumb::harness::thresholds {
 namespace {
 

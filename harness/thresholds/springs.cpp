@@ -7,16 +7,16 @@
 #include "harness/thresholds/parts.h"
 
 // The stiffest spring that an engine integrates, as its natural frequency times the step. A method that is
-// stable for omega h up to some number, h its substep, loses the motion beyond. Source: Hairer, Lubich,
-// Wanner, Geometric Numerical Integration, I.1 and VI; the stability polynomial of the classical Runge-Kutta
-// method on the imaginary axis.
+// stable for omega h up to some number, with h its substep, loses the motion beyond it. Source: Hairer,
+// Lubich, Wanner, Geometric Numerical Integration, I.1 and VI; the stability polynomial of the classical
+// Runge-Kutta method on the imaginary axis.
 namespace plumb::harness::thresholds {
 namespace {
 
 // Limit of the amplitude, in units of the initial one. At omega h = 2 (1 - e) a symplectic method's amplitude
-// is bounded by 1/sqrt(2 e), 100 for e = 5e-5. Beyond, it grows by sqrt(8 e) a step. Runge-Kutta's amplitude
-// grows by 7.1 e a step beyond 2 sqrt(2) (1 + e): 4 / resolution steps with e = resolution / 2 give a factor
-// of exp(14.2) = 1.5e6.
+// is bounded by 1/sqrt(2 e), which is 100 for e = 5e-5; beyond 2 it grows by sqrt(8 e) per step.
+// Runge-Kutta's amplitude grows by 7.1 e per step beyond 2 sqrt(2) (1 + e): 4 / resolution steps with e =
+// resolution / 2 give a factor of exp(14.2) = 1.5e6.
 constexpr double kBurst = 1000;
 // Initial amplitude, m: small, so that no engine's clamp on the displacement of a step hides the growth.
 constexpr double kStart = 1e-3;
@@ -62,7 +62,8 @@ Trial on_a_joint(double frequency_times_step, double resolution) {
   return trial;
 }
 
-// Returns the limit of omega h, h the substep in which forces are evaluated; none if every spring is stable.
+// Returns the limit of omega h, with h the substep in which forces are evaluated; nullopt if every spring is
+// stable.
 std::optional<double> limit_of(const reference::Method& method) {
   if (method.follows_springs) return {};
   switch (method.scheme) {

@@ -14,7 +14,7 @@
 /// Critical values of one parameter at which a scene changes from standing to failing.
 namespace plumb::harness::thresholds {
 
-/// Step of all runs, s: a game's.
+/// Step of all runs, s; that of a game.
 inline constexpr double kStep = 1.0 / 60;
 
 /// One run: a scene at one value of the parameter, and its failure criterion.
@@ -33,11 +33,11 @@ struct Threshold {
   std::string quantity;  ///< meaning of the parameter: "friction coefficient at which a box stays on a slope
                          ///< of 20 degrees"
   std::string unit{};    ///< empty if it has none
-  std::string source;    ///< source of the exact value, or why there is none
-  std::string judged;    ///< criterion of failure, and why the run is long enough to tell
+  std::string source;    ///< source of the exact value, or the reason why there is none
+  std::string judged;    ///< criterion of failure, and why the run is long enough to detect it
   SearchRange range{};   ///< without the resolution
 
-  /// Returns the exact value for an engine with this method; nothing if there is none, for example because
+  /// Returns the exact value for an engine with this method; nullopt if there is none, for example because
   /// any value holds.
   std::function<std::optional<double>(const reference::Method& method)> exact{};
 

@@ -6,8 +6,8 @@
 #include "harness/thresholds/catalogue.h"
 #include "harness/thresholds/parts.h"
 
-// A box of 1 m by 2 m tips about its lower corner when its weight, or its weight and a push, pass beside the
-// corner. Source: moments about the corner, any mechanics text.
+// A box of 1 m by 2 m tips about its lower corner when the line of its weight, or of the sum of its weight
+// and a push, passes beside the corner. Source: moments about the corner, any mechanics text.
 namespace plumb::harness::thresholds {
 namespace {
 
@@ -46,8 +46,8 @@ Trial pushed(double push, double resolution) {
   trial.scene.bodies = {held(block("ground", 40, 2, {0, -1}, kFriction)), box};
   trial.scene.forces = {
       PointForce{.body = "box", .force = {push * weight, 0}, .point = {0, kPushedAt - kHeight / 2}}};
-  // The excess of the push's moment equals that of the weight this far beside the corner. As the box tilts,
-  // both arms change like that of a pendulum of half a diagonal.
+  // At this distance beside the corner, the weight's moment equals the excess of the push's moment. As the
+  // box tilts, both arms change like that of a pendulum of half a diagonal.
   const double beyond = resolution / 2 * kWidth / 2;  // m
   trial.duration = time_to_tilt(beyond, kHalfDiagonal, kGyrationSquared, kToppled);
   trial.broke = tilted_from(0);

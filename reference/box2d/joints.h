@@ -14,7 +14,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/scene/scene.h"
 
-/// A scene's joints in Box2D 2.4: those that it has, with the same physical values.
+/// A scene's joints in Box2D 2.4: those that it supports, with the same physical values.
 namespace plumb::reference {
 
 inline b2Vec2 to_box2d(Vec2d v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
@@ -30,7 +30,7 @@ inline std::optional<std::size_t> fixed_hinge(const Scene& scene, const std::str
   return std::nullopt;
 }
 
-/// Gives the reason why Box2D does not support a joint, or empty.
+/// Gives the reason why Box2D does not support a joint; empty if it does.
 class Box2dJointLimits {
  public:
   explicit Box2dJointLimits(const Scene& scene) : scene_(scene) {}
@@ -91,14 +91,14 @@ class Box2dJointLimits {
   const Scene& scene_;
 };
 
-/// Creates the joints. `body_called` returns the b2Body of a name.
+/// Creates the joints. `body_called` returns the b2Body with a name.
 template <class BodyCalled>
 class Box2dJointMaker {
  public:
   Box2dJointMaker(b2World& world, const Scene& scene, BodyCalled body_called)
       : world_(world), scene_(scene), body_called_(body_called), made_(scene.joints.size()) {}
 
-  /// All of the scene; gears last, as they hold on to other joints.
+  /// Creates all joints of the scene; gears last, because they refer to other joints.
   void make_all() {
     for (const bool gears : {false, true}) {
       for (std::size_t i = 0; i < scene_.joints.size(); ++i) {

@@ -99,8 +99,8 @@ class BulletBackend final : public Backend {
   }
 
  private:
-  /// Returns the reason if Bullet would ignore `joint`, else empty. Its solver skips rows whose J M^-1 J^T is
-  /// below its epsilon, as between heavy bodies.
+  /// Returns the reason if Bullet would ignore `joint`, otherwise an empty text. Bullet's solver skips rows
+  /// whose J M^-1 J^T is below its epsilon, as between heavy bodies.
   template <class SceneJoint>
   static std::string ignored(const Scene& scene, const SceneJoint& joint) {
     double inverse_mass = 0;

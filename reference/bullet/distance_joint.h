@@ -5,9 +5,9 @@
 
 namespace plumb::reference {
 
-/// A rigid massless rod between two anchors, which Bullet lacks: one row for its solver,
-/// u . (v_a + w_a x r_a - v_b - w_b x r_b) = erp/h (|d| - length), d from anchor a to anchor b and u = d/|d|,
-/// with the error reduction of btPoint2PointConstraint.
+/// A rigid massless rod between two anchors, which Bullet lacks. It is one row for Bullet's solver,
+///     u . (v_a + w_a x r_a - v_b - w_b x r_b) = erp/h (|d| - length),
+/// with d from anchor a to anchor b and u = d/|d|. The error reduction is that of btPoint2PointConstraint.
 class BulletDistanceJoint final : public btTypedConstraint {
  public:
   BulletDistanceJoint(btRigidBody& a, btRigidBody& b, const btVector3& anchor_a, const btVector3& anchor_b,

@@ -1,4 +1,4 @@
-// A Scene's mechanisms as Bullet's articulated bodies: one for each tree of hinges attached to the world. Its
+// A Scene's mechanisms as Bullet's articulated bodies, one for each tree of hinges attached to the world. The
 // coordinates are the hinges' angles.
 #include "reference/bullet/multibody.h"
 
@@ -80,7 +80,7 @@ class MultibodySimulator final : public Simulator {
   }
 
  private:
-  /// Links [root, end): a tree of its own.
+  /// Adds the links [root, end), which form a tree of their own.
   void add_tree(std::size_t root, std::size_t end) {
     constexpr bool kFixedBase = true, kCanSleep = false, kApart = true;
     auto tree = std::make_unique<btMultiBody>(static_cast<int>(end - root), btScalar(0), btVector3(0, 0, 0),
@@ -143,7 +143,8 @@ class MultibodySimulator final : public Simulator {
     return state;
   }
 
-  // Evaluates forces at the step's start and holds them for the step; Bullet's stages do not reevaluate them.
+  // Evaluates forces at the step's start and keeps them constant during the step; Bullet's stages do not
+  // evaluate them again.
   void apply_forces() {
     if (forces_.empty()) return;
     find_states();

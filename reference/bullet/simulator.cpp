@@ -62,7 +62,7 @@ bool install_callbacks() {
   return true;
 }
 
-/// Filters out pairs of bodies of which no two shapes may touch; `shapes_may_touch` filters shapes.
+/// Filters out pairs of bodies that have no two shapes that may touch; `shapes_may_touch` filters shapes.
 class FilterOfScene final : public btOverlapFilterCallback {
  public:
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
@@ -143,7 +143,7 @@ class BulletSimulator final : public Simulator {
     info.m_erp = static_cast<btScalar>(settings_.joint_erp);
     info.m_erp2 = static_cast<btScalar>(settings_.contact_erp);
     info.m_restitutionVelocityThreshold = static_cast<btScalar>(scene_.contact_rules.restitution_threshold);
-    // By default penetrations of up to 4 cm are pushed out by adding velocity, which stays.
+    // By default, penetrations of up to 4 cm are resolved by adding velocity, which remains.
     info.m_splitImpulse = 1;
     info.m_splitImpulsePenetrationThreshold = 0;
     info.m_linearSlop = 0;
@@ -162,7 +162,7 @@ class BulletSimulator final : public Simulator {
     return out;
   }
 
-  /// Returns a body's shapes as one: an empty shape, its only shape if that is centred, or a compound.
+  /// Returns a body's shapes as one shape: an empty shape, the only shape if that is centred, or a compound.
   btCollisionShape* add_shapes(const Body& body) {
     if (body.shapes.empty()) {
       shapes_.push_back(std::make_unique<btEmptyShape>());
@@ -254,7 +254,7 @@ class BulletSimulator final : public Simulator {
             .angular_velocity = static_cast<double>(body.getAngularVelocity().z())};
   }
 
-  // Evaluates forces at the step's start and holds them for the step, as users of Bullet do.
+  // Evaluates forces at the step's start and keeps them constant during the step, as users of Bullet do.
   void apply_forces() {
     const double start = time(), end = static_cast<double>(substeps_done_ + 1) * settings_.substep;
     forces_.apply(
@@ -275,7 +275,7 @@ class BulletSimulator final : public Simulator {
     }
   }
 
-  // Counted in the measured time, because a game that needs whole turns must count them too.
+  // Counted in the measured time, because a game that needs whole turns must count them as well.
   void count_turns() {
     for (const std::size_t index : turning_) {
       const btMatrix3x3& basis = bodies_[index]->getWorldTransform().getBasis();

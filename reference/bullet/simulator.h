@@ -17,7 +17,7 @@ struct BulletSettings {
   bool speculative = false;  ///< contacts act before shapes touch
 };
 
-/// `scene` in a btDiscreteDynamicsWorld that is held to the plane z = 0.
+/// Creates `scene` in a btDiscreteDynamicsWorld that is constrained to the plane z = 0.
 std::unique_ptr<Simulator> make_bullet_simulator(const Scene& scene, const BulletSettings& settings);
 
 }  // namespace plumb::reference

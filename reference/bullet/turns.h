@@ -5,13 +5,13 @@
 
 namespace plumb::reference {
 
-/// The angle of a body that an engine knows only as a rotation, whole turns included. Each update may turn it
-/// by less than half a turn.
+/// The angle, whole turns included, of a body that the engine knows only as a rotation. Each update may
+/// change it by less than half a turn.
 class TurnCounter {
  public:
   TurnCounter() = default;
 
-  /// `angle`, rad: initial angle of `cosine` and `sine`, whole turns included.
+  /// `angle`, rad: the initial angle that belongs to `cosine` and `sine`, whole turns included.
   TurnCounter(double angle, double cosine, double sine) : cosine_(cosine), sine_(sine) {
     turns_ = std::round((angle - within_turn()) / (2 * std::numbers::pi));
   }
@@ -20,7 +20,7 @@ class TurnCounter {
     // The angle in (-pi, pi] jumps at -x: when it leaves the upper half-plane counter-clockwise, or enters it
     // clockwise.
     const bool was_upper = sine_ >= 0, is_upper = sine >= 0;
-    const double turned = cosine_ * sine - sine_ * cosine;  // sine of the angle between
+    const double turned = cosine_ * sine - sine_ * cosine;  // sine of the angle between the two
     if (was_upper && !is_upper && turned > 0) ++turns_;
     if (!was_upper && is_upper && turned < 0) --turns_;
     cosine_ = cosine;

@@ -78,7 +78,7 @@ function addJoint(world, joint, a, b) {
   return distance ? B.b2CreateDistanceJoint(world, def) : B.b2CreateRevoluteJoint(world, def);
 }
 
-// One rule for all pairs has to be a function of the coefficients alone, which Box2D v3 takes as a callback.
+// Box2D v3 takes one rule for all pairs as a callback: a function of the coefficients alone.
 function equalise(world, scene) {
   const { friction, restitution } = scene.contact_rules;
   B.b2World_SetFrictionCallback(world, (a, _ma, b) => combine(friction, a, b));

@@ -6,8 +6,8 @@ import { combine, contactRules, inertiaOf, mayTouch } from "./support/scene.mjs"
 
 const Matter = requireFrom("matter-js");
 const { Bodies, Body, Constraint, Composite, Engine, Events } = Matter;
-const kScale = 100; // pixels a metre: matter's slop and thresholds are pixels
-const kFrame = 60; // 1/s: velocities are pixels a frame, whatever the step
+const kScale = 100; // pixels per metre: matter's slop and thresholds are in pixels
+const kFrame = 60; // 1/s: velocities are in pixels per frame, whatever the step is
 
 const joined = new Set();
 const pair = (a, b) => Math.min(a, b) + " " + Math.max(a, b);
@@ -69,7 +69,7 @@ function create(scene, settings) {
   if (!outOfTheBox) {
     const equalise = ({ pairs }) => {
       for (const each of pairs) {
-        // The scene's own: matter-js gives every static body a friction of 1.
+        // Uses the scene's friction, because matter-js gives every static body a friction of 1.
         const a = each.collision.parentA.collisionFilter.shape, b = each.collision.parentB.collisionFilter.shape;
         each.friction = combine(rules.friction, a.friction, b.friction);
         each.restitution = combine(rules.restitution, a.restitution, b.restitution);

@@ -28,7 +28,7 @@ function addBody(body, materialOf) {
   return out;
 }
 
-// A contact's coefficients are those of two materials: one material a pair of coefficients.
+// A contact's coefficients are those of two materials, so creates one material per pair of coefficients.
 function materials(scene, world) {
   const known = new Map();
   const { friction, restitution } = scene.contact_rules;

@@ -7,7 +7,7 @@ import { combine, contactRules, inertiaOf, mayTouch } from "./support/scene.mjs"
 const planck = requireFrom("planck");
 const at = ([x, y]) => new planck.Vec2(x, y);
 
-// The scene's filters decide, in place of Box2D's own.
+// The scene's filters decide instead of Box2D's own.
 if (!outOfTheBox) {
   planck.Fixture.prototype.shouldCollide = function (other) { return mayTouch(this.getUserData().filter, other.getUserData().filter); };
   Object.assign(planck.Settings, { maxTranslation: 1e6, maxRotation: 1e6 }); // no clamps on speeds

@@ -7,14 +7,14 @@ import { contactRules, filtersFit, inertiaOf } from "./support/scene.mjs";
 const kPackage = "@dimforge/rapier2d-compat";
 const RAPIER = await loadRapier();
 
-// Old versions are CommonJS alone, new ones have a module too.
+// Old versions are CommonJS only; new ones have a module too.
 async function loadRapier() {
   const found = requireFrom(kPackage);
   await found.init();
   return found;
 }
 
-// Rapier has no geometric mean: the product of the square roots is that.
+// Rapier has no geometric mean, but the product of square roots is one.
 const kRules = { geometric_mean: "Multiply", product: "Multiply", maximum: "Max", minimum: "Min", average: "Average" };
 const rule = (name) => RAPIER.CoefficientCombineRule[kRules[name]];
 const share = (name, value) => name === "geometric_mean" ? Math.sqrt(value) : value;
@@ -87,7 +87,7 @@ function create(scene, settings) {
   };
 }
 
-// Since 0.12 a step has substeps of its own, as many as solver iterations.
+// Since 0.12 a step has its own substeps, as many as there are solver iterations.
 const version = versionOf(kPackage);
 const [major, minor] = version.split(".").map(Number);
 const inner = major > 0 || minor >= 12;

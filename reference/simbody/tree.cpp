@@ -13,7 +13,7 @@ constexpr int kMostSteps = 1000000;  // to one sample
 
 SimTK::Vec3 in_plane(const double (&v)[2]) { return {v[0], v[1], 0}; }
 
-// Parents come first: their angles, whole turns included, are known.
+// Parents come first, so their angles, whole turns included, are known.
 std::vector<TreeState> states_of(const std::vector<TreeLink>& links,
                                  const std::vector<SimTK::MobilizedBody>& mobiles,
                                  const SimTK::State& state) {

@@ -4,16 +4,17 @@
 #include <memory>
 #include <vector>
 
-/// Trees of hinges in Simbody, without any header of Simbody or of the engine: the two need different C++.
+/// Trees of hinges in Simbody, without any header of Simbody or of the engine, because these need different
+/// C++ standards.
 namespace plumb::reference::simbody {
 
 /// A body in the plane. SI units.
 struct TreeLink {
   int parent = -1;      ///< an earlier link; -1: the world
-  bool hinged = false;  ///< else it is free
+  bool hinged = false;  ///< true: a hinge; false: the body is free
   double parent_anchor[2] = {0, 0}, anchor[2] = {0, 0};
   double mass = 1, inertia = 1;
-  double q[3] = {0, 0, 0};  ///< the angle to its parent, or angle, x and y
+  double q[3] = {0, 0, 0};  ///< the angle relative to the parent; of a free body angle, x and y
   double u[3] = {0, 0, 0};  ///< their rates
 };
 

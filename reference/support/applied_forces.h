@@ -8,7 +8,7 @@
 
 namespace plumb::reference {
 
-/// The scene's force laws for an engine that takes a force and a torque a step.
+/// The scene's force laws for an engine that takes a force and a torque per step.
 class AppliedForces {
  public:
   explicit AppliedForces(const Scene& scene);
@@ -24,7 +24,8 @@ class AppliedForces {
     for (const std::size_t body : bodies_) apply(body, wrenches_[body]);
   }
 
-  /// The same for an engine that evaluates forces at each stage, `time`, of a step from `start` to `end`.
+  /// Does the same for an engine that evaluates forces at each stage, `time`, of a step from `start` to
+  /// `end`.
   template <class StateOf, class Apply>
   void apply_at(double time, double start, double end, StateOf&& state_of, Apply&& apply) {
     for (const std::size_t body : bodies_) place(body, state_of(body));

@@ -14,10 +14,10 @@
 namespace plumb::reference {
 namespace {
 
-/// A hinge as one of its bodies sees it.
+/// A hinge as seen from one of its bodies.
 struct Hinge {
   std::size_t joint = 0;
-  std::optional<std::size_t> other{};  ///< body; nothing for the world
+  std::optional<std::size_t> other{};  ///< the other body; nullopt for the world
   Vec2d anchor{}, other_anchor{};      ///< m, in the bodies' frames
 };
 
@@ -58,7 +58,7 @@ class Walk {
   }
 
   std::vector<Link> links;
-  std::optional<std::size_t> loop{};  ///< a joint that closes one
+  std::optional<std::size_t> loop{};  ///< a joint that closes a loop, if there is one
 
  private:
   void start_if_held(std::size_t body) {
@@ -124,8 +124,8 @@ std::vector<std::pair<std::size_t, std::size_t>> kept_apart(const Scene& scene) 
   return out;
 }
 
-/// Returns the names of two bodies that may touch, as a reason, else empty. Bodies whose filters let nothing
-/// through, as most in long chains, are left out first.
+/// Returns the names of two bodies that may touch, as a reason; otherwise an empty text. First leaves out
+/// bodies whose filters let nothing through, such as most bodies of long chains.
 std::string what_may_touch(const Scene& scene) {
   const auto apart = kept_apart(scene);
   std::vector<std::size_t> touchable;
@@ -153,7 +153,8 @@ std::string what_may_touch(const Scene& scene) {
   return "";
 }
 
-/// Returns the reason if the link's hinge is open at the start or its anchors move apart, else empty.
+/// Returns the reason if the link's hinge is open at the start or its anchors move apart; otherwise an empty
+/// text.
 std::string ill_fitting(const Scene& scene, const Link& link, const std::vector<Link>& links) {
   constexpr double kRelative = 1e-9;
   const Body& body = scene.bodies[link.body];

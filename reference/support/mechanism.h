@@ -12,7 +12,7 @@ namespace plumb::reference {
 struct Link {
   std::size_t body = 0;    ///< in the scene
   int parent = -1;         ///< an earlier link; -1: the world
-  bool hinged = false;     ///< else it is free: only roots are
+  bool hinged = false;     ///< true: on a hinge; false: free, which only roots are
   Vec2d parent_anchor{};   ///< m, in the parent's frame, or in the world
   Vec2d anchor{};          ///< m, in the body's frame
   double angle = 0;        ///< rad, of the body relative to its parent, at the start
@@ -22,9 +22,9 @@ struct Link {
 /// The scene's dynamic bodies as trees: parents come before their children.
 std::vector<Link> links_of(const Scene& scene);
 
-/// Returns the reason why a scene is not a forest of hinges without contacts, or empty. Reasons: another kind
-/// of joint, a loop, shapes that may touch, a hinge on a kinematic body or fixed rotation, motion that breaks
-/// a hinge.
+/// Returns the reason why a scene is not a forest of hinges without contacts; empty if it is. Reasons:
+/// another kind of joint, a loop, shapes that may touch, a hinge on a kinematic body or on one with fixed
+/// rotation, motion that opens a hinge.
 std::string not_a_mechanism(const Scene& scene);
 
 }  // namespace plumb::reference

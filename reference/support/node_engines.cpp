@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kDefault = "-default";
 
-// Adds to a process backend that it is a guest, whose costs are another platform's.
+// Marks a process backend as a guest, with costs of another platform.
 class Guest final : public Backend {
  public:
   explicit Guest(std::unique_ptr<Backend> program) : program_(std::move(program)) {}
@@ -75,7 +75,8 @@ std::string directive(const std::string& script, const std::string& key) {
   return "";
 }
 
-// Numbers of a version and what follows a hyphen, which makes it older than the same without.
+// Returns the numbers of a version, and the text after a hyphen. With such a text, a version is older than
+// the same one without.
 std::pair<std::vector<int>, std::string> parts_of(std::string_view version) {
   std::vector<int> numbers;
   const std::size_t hyphen = version.find('-');

@@ -4,7 +4,7 @@
 
 #include "engine/scene/scene.h"
 
-/// Limits that several adapters share: discs and boxes, and joints that are plain hinges or rigid rods.
+/// Limits that several adapters share: only discs and boxes, and only plain hinges or rigid rods as joints.
 namespace plumb::reference {
 
 /// Returns the reason why `scene` has a joint that is neither a hinge nor a rod, or one with limits, a range,
@@ -14,7 +14,8 @@ std::string not_plain_joints(const Scene& scene);
 /// Returns the reason why `body` has a shape that is neither a circle nor a box; empty if all are.
 std::string not_circles_and_boxes(const Body& body);
 
-/// Returns the place at time 0 of `anchor`, given in the frame of the body called `name` or of the world, m.
+/// Returns the position at time 0 of `anchor`, which is given in the frame of the body called `name` or of
+/// the world, m.
 Vec2d anchor_in_world(const Scene& scene, const std::string& name, Vec2d anchor);
 
 }  // namespace plumb::reference

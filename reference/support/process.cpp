@@ -26,9 +26,9 @@ namespace {
 using std::chrono::milliseconds;
 using Fault = ProcessError::Fault;
 
-constexpr milliseconds kGrace{500};         ///< for a program to end by itself once its input is closed
-constexpr std::size_t kStderrBytes = 4096;  ///< of stderr that is kept
-constexpr std::size_t kStderrLines = 5;     ///< of stderr that an error shows
+constexpr milliseconds kGrace{500};         ///< s for a program to end by itself once its input is closed
+constexpr std::size_t kStderrBytes = 4096;  ///< bytes of stderr that are kept
+constexpr std::size_t kStderrLines = 5;     ///< bytes of stderr that an error shows
 
 struct Pipe {
   FileDescriptor read{}, write{};
@@ -76,8 +76,8 @@ std::string locate(const std::string& name) {
   return name;  // execvp looks in PATH
 }
 
-/// Starts `command` under a supervisor, whose number becomes `pid`, with its standard streams on the given
-/// pipe ends. Returns 0 or an errno.
+/// Starts `command` under a supervisor, whose process id is stored in `pid`, with its standard streams on the
+/// given pipe ends. Returns 0 or an errno.
 int spawn(const std::vector<std::string>& command, const std::array<int, 3>& streams, pid_t& pid) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -102,7 +102,7 @@ int spawn(const std::vector<std::string>& command, const std::array<int, 3>& str
   ssize_t count = 0;
   while ((count = read(problem.read.get(), &number, sizeof number)) < 0 && errno == EINTR) {
   }
-  if (count == 0) {  // closed when the program was executed
+  if (count == 0) {  // closed when the program has been executed
     pid = child;
     return 0;
   }
@@ -111,7 +111,7 @@ int spawn(const std::vector<std::string>& command, const std::array<int, 3>& str
   return number;
 }
 
-/// Calls write(2) on a pipe whose reader may be gone: fails with EPIPE and raises no SIGPIPE.
+/// Calls write(2) on a pipe whose reader may be gone: fails with EPIPE instead of raising SIGPIPE.
 ssize_t write_without_signal(int file, std::string_view bytes) {
   sigset_t piped, before, pending;
   sigemptyset(&piped);
@@ -272,7 +272,8 @@ ProcessError Process::ended() {
   return fail(killed ? Fault::Killed : Fault::Crash, std::move(problem));
 }
 
-/// Returns, for an error, how a program ended that closed a pipe. Waits at most `kGrace` for its end.
+/// Returns a description, for an error, of how a program ended that closed a pipe. Waits at most `kGrace` for
+/// its end.
 std::string Process::status_when_ended() {
   if (pid_ > 0 && !wait_for_end(kGrace)) return "it closed its output";
   kill_and_reap();
@@ -283,7 +284,7 @@ std::string Process::status_when_ended() {
   return "it ended with exit code " + std::to_string(WEXITSTATUS(status_));
 }
 
-/// Returns the last lines of the program's stderr, to be appended to a problem.
+/// Returns the last lines of the program's stderr, to be appended to an error.
 std::string Process::last_words() {
   read_errors();
   std::vector<std::string> lines;

@@ -49,7 +49,7 @@ class Process {
   /// Returns true if this process started the program, false if it inherited it through a fork.
   bool owned() const;
 
-  /// Sends `line` and a newline; `request` says in errors what is being asked. Throws `ProcessError`.
+  /// Sends `line` and a newline; `request` is the name of the request in errors. Throws `ProcessError`.
   void write_line(std::string_view line, const std::string& request);
 
   /// Returns the next line, of at most `most` bytes, without its newline. Throws `ProcessError`.

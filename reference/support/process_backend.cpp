@@ -22,14 +22,14 @@ using Json = nlohmann::ordered_json;
 using Fault = ProcessError::Fault;
 using protocol::Loaded;
 
-/// How to start a program, and what to call it.
+/// Command that starts a program, and the name of its engine.
 struct Launch {
   std::string engine;
   std::vector<std::string> command;
   ProcessLimits limits;
 };
 
-/// Returns what `question` returns, asked again while programs are killed from outside.
+/// Returns the result of `question`; asks again if the program was killed from outside.
 template <class Question>
 auto ask_again(const Question& question) {
   for (int attempt = 1;; ++attempt) {
@@ -96,7 +96,7 @@ class Session {
 
  private:
   /// Passes the next answer, of at most `most` bytes, to `take`. Throws an error about this engine if the
-  /// answer is invalid or is an error.
+  /// answer is invalid, or reports an error.
   template <class Take>
   void read_answer(std::size_t most, const Take& take) {
     const std::string line = process_.read_line(most);
@@ -213,7 +213,7 @@ class ProcessBackend final : public Backend {
   }
 
  private:
-  /// The program's answer to "hello", or the reason why there is none.
+  /// The program's answer to "hello", or the reason why there is no answer.
   struct Known {
     std::optional<protocol::Hello> hello;
     std::string reason;

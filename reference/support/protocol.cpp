@@ -53,7 +53,7 @@ int whole_number_or(const Json& message, const char* name, int fallback) {
   return message.contains(name) ? protocol::whole_number(message, name) : fallback;
 }
 
-/// A setting's value as text: strings as they stand, other values as JSON writes them.
+/// Returns a setting's value as text: strings unchanged, other values as JSON writes them.
 std::string as_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 /// Maximum length of a list in an engine's hello: each entry is printed, checked and searched.

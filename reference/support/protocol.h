@@ -29,7 +29,7 @@ struct OptionMethod {
 struct Hello {
   std::string name, version, precision, summary;
   Method method;
-  int substeps = 1;                     ///< per step, if the settings give none
+  int substeps = 1;                     ///< per step, if the settings do not say
   std::vector<OptionMethod> methods{};  ///< for option values that change the method
   std::vector<std::string> shapes, joints, forces, features;
   std::vector<Option> options;
@@ -39,7 +39,7 @@ struct Hello {
 
 /// The answer to "load".
 struct Loaded {
-  std::string unsupported{};  ///< why the engine cannot run the scene; empty: it can
+  std::string unsupported{};  ///< why the engine cannot run the scene; empty if it can
   Settings effective{};
 };
 
@@ -71,7 +71,7 @@ double done_from_json(const nlohmann::ordered_json& message);
 nlohmann::ordered_json to_json(const Error& error);
 Error error_from_json(const nlohmann::ordered_json& message, const std::string& engine);
 
-/// One sample: {"t":..,"states":[[x,y,angle,vx,vy,w],..]}, on one line. Throws `NotFinite`.
+/// Returns one sample: {"t":..,"states":[[x,y,angle,vx,vy,w],..]}, on one line. Throws `NotFinite`.
 std::string sample_line(double time, std::span<const BodyState> states);
 
 /// Reads a sample of `out.size()` bodies and returns its time. Throws `Malformed` or `NotFinite`.
@@ -84,7 +84,7 @@ int whole_number(const nlohmann::ordered_json& message, const char* name);
 /// a NaN or an infinity.
 nlohmann::ordered_json parse_line(std::string_view line);
 
-/// Returns a feature that `scene` needs and the engine of `hello` lacks, or empty.
+/// Returns a feature that `scene` needs and the engine of `hello` lacks; empty if there is none.
 std::string missing_capability(const Scene& scene, const Hello& hello);
 
 }  // namespace plumb::reference::protocol

@@ -6,8 +6,8 @@
 
 namespace plumb::reference {
 
-/// Range of an engine's arithmetic. Squares of quantities up to `largest` must not overflow, nor inverses of
-/// masses, inertias and sizes from `smallest`.
+/// Range of an engine's arithmetic. Squares of quantities up to `largest` must not overflow, and neither must
+/// inverses of masses, inertias and sizes from `smallest` on.
 struct Range {
   double smallest;
   double largest;
@@ -18,7 +18,7 @@ struct Range {
 inline constexpr Range kFloatRange{.smallest = 1e-18, .largest = 1e18};
 inline constexpr Range kDoubleRange{.smallest = 1e-150, .largest = 1e150};
 
-/// Returns the reason if one of the scene's quantities is out of `range`, else empty. For
+/// Returns the reason if one of the scene's quantities is out of `range`; otherwise an empty text. For
 /// `Backend::unsupported`.
 std::string out_of_range(const Scene& scene, const Range& range);
 

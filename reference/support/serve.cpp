@@ -21,7 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-/// Writes lines to the host. Answers are flushed at once, samples if the last flush is over 100 ms old.
+/// Writes lines to the host. Answers are flushed at once; samples are flushed if the last flush was more than
+/// 100 ms ago.
 class Output {
  public:
   explicit Output(std::FILE* file) : file_(file) {}
@@ -86,7 +87,7 @@ class Server {
     out.method = backend_.method({.dt = 1});
     out.substeps = substeps_of(out.method);
     out.methods = methods_by_option(out.method);
-    // Lists all that a scene can hold; the backend's `unsupported` decides for each scene.
+    // Lists everything that a scene can contain; the backend's `unsupported` decides for each scene.
     out.shapes.assign(kGeometryNames.begin(), kGeometryNames.end());
     out.joints.assign(kJointNames.begin(), kJointNames.end());
     out.forces.assign(kForceNames.begin(), kForceNames.end());
@@ -96,10 +97,10 @@ class Server {
     output_.answer(protocol::to_json(out));
   }
 
-  /// Returns the number of substeps; `method` is for a step of 1 s.
+  /// Returns the number of substeps; `method` is that for a step of 1 s.
   static int substeps_of(const Method& method) { return static_cast<int>(std::lround(1 / method.substep)); }
 
-  /// The options' values that a sweep tries and that change the method.
+  /// Returns the values of options that a sweep tries and that change the method.
   std::vector<protocol::OptionMethod> methods_by_option(const Method& plain) const {
     std::vector<protocol::OptionMethod> out;
     for (const Knob& knob : backend_.knobs()) {

@@ -9,17 +9,18 @@
 #include "engine/scene/scene.h"
 #include "reference/backend.h"
 
-/// Helpers of all adapters that read settings and print those in effect.
+/// Helpers for adapters that read settings and print those in effect.
 namespace plumb::reference {
 
-/// Which of `StepSettings`' members an engine takes.
+/// The members of `StepSettings` that an engine takes.
 enum class Stepping { Fixed, Adaptive };
 
 /// Throws `Error` (Value) unless dt is positive and finite, substeps >= 1 and tolerance positive and finite,
 /// and `Error` (Unsupported) for substeps of an adaptive engine or a tolerance of a fixed-step one.
 void check_steps(std::string_view engine, const StepSettings& settings, Stepping stepping);
 
-/// Throws `Error` (Value) for a substep, in s, that an engine whose time is in float would round away.
+/// Throws `Error` (Value) for a substep, in s, that would vanish by rounding in an engine whose time is in
+/// float.
 void require_float_step(std::string_view engine, double substep);
 
 /// Returns the combine rule's name in scene files.
@@ -28,11 +29,11 @@ std::string_view name_of(Combine rule);
 /// Appends the scene's contact rules, which every adapter equalises.
 void append_contact_rules(Settings& out, const Scene& scene);
 
-/// Reads an engine's options as given, or their fallbacks. Every reader throws `Error` (Value) with the
-/// option's name, what was given and what it must be.
+/// Reads an engine's options, or their fallbacks. Every reader throws `Error` (Value) with the option's name,
+/// the given value and the permitted ones.
 class OptionReader {
  public:
-  /// Throws `Error` (Name) for an option that is not among `declared`, with the nearest.
+  /// Throws `Error` (Name) for an option that is not among `declared`, and suggests the nearest.
   OptionReader(std::string_view engine, const StepSettings& settings, std::vector<Option> declared);
 
   std::string text(std::string_view name) const;

@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <csignal>
 
-// Between fork and exec only calls that are safe in signal handlers are allowed (POSIX, fork(2)), so that
-// there is no allocation, no stream and no directory listing in this file.
+// Between fork and exec only calls that are safe in signal handlers are allowed (POSIX, fork(2)). So this
+// file uses no allocation, no stream and no directory listing.
 namespace plumb::reference {
 namespace {
 
@@ -35,7 +35,7 @@ namespace {
   refuse(problem, errno);
 }
 
-/// Closes all inherited files, so that pipes end when the processes that use them do.
+/// Closes all inherited files, so that pipes close when the processes that use them end.
 void close_files() {
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (int file = 0; file < 3; ++file) dup2(nothing, file);
@@ -55,8 +55,8 @@ void wait_for_end(pid_t child, const sigset_t& signals) {
   }
 }
 
-/// Kills `number` if it is a child of this process: /proc lists other numbers if mounted for another PID
-/// namespace. Returns 1 if it is a child that has ended or now ends, else 0.
+/// Kills `number` if it is a child of this process. (If /proc is mounted for another PID namespace, it lists
+/// other numbers.) Returns 1 if it is a child that has ended or now ends, else 0.
 int kill_child(pid_t number) {
   siginfo_t state{};
   if (waitid(P_PID, static_cast<id_t>(number), &state, WEXITED | WNOHANG | WNOWAIT) != 0) return 0;
@@ -64,7 +64,7 @@ int kill_child(pid_t number) {
   return kill(number, SIGKILL) == 0 ? 1 : 0;
 }
 
-/// Kills the children that this process has now; returns how many of them end.
+/// Kills the present children of this process; returns how many of them end.
 int kill_children() {
   const int list = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
   if (list < 0) return 0;
@@ -85,8 +85,8 @@ int kill_children() {
   return killed;
 }
 
-/// Kills and reaps all descendants of the program that has ended: as the subreaper, this process inherits
-/// them.
+/// Kills and reaps all descendants of the program that has ended; this process inherits them as the
+/// subreaper.
 void end_orphans() {
   while (true) {
     const int killed = kill_children();
@@ -111,7 +111,7 @@ void end_orphans() {
 }  // namespace
 
 void supervise(const Command& command, pid_t host, int problem) {
-  // Leaves the host's group, so that an interrupt from the keyboard reaches only the host.
+  // Leaves the host's process group, so that an interrupt from the keyboard reaches only the host.
   setpgid(0, 0);
   signal(SIGCHLD, SIG_DFL);
   signal(SIGTERM, SIG_DFL);
@@ -133,7 +133,7 @@ void supervise(const Command& command, pid_t host, int problem) {
   wait_for_end(child, signals);
   // Kills the group before reaping its leader: until then no other group can get its number.
   kill(-child, SIGKILL);
-  kill(child, SIGKILL);  // it may have left its group
+  kill(child, SIGKILL);  // the program may have left its group
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -12,7 +12,7 @@ namespace {
 class Unavailable final : public Backend {
  public:
   Unavailable(std::string name, std::string reason) : name_(std::move(name)), reason_(std::move(reason)) {
-    // Adapters are called after their files, whose names have no hyphens.
+    // Adapters are named after their files, whose names have no hyphens.
     std::replace(name_.begin(), name_.end(), '_', '-');
   }
 

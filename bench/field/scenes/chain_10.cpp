@@ -1,5 +1,5 @@
-// Ten links of 1 x 0.2 m hang from a static body, the first straight out to the side, and swing. Links do not
-// collide. 11 bodies, 10 joints.
+// Ten links of 1 x 0.2 m hang from a static body and swing. At the start they form a horizontal line. Links
+// do not collide. 11 bodies, 10 joints.
 #include "bench/field/scenes/scenes.h"
 
 namespace plumb::field {

@@ -1,5 +1,5 @@
-// 1000 x 1000 squares of 1 m at a pitch of 3 m fall from rest side by side and never touch: free_10000 times
-// a hundred.
+// 1000 x 1000 squares of 1 m at a pitch of 3 m fall from rest side by side and never touch: a hundred times
+// free_10000.
 #include "bench/field/scenes/scenes.h"
 
 namespace plumb::field {

@@ -10,8 +10,8 @@ constexpr double kPi = std::numbers::pi;
 /// One bone: an upright capsule, and the joint to its parent. Lengths in m above the soles, angles in rad.
 struct Bone {
   int parent;                 ///< index of a bone before this one; -1 for the hip
-  double height;              ///< of the body's frame
-  double low, high, radius;   ///< of the capsule's axis, from the frame
+  double height;              ///< height of the body's frame
+  double low, high, radius;   ///< ends of the capsule's axis relative to the frame; radius
   double pivot;               ///< height of the joint
   double lower, upper;        ///< limits of the joint
   double friction;            ///< factor of the joint's friction torque

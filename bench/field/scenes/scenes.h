@@ -24,7 +24,7 @@ Scene chain_10();
 Scene pyramid_10();
 Scene free_10000();
 
-// A million bodies, to compare with ten thousand.
+// A million bodies, for comparison with ten thousand.
 Scene free_1000000();
 Scene stacks_10000();
 Scene stacks_1000000();

@@ -9,7 +9,7 @@ constexpr int kHigh = 4;
 
 constexpr int kPiece = 10;  // stacks per piece of ground
 
-// Builds `columns` stacks on each of `storeys` grounds; columns are a multiple of kPiece.
+// Builds `columns` stacks on each of `storeys` grounds. `columns` is a multiple of kPiece.
 Built build(Builder& world, int storeys, int columns) {
   constexpr double kPitch = 2, kStorey = 8;  // m
   const ShapeDefinition square{.geometry = box(0.5, 0.5)},

@@ -39,7 +39,7 @@ Counts expected_of(const Engine& engine, const Inventory& inventory) {
         out.shapes += body.alive && std::holds_alternative<Capsule>(shape.geometry) ? 2 : 0;
   }
   if (engine.name != "box2d" &&
-      engine.name != "box2d-v3") {  // the others reject joints without a dynamic body
+      engine.name != "box2d-v3") {  // the other engines reject joints without a dynamic body
     for (const JointRecord& joint : inventory.joints)
       out.joints -= joint.alive && inventory.bodies[joint.a].definition.type != BodyType::Dynamic &&
                     inventory.bodies[joint.b].definition.type != BodyType::Dynamic;
@@ -225,7 +225,7 @@ TEST_P(OnEngine, EqualRestitutionsAreThatOfThePair) {
     stage.builder.step();
     fastest = std::max(fastest, stage.builder.states()[1].velocity.y);
   }
-  EXPECT_NEAR(fastest, 2.5, 0.25);  // a step of gravity either way at the impact
+  EXPECT_NEAR(fastest, 2.5, 0.25);  // one step of gravity, in either direction, at the impact
 }
 
 // A motor brakes a disc of inertia pi/2 kg m^2 with at most pi/4 N m: 0.5 rad/s in a second.
@@ -253,7 +253,7 @@ TEST_P(OnEngine, SpringsPullTowardsTheReferenceAngle) {
     stage.builder.step();
     highest = std::max(highest, stage.builder.states()[disc].angle);
   }
-  // Box2D 2.4 has no such spring: it is left out, as its settings say, and nothing turns the disc.
+  // Box2D 2.4 has no such spring. It is left out, as its settings say, so nothing rotates the disc.
   if (GetParam()->name == "box2d") {
     EXPECT_EQ(highest, 0);
     return;

@@ -27,7 +27,7 @@ TEST(MeasureQuality, DepthsOfAStack) {
   bench.builder.create_body({.position = {0, 0.499}}, kSquare);    // 1 mm in the ground
   bench.builder.create_body({.position = {0.2, 1.496}}, kSquare);  // 3 mm in the first
   bench.builder.create_body({.position = {0, 2.511}}, kSquare);    // 15 mm above the second
-  bench.builder.create_body({.position = {0, 3.536}}, kSquare);    // 25 mm above the third: no neighbour
+  bench.builder.create_body({.position = {0, 3.536}}, kSquare);    // 25 mm above the third: not a neighbour
   const Quality quality = bench.quality();
   EXPECT_TRUE(quality.finite);
   EXPECT_EQ(quality.near, 3);

@@ -1,4 +1,5 @@
-// The digits of Python's base64.b85encode, but for two that HTML would read as its own: "<" is ".", "&" is ",".
+// The digits are those of Python's base64.b85encode, except two that have a meaning in HTML: "." replaces
+// "<", and "," replaces "&".
 const kDigits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%,()*+-;.=>?@^_`{|}~";
 
 // Returns the bytes of a text in base 85: four for each five digits, which is 6 % less text than base 64.

@@ -1,4 +1,5 @@
-// Which part of the world is seen, and how large. Pixels of CSS: (0, 0) at the top left, y down; the world: m, y up.
+// Decides which part of the world is visible, and its scale. Pixels of CSS: (0, 0) at the top left, y down;
+// the world: m, y up.
 
 const kSmallest = 1e-3, kLargest = 1e6;  // pixels a metre
 const kMargin = 16;                      // pixels
@@ -17,7 +18,8 @@ export class Camera {
     this.#height = Math.max(height, 1);
   }
 
-  /// Shows all of `view` ([left, lower, right, upper]), as large as it goes in what is not covered at the edges.
+  /// Shows all of `view` ([left, lower, right, upper]) as large as possible in the area that is not covered
+  /// at the edges.
   fit([left, lower, right, upper], covered) {
     const wide = Math.max(this.#width - covered.left - covered.right - 2 * kMargin, 1);
     const high = Math.max(this.#height - covered.top - covered.bottom - kMargin - kBelow, 1);
@@ -35,7 +37,7 @@ export class Camera {
             y: this.#centre.y - (pixel.y - this.#height / 2) / this.scale};
   }
 
-  /// `factor` times as large; what is at `pixel` stays there.
+  /// Scales by `factor`; the point at `pixel` stays fixed.
   zoom(pixel, factor) {
     const held = this.to_world(pixel);
     this.scale = clamp(this.scale * factor, kSmallest, kLargest);
@@ -43,7 +45,7 @@ export class Camera {
     this.#centre.x += held.x - now.x;
     this.#centre.y += held.y - now.y;
   }
-  /// What is seen moves by so many pixels.
+  /// Moves the picture by this many pixels.
   pan(x, y) {
     this.#centre.x -= x / this.scale;
     this.#centre.y += y / this.scale;

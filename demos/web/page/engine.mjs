@@ -1,8 +1,8 @@
-// The demos and the engine, compiled for WebAssembly (exports.cpp lists the calls). Nothing here needs a page.
+// The demos and the engine, compiled to WebAssembly (exports.cpp lists the calls). Nothing here needs a page.
 
 const kNoSystem = 52;  // WASI's ENOSYS
 
-// All that WASI is asked for: the clock. There are no files.
+// The parts of WASI that are used: the clock. There are no files.
 function system(memory) {
   const known = {
     clock_time_get(_clock, _precision, out) {
@@ -17,8 +17,8 @@ function system(memory) {
   return new Proxy(known, {get: (all, name) => all[name] ?? (() => kNoSystem)});
 }
 
-/// Names, values and choices are as demos/core/demo.h says. A call that throws ends the engine: what it was
-/// doing may be half done, and only a new one with a saved state goes on.
+/// Names, values and choices are those of demos/core/demo.h. A call that throws ends the engine, because its
+/// memory may be half changed; continue with a new engine and a saved state.
 export class Engine {
   static async start(module) {
     const engine = new Engine();
@@ -43,7 +43,7 @@ export class Engine {
 
   list() { this.#calls.list(); return this.#json(); }
   open(name) { this.#calls.open(this.#give(this.#encoder.encode(name))); }
-  /// [{name, shown, remark}], what can lie over a scenario.
+  /// Returns [{name, shown, remark}]: what can be drawn over a scenario.
   ghosts() { this.#calls.ghosts(); return this.#json(); }
   show_ghost(ghost, shown) { this.#calls.show_ghost(ghost, shown ? 1 : 0); }
   controls() { this.#calls.controls(); return this.#json(); }
@@ -64,21 +64,21 @@ export class Engine {
   /// 64 bits as 16 hexadecimal digits.
   hash() { return BigInt.asUintN(64, this.#calls.hash()).toString(16).padStart(16, "0"); }
 
-  /// The C++ of the demo, and the present state as a scene (JSON).
+  /// Return the C++ of the demo, and the present state as a scene (JSON).
   code() { this.#calls.code(); return this.#decoder.decode(this.#answer()); }
   scene() { this.#calls.scene(); return this.#decoder.decode(this.#answer()); }
 
   save() { this.#calls.save(); return this.#answer().slice(); }
   restore(state) { this.#calls.restore(this.#give(state)); }
 
-  /// What command_buffer.h describes: valid until the next call.
+  /// Returns the commands that command_buffer.h describes; valid until the next call.
   draw(shown, impulse_length, arrow_length) {
     const first = this.#calls.draw(shown, impulse_length, arrow_length);
     const numbers = new Float64Array(this.#memory.buffer, first, this.#calls.draw_size());
     return {numbers, words: this.#answer()};
   }
 
-  // Memory may move whenever the program runs, so that views are made anew each time.
+  // Memory may move whenever the program runs, so views are created anew each time.
   #give(bytes) {
     const place = this.#calls.argument(bytes.length);
     new Uint8Array(this.#memory.buffer, place, bytes.length).set(bytes);

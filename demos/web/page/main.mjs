@@ -5,13 +5,13 @@ import {Player} from "./player.mjs";
 import {Theme} from "./theme.mjs";
 import {follow_pointer} from "./pointer.mjs";
 
-// The program lies in the page, compressed.
+// The page contains the program in compressed form.
 async function unpacked(text) {
   const stream = new Blob([bytes_of_base85(text.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 }
 
-// The demo that the address names: `#ragdoll`, `#pendulum_chain[5]`, however its brackets are written.
+// Returns the demo in the address: `#ragdoll`, `#pendulum_chain[5]`, whether or not its brackets are escaped.
 function named_place() {
   const name = location.hash.slice(1);
   try {
@@ -21,10 +21,10 @@ function named_place() {
   }
 }
 
-const kWide = 700;  // pixels: on less the panel lies at the lower edge
+const kWide = 700;  // pixels: on narrower windows the panel is at the lower edge
 
 async function play() {
-  // The page has its colours before the program is unpacked.
+  // Sets the page's colours before the program is unpacked.
   const light = window.matchMedia("(prefers-color-scheme: light)");
   document.documentElement.classList.toggle("dark", !light.matches);
   const module = await WebAssembly.compile(await unpacked(document.getElementById("module").textContent));
@@ -40,14 +40,14 @@ async function play() {
 
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("select")) return;
-    // Tab walks on through the panel once something there has the focus.
+    // Once something in the panel has the focus, Tab moves on through the panel.
     const free = document.activeElement === null || document.activeElement === document.body;
     if (!free && ["Tab", " ", "Enter", "Home"].includes(event.key)) return;
     if (event.shiftKey && event.key === "Tab") return;
     if (player.key(event.key)) event.preventDefault();
   });
-  // The address names the place, and a new address opens another. Only a change of place is written to the
-  // address, so that a name set by hand is not overwritten before it is read.
+  // The address contains the place, and a new address opens another place. It is written only if the place
+  // changes, so that a name set by hand is not overwritten before it is read.
   let written = null;
   function write_place() {
     if (written === player.place) return;
@@ -64,7 +64,8 @@ async function play() {
     written = place >= 0 ? place : null;
   });
 
-  // Sizes are read where they are: nothing has to be told when the panel folds or the phone turns.
+  // Reads the sizes when they are needed, so that no event is needed when the panel folds or the phone is
+  // turned.
   function fit() {
     const width = stage.clientWidth, height = stage.clientHeight, ratio = window.devicePixelRatio || 1;
     const rows = Math.round(height * ratio), columns = Math.round(width * ratio);

@@ -1,10 +1,10 @@
-// Paints what a demo draws of itself (the commands of command_buffer.h) on a canvas.
+// Paints the drawing of a demo (the commands of command_buffer.h) on a canvas.
 
 const kPoint = 3;      // pixels, radius of a point
-const kGridStep = 70;  // pixels, at least so far apart
+const kGridStep = 70;  // pixels, least distance between grid lines
 const kLine = 15;      // pixels, height of a label
 
-// 1, 2 or 5 times a power of ten, `least` or a little more.
+// Returns 1, 2 or 5 times a power of ten: the smallest such number that is at least `least`.
 function round_step(least) {
   const power = 10 ** Math.floor(Math.log10(least));
   return [1, 2, 5, 10].map((step) => step * power).find((step) => step >= least * (1 - 1e-9));
@@ -21,7 +21,7 @@ export class Painter {
     this.#theme = theme;
   }
 
-  /// All of it, on a canvas of `width` by `height` pixels of CSS. `decode` makes a text of bytes.
+  /// Paints everything on a canvas of `width` by `height` pixels of CSS. `decode` converts bytes to a text.
   frame(width, height, {numbers, words}, decode) {
     const context = this.#context;
     context.fillStyle = this.#theme.ground;
@@ -59,15 +59,16 @@ export class Painter {
     this.#labels(labels, width, height);
   }
 
-  // The texts that can be read beside each other, in their order: each above its point, else below it, else left
-  // out; moved sideways where the edge would cut it. Edged with the ground's colour, they can be read over any body.
+  // Returns the texts that do not overlap. In their order, each is placed above its point, else below it,
+  // else left out; it is moved sideways if the edge would cut it. Texts have an outline in the background's
+  // colour, so that they are readable over any body.
   #labels(labels, width, height) {
     const context = this.#context;
     context.font = "13px system-ui, sans-serif";
     context.textAlign = "left";
     context.strokeStyle = this.#theme.ground;
     context.lineWidth = 3;
-    const taken = new Map();  // by lines as high as a text, into two of which a text reaches
+    const taken = new Map();  // one list per line of a text's height; a text reaches into two of them
     for (const {at, role, text} of labels) {
       if (!(at.x >= 0 && at.x <= width && at.y >= 0 && at.y <= height)) continue;
       const wide = context.measureText(text).width;
@@ -85,11 +86,12 @@ export class Painter {
     }
   }
 
-  // All points within `radius` m of the convex hull of corners, which lie counter-clockwise: an arc about each.
+  // Fills all points within `radius` m of the convex hull of corners, which are counter-clockwise: an arc
+  // about each corner.
   #shape(corners, radius, role) {
     const context = this.#context, r = radius * this.#camera.scale, count = corners.length;
     context.beginPath();
-    // The direction, as an angle of the canvas, in which the edge after a corner faces.
+    // Returns the direction, as an angle of the canvas, of the outward normal of the edge after a corner.
     const facing = (i) => {
       const [ax, ay] = corners[i % count], [bx, by] = corners[(i + 1) % count];
       return Math.atan2(bx - ax, by - ay);
@@ -146,7 +148,7 @@ export class Painter {
     this.#context.stroke();
   }
 
-  // Lines a round number of metres apart.
+  // Draws lines at a spacing of a round number of metres.
   #grid(width, height) {
     const context = this.#context, camera = this.#camera, step = round_step(kGridStep / camera.scale);
     const lower = camera.to_world({x: 0, y: height}), upper = camera.to_world({x: width, y: 0});
@@ -164,13 +166,13 @@ export class Painter {
     }
   }
 
-  // How long a step of the grid is.
+  // Returns the spacing of the grid.
   #scale_bar(width, height) {
     const context = this.#context, camera = this.#camera, step = round_step(kGridStep / camera.scale);
     context.strokeStyle = this.#theme.text;
     context.lineWidth = 2;
     const right = this.scale_bar_x ?? width - 20, left = right - step * camera.scale, y = this.scale_bar_y ?? height - 14;
-    // On a plate: the bar can be read over bodies and ground.
+    // Draws a plate behind the bar, so that it is readable over bodies and ground.
     context.fillStyle = this.#theme.plate;
     context.fillRect(left - 8, y - 20, right - left + 16, 28);
     context.fillStyle = this.#theme.text;

@@ -1,4 +1,4 @@
-// The panel: what there is to open, what can be set, what is measured, what is drawn.
+// The panel: what can be opened, set and drawn, and what is measured.
 import {kCommands, kShown} from "./player.mjs";
 
 const kPlot = {width: 64, height: 20};  // pixels
@@ -22,10 +22,10 @@ function control_number({value, low, high, whole}) {
 export class Panel {
   #player;
   #theme;
-  #opened = null;  // what the lists are about
-  #coded = null;   // what the code is of
+  #opened = null;  // what the lists were built for
+  #coded = null;   // what the code belongs to
   #changes = -1;
-  #updates = [];   // by control: takes its new value
+  #updates = [];   // by control: function that takes its new value
   #plots = [];
 
   constructor(player, theme) {
@@ -40,7 +40,7 @@ export class Panel {
       the(id).onclick = () => player.key(key);
     the("slow").onchange = () => { player.slow = the("slow").checked; };
     this.#list_shown();
-    // A click is over when it is done: keys belong to the demo again.
+    // After a click in the panel, keys go to the demo again.
     the("panel").addEventListener("click", (event) => {
       if (event.detail > 0 && event.target.matches("button, input[type=checkbox]")) event.target.blur();
     });
@@ -92,7 +92,7 @@ export class Panel {
       [made("dt", {textContent: key}), made("dd", {textContent: about})]));
   }
 
-  // The truth and other engines, with where they come from or why they are not there.
+  // Lists the truth and other engines, with their source or the reason why they are missing.
   #show_ghosts() {
     const player = this.#player;
     const remarks = [];
@@ -100,7 +100,7 @@ export class Panel {
       const box = made("input", {type: "checkbox", checked: shown !== 0, onchange: () => player.show_ghost(i, box.checked)});
       const label = made("label", {title: remark}, box, made("span", {className: "ghost", textContent: name}));
       label.lastChild.style.borderBottomColor = this.#theme.ghost(i);
-      // Settings are told where one points; a reason, and where the truth comes from, are read.
+      // Settings are shown in the tooltip; a reason, and the source of the truth, are shown as text.
       if (remark && (shown === 0 || i === 0)) remarks.push(made("p", {className: "unit", textContent: `${name}: ${remark}`}));
       return label;
     });
@@ -122,7 +122,8 @@ export class Panel {
       this.#updates[i] = ({value}) => { list.selectedIndex = value; };
       return made("div", {className: "control", title: control.about}, made("span", {}, control.name), list);
     }
-    // A slider of HTML has stops, counted from its lower end: here its own, so that both ends are met exactly.
+    // A slider of HTML has stops counted from its lower end. This one has its own stops, so that both ends
+    // are reached exactly.
     const {low, high, whole} = control;
     const stops = whole ? high - low : kSliderStops;
     const shown = made("output");
@@ -176,7 +177,7 @@ export class Panel {
       return there;
     });
     for (const series of series_shown) {
-      if (series.name === "time") continue;  // stands at the top
+      if (series.name === "time") continue;  // shown at the top
       let plot = this.#plots.find((each) => each.name === series.name);
       if (!plot) this.#plots.push(plot = this.#new_plot(series));
       plot.value.textContent = `${number(series.values.at(-1))} ${series.unit}`;

@@ -1,18 +1,18 @@
-// What is played and what is done with it: time, keys, states to go back to. Like the window's
+// State and actions of the player: time, keys, earlier states. Corresponds to the window's
 // (demos/window/player.h).
 import {Engine} from "./engine.mjs";
 import {Camera} from "./camera.mjs";
 
 const kSlow = 0.1;
 const kSamples = 300;         // of a figure
-const kCalm = 0.25;           // s, in which the camera goes most of its way
-const kMostBytes = 48 << 20;  // of states to go back to
+const kCalm = 0.25;           // s, time constant of the camera's motion
+const kMostBytes = 48 << 20;  // bytes of stored earlier states
 
-/// What is drawn besides shapes, in the order of `draw`'s bits.
+/// Drawings besides shapes, in the order of the bits of `draw`.
 export const kShown = ["contacts", "normals", "impulses", "boxes", "centres", "joints", "names",
   "velocities", "forces", "masses"];
 
-/// The keys of the page, whatever is open.
+/// The keys of the page, which work for every demo.
 export const kCommands = [
   ["p", "P", "pause, go on"], ["o", "O", "one step"], ["b", "B", "one step back"], ["r", "R", "restart"],
   ["s", "S", "slow motion"], ["[", "[", "previous demo"], ["]", "]", "next demo"], ["Tab", "Tab", "this panel"],
@@ -25,17 +25,17 @@ export class Player {
   slow = false;
   panel = true;
   code_shown = false;
-  frame_ms = 0;          // the mean time that a frame takes to step and draw
+  frame_ms = 0;          // mean time that a frame takes for stepping and drawing
   shown = new Set(["joints"]);
   impulse_length = 0.1;  // m for 1 N s
-  arrow_length = 1;      // in proportion to the usual one
-  write_scene = () => {};  // the page's: takes the name and the text
+  arrow_length = 1;      // relative to the usual length
+  write_scene = () => {};  // set by the page: takes the name and the text
   camera = new Camera();
   message = "";
   series = [];   // figures over time: {name, unit, times, values}
-  changes = 0;   // grows when the controls may have changed behind the panel's back
+  changes = 0;   // increases when the controls may have changed other than by the panel
   #module;
-  #engine;       // null while a new one starts
+  #engine;       // null while a new one is being started
   #place = 0;
   #demos;
   #states = [];
@@ -43,7 +43,7 @@ export class Player {
   #pressed = false;
   #at_home = true;
   #covered = {left: 0, right: 0, top: 0, bottom: 0};
-  #view = [0, 0, 1, 1];  // what the camera shows while it follows
+  #view = [0, 0, 1, 1];  // the part of the world that the camera shows while it follows
   #last = {time: 0, code: "", controls: [], ghosts: [], view: [0, 0, 1, 1], drawing: {numbers: new Float64Array(), words: new Uint8Array()}};
 
   static async start(module, name) {
@@ -60,10 +60,10 @@ export class Player {
   get about() { return this.#demos[this.#place]; }
   get remembered() { return this.#states.length - 1; }
 
-  // What follows gives the last answer while there is no engine.
+  // While there is no engine, the following return the last answer.
   get time() { return this.#ask("time", (engine) => engine.time()); }
   get controls() { return this.#ask("controls", (engine) => engine.controls()); }
-  /// The C++ of the demo, or the scene that is open.
+  /// Returns the C++ of the demo, or the scene that is open.
   get code() {
     return this.#ask("code", (engine) => (engine.code() || engine.scene()));
   }
@@ -92,7 +92,7 @@ export class Player {
     ++this.changes;
   }
 
-  /// What lies over a scenario, and the plot of its error, come and go.
+  /// Shows or hides an outline over a scenario, and the plot of its error.
   show_ghost(ghost, shown) {
     this.#guarded((engine) => {
       engine.show_ghost(ghost, shown);
@@ -116,7 +116,7 @@ export class Player {
   }
   hover(point) { this.#guarded((engine) => engine.hover(point)); }
 
-  /// A key by its name: the page's own, or else the demo's. Whether it was one.
+  /// Handles a key by its name: a key of the page, or else of the demo. Returns true if it was one.
   key(name) {
     const lower = name.length === 1 ? name.toLowerCase() : name;
     const count = this.#demos.length;
@@ -178,7 +178,7 @@ export class Player {
     });
   }
 
-  /// The picture's size, and how much of it is covered at its edges.
+  /// Sets the size of the picture, and how much of it is covered at its edges.
   resize(width, height, covered) {
     this.camera.resize(width, height);
     this.#covered = covered;
@@ -189,7 +189,8 @@ export class Player {
     this.camera.fit(this.#view, this.#covered);
     this.#at_home = true;
   }
-  // As the window's: the picture stays under a pressed pointer, and what jumps does not make it jump.
+  // Follows like the window's camera: the picture stays fixed under a pressed pointer, and a jump of a body
+  // does not make it jump.
   #follow(seconds) {
     if (!this.#at_home || this.#pressed) return;
     const share = 1 - Math.exp(-seconds / kCalm), wanted = this.#ask("view", (engine) => engine.view());
@@ -222,14 +223,14 @@ export class Player {
     for (const {name, unit, value} of engine.figures()) {
       let series = this.series.find((each) => each.name === name);
       if (!series) this.series.push(series = {name, unit, times: [], values: []});
-      // Going back in time takes later samples along.
+      // When time goes back, later samples are removed.
       while (series.times.length > 0 && series.times.at(-1) >= time) series.times.pop(), series.values.pop();
       series.times.push(time), series.values.push(value);
       if (series.times.length > kSamples) series.times.shift(), series.values.shift();
     }
   }
 
-  // An engine that throws has ended: the sentence is shown, and a new one goes on from the last state.
+  // An engine that throws has ended: the message is shown, and a new one continues from the last state.
   #guarded(act) {
     const engine = this.#engine;
     if (!engine) return;

@@ -1,13 +1,13 @@
-// Mouse, pen and fingers on the stage. One finger or the left button plays; two fingers, the right or the middle
-// button, and the wheel move the picture.
+// Mouse, pen and fingers on the stage. One finger or the left button plays; two fingers, the right or the
+// middle button, and the wheel move the picture.
 
-const kPatience = 80;  // ms, that a finger waits for a second one before it presses
-const kStill = 6;      // pixels, by which a finger that waits may move
+const kPatience = 80;  // ms for which a finger waits for a second one before it presses
+const kStill = 6;      // pixels by which a waiting finger may move
 
 export function follow_pointer(stage, player) {
-  const fingers = new Map();  // pixels, by the pointer's number
-  let playing = null;         // the pointer that presses
-  let waiting = null;         // {pointer, start, timer}: a finger that may become one of two
+  const fingers = new Map();  // positions in pixels, by the pointer's number
+  let playing = null;         // the pointer that is pressed
+  let waiting = null;         // {pointer, start, timer}: a finger that may become the first of two
   let panning = null;         // {pointer, at}
 
   const pixel_of = (event) => ({x: event.offsetX, y: event.offsetY});

@@ -1,4 +1,4 @@
-// Colours by role, on a dark and on a light ground: those of the window (demos/window/theme.cpp).
+// Colours by role, on a dark and on a light background: the same as in the window (demos/window/theme.cpp).
 
 const shape = (fill, line) => ({fill, line, width: 1.4});
 const line = (colour, width = 1.6) => ({fill: null, line: colour, width});
@@ -27,7 +27,7 @@ const kStyles = [
   [line([132, 150, 255], 2.2), line([30, 88, 200], 2.2)],
 ];
 const kAwake = 2, kAsleep = 3;
-// Outlines of what lies over the bodies: the truth, other engines. Their roles begin at the number.
+// Outlines drawn over the bodies: the truth and other engines. Their roles begin at this number.
 const kGhost = 100;
 const kGhosts = [
   [236, 72, 132], [72, 176, 240], [96, 190, 72], [180, 110, 250], [226, 140, 20], [40, 190, 170],
@@ -38,7 +38,7 @@ const css = (colour) => colour && `rgba(${colour.slice(0, 3).join(",")},${(colou
 const in_css = (style) => ({fill: css(style.fill), line: css(style.line), width: style.width});
 
 export class Theme {
-  sleep_shows = true;  // whether bodies that sleep have a colour of their own
+  sleep_shows = true;  // true if sleeping bodies have a colour of their own
   #dark = false;
   #styles = [];
 
@@ -53,7 +53,7 @@ export class Theme {
   get grid() { return css(this.#dark ? [32, 36, 43] : [233, 234, 232]); }
   get text() { return css(this.#dark ? [220, 224, 230] : [30, 34, 40]); }
   get plot() { return this.#styles[kAwake].line; }
-  get plate() { return css(this.#dark ? [20, 23, 28, 215] : [250, 250, 248, 215]); }  // behind what must be read
+  get plate() { return css(this.#dark ? [20, 23, 28, 215] : [250, 250, 248, 215]); }  // background of texts
   ghost(place) { return css(kGhosts[place % kGhosts.length]); }
   style(role) {
     if (role >= kGhost) return {fill: null, line: this.ghost(role - kGhost), width: 1.6};

@@ -102,7 +102,7 @@ class DynamicTree {
   /// Reserves capacity for `more` leaves, with some over for those that follow.
   void make_room(std::size_t more);
 
-  /// Appends the complete state, including free lists: all that decides the tree's future behaviour.
+  /// Appends the complete state, including free lists: everything that affects what the tree does later.
   void save(std::vector<std::byte>& out) const;
   /// Restores the state from the front of `in`; later calls give the same bits as in the saved tree. Throws
   /// Error (Value) and leaves the tree as it was when the bytes are damaged.

@@ -5,7 +5,7 @@
 #include "engine/collision/broad_phase/dynamic_tree.h"
 #include "engine/encoding/encoding.h"
 
-// Functions that visit every node: measures, the check of all links, and snapshots, which rely on it.
+// Functions that visit every node: measures, the check of all links, and snapshots, which use that check.
 
 namespace plumb {
 
@@ -20,8 +20,8 @@ bool lists_the_rest(const std::vector<int>& free, std::vector<bool>& used) {
   return std::find(used.begin(), used.end(), false) == used.end();
 }
 
-/// Returns true if the number is a plausible count: no run reaches a quarter of the range, and doubling it
-/// cannot overflow.
+/// Returns true if a count read from a snapshot is plausible: no real count reaches a quarter of the range,
+/// and doubling it cannot overflow.
 bool is_count(std::int64_t count) {
   return count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 4;
 }
@@ -141,7 +141,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
     copy.boxes_.push_back(known ? copy.node(slot).box : Aabb<Real>{});
   }
   decoder.require(copy.valid(), kTree, "is damaged");
-  // Copies, so that this tree keeps its capacity and later steps allocate nothing.
+  // Copies instead of swapping, so that this tree keeps its capacity and later steps allocate nothing.
   size_ = copy.size_;
   enlargements_ = copy.enlargements_;
   marks_ = copy.marks_;

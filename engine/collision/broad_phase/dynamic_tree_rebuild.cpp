@@ -14,8 +14,8 @@ constexpr std::size_t kCachedPairs = 1 << 14;
 /// Prefetch distance, in nodes: nodes are scattered in memory.
 constexpr int kAhead = 16;
 
-/// Returns half the centre, which does not overflow, and neither do differences of two. Returns 0 where it is
-/// NaN (between infinite sides), so that all items can be sorted.
+/// Returns half of the box's centre: halves, and differences of two halves, do not overflow. Returns 0
+/// instead of NaN (for infinite sides), so that all items can be sorted.
 template <class Real>
 Vec2<Real> half_center(const Aabb<Real>& box) {
   const auto half_middle = [](Real lower, Real upper) {
@@ -25,8 +25,8 @@ Vec2<Real> half_center(const Aabb<Real>& box) {
   return {half_middle(box.lower.x, box.upper.x), half_middle(box.lower.y, box.upper.y)};
 }
 
-/// Moves the items below `middle` to the front and returns their number. Free of branches on their position,
-/// which no processor can predict.
+/// Moves the items below `middle` to the front and returns their number. Does not branch on an item's
+/// position, which no processor can predict.
 template <class Item, class Coordinate, class Real>
 int partition(Item* items, int count, const Coordinate& coordinate, Real middle) {
   int low = 0;
@@ -39,7 +39,7 @@ int partition(Item* items, int count, const Coordinate& coordinate, Real middle)
   return low;
 }
 
-/// Sorts the items by their centres, equal ones by place, and returns half of their number.
+/// Sorts the items by their centres (equal ones by slot) and returns half of their number.
 template <class Item, class Coordinate>
 int halve(Item* items, int count, const Coordinate& coordinate) {
   std::sort(items, items + count, [&](const Item& a, const Item& b) {
@@ -183,7 +183,8 @@ template <class Real>
 int DynamicTree<Real>::rebuild_all() {
   if (size_ < 2) return 0;
   gather(true);
-  // Pairs 1, 2, ... in the order of building: each node's first child lies right behind its pair.
+  // Numbers pairs 1, 2, ... in the order of building: each node's first child then lies right behind its
+  // pair.
   free_pairs_.clear();
   pairs_.resize(static_cast<std::size_t>(size_));
   for (int i = 0; i + 1 < size_; ++i) loose_pairs_[i] = i + 1;

@@ -6,9 +6,9 @@
 
 namespace plumb {
 
-/// Enlarges boxes of a tree in the given order, each delayed by 16 boxes, and prefetches its leaf and the
-/// node above meanwhile. Leaves lie in the order of queries, not of bodies, so that each would be a cache
-/// miss. The tree is not up to date before finish(). Proxies must stay leaves until then.
+/// Enlarges boxes of a tree in the given order. Delays each enlargement by 16 boxes and meanwhile prefetches
+/// the leaf and the node above it: leaves are stored in the order of queries, not of bodies, so each would be
+/// a cache miss. The tree is not up to date before finish(). Proxies must stay leaves until then.
 template <class Real>
 class PrefetchedEnlarging {
  public:
@@ -24,7 +24,7 @@ class PrefetchedEnlarging {
     waiting_[given_ % kWait] = {proxy, box};
     ++given_;
   }
-  /// Enlarges the boxes that still wait. Call it after the last box.
+  /// Enlarges the delayed boxes. Call it after the last box.
   void finish() {
     for (unsigned i = given_ < kWait ? 0 : given_ - kWait; i < given_; ++i) take(i);
     given_ = 0;

@@ -33,7 +33,8 @@ struct Hulls {
                   farthest_corner(b, -(b_in_a.rotation.inverse() * direction)));
   }
 
-  /// Returns vertex q - vertex p, without the rounding that the distance of the shapes would add.
+  /// Returns vertex q - vertex p, computed from the corners: a difference of the two `w` would also contain
+  /// the rounding that the distance between the shapes adds.
   Vec2d edge(const Vertex& p, const Vertex& q) const {
     return b_in_a.rotation * (local_b(q.b) - local_b(p.b)) - (corner_a(q.a) - corner_a(p.a));
   }
@@ -114,7 +115,8 @@ Axis best_axis(const Convex<Real>& shape, const Pose<double>& at, const Convex<R
         other_at.position + other_at.rotation * other.corners[j].point.template as<double>() - p;
     const double separation = dot(normal, from_p);
     if (!(separation > best.separation)) continue;
-    // The corner is above the edge, unless it belongs to a parallel edge: then any common point will do.
+    // The corner projects onto the edge, unless the edge is parallel to one of the other shape: then any
+    // common point will do.
     const double along = std::clamp(dot(from_p, e) / (length * length), 0.0, 1.0);
     best = {separation, normal, p + along * e};
   }
@@ -162,7 +164,7 @@ HullDistance edge_separation(const Convex<Real>& a, const Convex<Real>& b, const
   HullDistance out;
   if (std::max(of_a.separation, of_b.separation) == -std::numeric_limits<double>::infinity()) {
     const Hulls<Real> hulls{a, b, b_in_a};
-    out.normal = {0, 1};  // two coinciding points give no direction: use up
+    out.normal = {0, 1};  // two coinciding points give no direction: treat as converged
     out.point_a = hulls.corner_a(0);
     out.point_b = hulls.corner_b(0);
   } else if (of_a.separation >= of_b.separation) {
@@ -199,17 +201,17 @@ HullDistance hull_distance(const Convex<Real>& a, const Convex<Real>& b, const P
   while (!touching && iteration < kMaxIterations) {
     ++iteration;
     const Vertex next = hulls.lowest(simplex.outward);
-    // No vertex lies nearer to the origin along the normal, but for roundings. A vertex of the simplex itself
-    // never gains more than them: |m . (p - q)| with m = fl(p - q) turned stays below 2 epsilon |m| (|p| +
-    // |q|).
+    // Except for rounding, no vertex lies nearer to the origin along the normal. A vertex that is already in
+    // the simplex never gains more than rounding: |m . (p - q)| with m = fl(p - q) turned stays below 2
+    // epsilon |m| (|p| + |q|).
     const Vec2d reference = simplex.vertices[0].w;
     const double gain = dot(simplex.outward, reference - next.w);
     if (!(gain > kDistanceRounding * size_of(simplex.outward) * (size_of(reference) + size_of(next.w))))
       break;
     const Simplex nearer =
         simplex.count == 1 ? segment_simplex(simplex.vertices[0], next) : triangle_simplex(simplex, next);
-    // After a gain the new distance is smaller, unless the old one was only rounding: then the origin is on
-    // the segment, with the difference on both sides of it.
+    // A gain makes the distance smaller, unless the old distance was only rounding. In that case the origin
+    // is on the segment, with the difference on both sides of it.
     touching = nearer.count == 3 || !(nearer.square > kSmallest) || nearer.square > kGrowth * simplex.square;
     simplex = nearer;
   }

@@ -22,7 +22,7 @@ Vec2d direction_of(Vec2d v) {
   return length > 0 ? Vec2d{v.x / length, v.y / length} : Vec2d{0, 1};
 }
 
-/// The nearest point on the hull's edges, with a distance negative inside.
+/// The nearest point on the hull's edges; its distance is negative inside the hull.
 struct Nearest {
   Vec2d point, normal;
   double distance = kInfinity;  ///< from the hull, negative inside
@@ -122,8 +122,8 @@ Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   return enter;
 }
 
-/// Returns where the ray enters a rounded hull: the first entry into the discs at its corners and its edges
-/// moved out by the radius, of which (with the area within) it is the union.
+/// Returns where the ray enters a rounded hull. The hull is the union of the area within its corners, the
+/// discs at the corners, and the edges moved out by the radius; the ray enters at the first of these.
 template <class Real>
 Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
   const double radius = static_cast<double>(shape.radius);

@@ -54,7 +54,7 @@ struct Bound {
   friend Bound operator+(Bound a, Bound b) {
     return {a.value + b.value, a.slope + b.slope, a.curvature + b.curvature};
   }
-  /// Returns how long it stays >= 0, 0 if it is not > 0 at the start.
+  /// Returns how long the bound stays >= 0; 0 if it is not > 0 at the start.
   double root() const {
     if (!(value > 0)) return 0;
     const double fall = std::sqrt(slope * slope + 2 * curvature * value) - slope;
@@ -106,9 +106,9 @@ class Approach {
   /// `separation`. Returns false when there is none.
   bool window(double separation, double& first, double& last) const;
 
-  /// Returns a time after the last measured one, up to `remaining`, during which the shapes stay at least
-  /// `separation` apart. Near an edge the normal that rotates with it gives the longest step, as the whole
-  /// edge keeps its height along it.
+  /// Returns a duration after the last measured time, up to `remaining`, during which the shapes stay at
+  /// least `separation` apart. Near an edge, the edge's normal, which rotates with it, gives the longest
+  /// step: all points of the edge have the same height along it.
   double safe_step(double separation, double remaining) const {
     const bool with_a = a_.turn != 0 && cache_.edge_of_a();
     const bool with_b = b_.turn != 0 && cache_.edge_of_b();
@@ -161,9 +161,9 @@ Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotatio
   return {dot(local, r), dot(change, r), rate * rate * body.reach};
 }
 
-/// The separation along a normal that turns at `axis_turn` is no more than the distance, and is the least
-/// over pairs of corners. Each pair's is bounded from below by a parabola that opens downwards. A pair that
-/// is far enough apart at t was so before: only pairs that fail at t matter.
+/// A separation along a normal that rotates by `axis_turn` is at most the distance. It is the minimum over
+/// pairs of corners, and each pair's separation is bounded from below by a parabola that opens downwards. A
+/// pair that is far enough apart at t was so before, so only pairs that fail at t matter.
 template <class Real>
 double Approach<Real>::safe_step(double separation, double remaining, double axis_turn) const {
   constexpr int kMaxRounds = 32;
@@ -185,8 +185,8 @@ double Approach<Real>::safe_step(double separation, double remaining, double axi
     if (!(root < step)) return step;  // at the root already, but for roundings
     step = root;
   }
-  // Too many corners take turns: fall back to the first-order bound, with the speed of the fastest point of
-  // either.
+  // Too many pairs of corners were tried: fall back to the first-order bound, with the speed of the fastest
+  // point of either shape.
   const double gap = hulls_.separation - radius_ - separation;
   const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ + std::abs(a_.turn) * a_.reach +
                          std::abs(b_.turn) * b_.reach;

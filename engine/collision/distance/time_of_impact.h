@@ -36,18 +36,16 @@ struct ImpactResult {
   int iterations = 0;
 };
 
-/// Default limit on the iterations of `time_of_impact`: at worst two per radian were seen, for rods that keep
-/// passing close by.
+/// Default limit on the iterations of `time_of_impact`. The worst case seen is two per radian, for rods that
+/// keep passing close by.
 inline constexpr int kMostImpactIterations = 4096;
 
-/// Finds when two moving shapes first come as close as `target_separation` (m, >= 0). At the fraction found
-/// their separation is between the target and the target + tolerance (m, > 0); it is never less than the
-/// target before, at any speed or spin. A tolerance below the rounding of a double, relative to positions and
-/// motions, is raised to it.
-///
-/// Shapes that start closer than that (resting or sliding on each other) hit only when they come closer than
-/// half of their initial distance.
-///
+/// Finds when two moving shapes first come as close as `target_separation` (m, >= 0). At the fraction found,
+/// their separation is between the target and the target + tolerance (m, > 0); before it, it is never less
+/// than the target, at any speed or spin. A tolerance below the rounding of a double, relative to positions
+/// and motions, is raised to it.
+/// Shapes that start closer than the target (resting or sliding on each other) hit only if they come closer
+/// than half of their initial distance.
 /// Computed in double precision for both types of Real. Shapes in float may move in double: at 1e8 m/s the
 /// displacement of a step is coarser in float than a bullet is large.
 template <class Real, class Moving = Real>

@@ -116,7 +116,7 @@ ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>
   const ContactManifold<Real> out = use_b ? clip_axes(s, right, p, true, b.radius, a.radius, reach, origin)
                                           : clip_axes(p, right, s, false, a.radius, b.radius, reach, origin);
   if (out.count > 0 || square > rounding * rounding) return out;
-  // Collinear axes end to end: the clipped axes miss each other by a rounding.
+  // Collinear axes, end to end: by rounding, the clipped axes have no common part. Use the two facing ends.
   const int end_a = of_b[nearest_b].along < p.length / 2 ? 0 : 1;
   return single_point(origin + p.ends[end_a], right ? p.normal : -p.normal, Real(0), a.radius, b.radius,
                       reach, corner_pair(end_a, nearest_b));

@@ -48,8 +48,8 @@ struct AdmitOwn {
     if (!end.convex) return Normal::Snap;
     const Real inside = at_first ? cross(end.normal, normal) : cross(normal, end.normal);
     if (inside >= -Real(kFlat)) return Normal::Admit;
-    // For normals that point into the ground rather than along it: this segment must push out so deep a
-    // penetration.
+    // For normals that point into the ground rather than along it: a penetration this deep must be resolved
+    // by this segment.
     return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
   }
   void widen(FacingEdges<Real>& edges) const {
@@ -63,8 +63,8 @@ Real taxicab(Vec2<Real> v) {
   return std::fabs(v.x) + std::fabs(v.y);
 }
 
-/// Computes the contact of a disc with the segment, or with a corner between two segments. Both segments of a
-/// corner compare the same products, so that every disc belongs to one of them.
+/// Computes the contact of a disc with the segment, or with a corner between two segments. Both segments at a
+/// corner compare the same products, so that exactly one of them gets each disc.
 template <class Real>
 ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
                                            Vec2<Real> center, Real radius, Real reach) {
@@ -79,7 +79,7 @@ ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Rea
     return single_point(foot, normal, height, segment.radius, radius, reach, 0);
   }
   const Vec2<Real> corner = short_of ? first : second, offset = center - corner;
-  // The centre is beside the neighbour, which has the contact.
+  // The centre is beside the neighbour, which therefore gets the contact.
   if (short_of && before != first && dot(offset, first - before) <= 0) return {};
   if (beyond && after != second && dot(offset, after - second) >= 0) return {};
   const Real distance = std::sqrt(length_squared(offset));

@@ -39,9 +39,10 @@ template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                      Real reach, Vec2<Real> pivot);
 
-/// Does the same for one chain segment, which has a front only: the right side of the direction from its
-/// first corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's frame.
-/// Sliding along the chain has no internal edges: normals that belong to a neighbour are left to it.
+/// Does the same for one segment of a chain. Only its front collides: the right side of the direction from
+/// its first corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's
+/// frame. The chain has no internal edges for sliding bodies: contacts with a normal that belongs to a
+/// neighbour are left to that neighbour.
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
                                             const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,

@@ -3,8 +3,8 @@
 namespace plumb::narrow {
 namespace {
 
-/// Returns the manifold from a point of a's hull to the disc's centre, `offset` away; `fallback` is the
-/// direction if they coincide.
+/// Returns the manifold of a disc whose centre is `offset` from a point of a's hull. `fallback` is the normal
+/// if the two coincide.
 template <class Real>
 ContactManifold<Real> toward_disc(Vec2<Real> on_a, Vec2<Real> offset, Vec2<Real> fallback, Real radius_a,
                                   Real radius_b, Real reach) {

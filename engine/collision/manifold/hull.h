@@ -68,8 +68,8 @@ struct Hull {
   int previous(int i) const { return i > 0 ? i - 1 : count - 1; }
 };
 
-/// Knowledge about a hull's number of corners at compile time: none; one register of four holds all corners,
-/// padded; there are exactly four.
+/// Compile-time knowledge about a hull's number of corners. kAny: none. kUpToFour: one register of four holds
+/// them all, padded. kFour: there are exactly four.
 inline constexpr int kAny = 0, kUpToFour = 3, kFour = 4;
 
 /// Loads four corners from `first` on, as x and y of their points and of their normals. `kFull`: all four
@@ -85,7 +85,7 @@ inline void load_corners(const Convex<Real>& shape, int first, Four<Real> (&out)
   transpose(rows, out);
 }
 
-/// Places a shape; `kCount` is the knowledge about its number of corners.
+/// Places a shape; `kCount` is what is known about its number of corners (kAny, kUpToFour, kFour).
 template <int kCount, class Real>
 inline void place(Hull<Real>& out, const Convex<Real>& shape, Rotation<Real> rotation, Vec2<Real> position) {
   out.count = out.edges = kCount == kFour ? kFour : shape.count;
@@ -150,7 +150,7 @@ struct Span {
   Real x[2];                            // m, along the reference, from the origin of the edges' frame
   Real gap[2];                          // m, from reference to incident, radii not counted
   Real base[2] = {};                    // m, height of the reference's outline over its edge
-  int reference_id[2], incident_id[2];  // corners that the edges there lead to, away from the span
+  int reference_id[2], incident_id[2];  // outer corner of the outline's edge at each end of the span
   bool overlaps = false;
 };
 

@@ -44,9 +44,9 @@ inline Face<Real> farthest_of_four(const Hull<Real>& hull, int first, const Hull
   return {larger(most_low, most_high), first + (most_high > most_low ? high : low)};
 }
 
-/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are the
-/// compile-time knowledge about the hulls' numbers of corners. Repetitions of the last corner never win over
-/// the corner itself.
+/// Searches all edges that can be touched; stops at one beyond `limit`. The template arguments are what is
+/// known about the numbers of corners. Padding repeats the last corner, and never wins over the corner
+/// itself.
 template <int kCount, int kOther, class Real>
 inline Face<Real> farthest_face(const Hull<Real>& hull, const Hull<Real>& other, Real limit) {
   const int count = kOther == kAny ? other.count : 4;
@@ -90,8 +90,9 @@ int along(const Hull<Real>& hull, int edge, Vec2<Real> point) {
   return dot(tangent, point - hull.point(hull.next(edge))) > 0 ? 1 : 0;
 }
 
-/// Returns the edge of `other` at its corner nearest along `normal` that rises less. Compares sines: the
-/// cosines of small angles are all 1 to rounding. Both edges of a segment rise equally; one faces `normal`.
+/// Returns which of the two edges of `other` at `corner`, its corner nearest along `normal`, rises less.
+/// Compares sines: the cosines of small angles are all 1 to rounding. Both edges of a segment rise equally;
+/// one faces `normal`.
 template <class Real>
 int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   const int before = other.previous(corner);
@@ -100,7 +101,7 @@ int facing_edge(const Hull<Real>& other, int corner, Vec2<Real> normal) {
   return cross(normal, n_before) < cross(n_after, normal) ? before : corner;
 }
 
-/// `kOther` is the compile-time knowledge about the number of corners of `other`.
+/// `kOther` is what is known at compile time about the number of corners of `other`.
 template <int kOther, class Real>
 inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, const Hull<Real>& other,
                                       bool reference_is_b) {
@@ -118,7 +119,7 @@ inline FacingEdges<Real> facing_edges(const Hull<Real>& reference, int edge, con
   return out;
 }
 
-/// Returns true if the reference edge's normal is right for separated hulls: the nearest corner lies over the
+/// Returns true if separated hulls may use the reference edge's normal: the nearest corner lies over the
 /// edge, or the edges are parallel and overlap along their length.
 template <class Real>
 inline bool over_edge(const FacingEdges<Real>& edges) {
@@ -146,10 +147,10 @@ int nearest_end(const FacingEdges<Real>& edges, int deepest) {
 }
 
 /// Moves an end of a span outwards along the outlines of both hulls, until the span contains the pivot or the
-/// gap between the outlines exceeds `limit`. With both points on one side of the pivot, the contact would
-/// rotate the bodies beyond their nearly parallel next edges within a step. The other end stays, as it may be
-/// the deepest point. Only where the outlines are parallel it follows, so that no corner between the two
-/// sinks.
+/// gap between the outlines exceeds `limit`. If both points lay on one side of the pivot, the contact would
+/// rotate the bodies within a step past their nearly parallel next edges. The other end stays, because it may
+/// be the deepest point. It moves as well if the outlines are parallel, so that no corner between the two
+/// ends sinks.
 template <class Real>
 void extend(Span<Real>& span, const FacingEdges<Real>& edges, const Hull<Real>& reference,
             const Hull<Real>& other, Real pivot, Real limit) {
@@ -216,8 +217,8 @@ struct Faces {
   Vec2<Real> pivot{};
 };
 
-/// Returns the manifold of two hulls of which only the deepest corner touches, because their edges miss each
-/// other by a rounding or by the preference.
+/// Returns the manifold of two hulls that touch with the deepest corner only: their edges miss each other
+/// because of rounding or of kPreference.
 template <class Real>
 ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
                                    const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
@@ -260,9 +261,9 @@ inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b
   return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
 }
 
-/// Returns the manifold of separated hulls whose nearest features are not two faces. The separation along a
-/// normal is the distance times the cosine of the angle to the nearest direction, while the same corners stay
-/// in support. So the face of greatest separation ends at, or is, the nearest feature of its hull.
+/// Returns the manifold of separated hulls whose nearest features are not two faces. While the same corners
+/// stay in support, the separation along a normal is the distance times the cosine of the angle to the
+/// nearest direction. So the face of greatest separation ends at, or is, the nearest feature of its hull.
 template <class Real, class Admit>
 ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
                                   bool prefer_b, Real size, Real reach, Vec2<Real> origin,
@@ -270,8 +271,8 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   const bool nearer_b = faces.b.separation > faces.a.separation;
   const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
   const int edge = nearer_b ? faces.b.edge : faces.a.edge;
-  // Of two equally deep ends of parallel edges beside each other, take the nearer one if the far one may be
-  // within reach: a segment has no thickness, and a rounded shape no edge, that would separate it.
+  // Of two equally deep ends of parallel edges side by side, take the nearer one if the far one may be within
+  // reach: neither the thickness of a segment nor the edge of a rounded shape would separate it.
   const bool either = a.count == 2 || b.count == 2 || a.radius + b.radius > 0;
   const int deepest = support<kAny>(other, reference.normal(edge));
   const int corner =
@@ -299,7 +300,7 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   return touch_face(a, b, faces, edges, reach, origin, admit);
 }
 
-/// Returns a manifold without points, of shapes that a face separates.
+/// Returns a manifold without points for shapes that a face separates.
 template <class Real>
 ContactManifold<Real> separated_by(int face) {
   ContactManifold<Real> out;
@@ -309,8 +310,8 @@ ContactManifold<Real> separated_by(int face) {
 
 /// Computes the manifold of two hulls in one frame, whose origin lies at `origin` in a's frame; `pivot` is in
 /// this frame. `size` returns the size of the smaller hull. `admit` selects the normals allowed; a snapped
-/// normal becomes that of a's first edge. `kA` and `kB` are the compile-time knowledge about the numbers of
-/// corners.
+/// normal becomes that of a's first edge. `kA` and `kB` are what is known at compile time about the numbers
+/// of corners.
 template <int kA, int kB, class Real, class Size, class Admit>
 inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
                                            Real reach, Vec2<Real> origin, Vec2<Real> pivot,

@@ -4,13 +4,13 @@ namespace plumb::narrow {
 
 namespace {
 
-/// `kA` and `kB` are the compile-time knowledge about the numbers of corners.
+/// `kA` and `kB` are what is known at compile time about the numbers of corners.
 template <int kA, int kB, class Real>
 ContactManifold<Real> collide_counted(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
                                       Real reach, Vec2<Real> pivot) {
-  // Coordinates are relative to the centre nearer to the pivot: relative to a corner of a long floor, their
-  // rounding would be proportional to its length. Sums with the pivot itself would round where sums with a
-  // centre are exact.
+  // Coordinates are relative to the centre that is nearer to the pivot. Relative to a corner of a long floor,
+  // their rounding would be proportional to the floor's length. The pivot itself is no better: sums with it
+  // round, sums with a centre are exact.
   const bool near_b = length_squared(pivot) > length_squared(pivot - b_in_a.position);
   const Vec2<Real> origin = near_b ? b_in_a.position : Vec2<Real>{};
   Hull<Real> hull_a, hull_b;

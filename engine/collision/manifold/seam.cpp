@@ -12,7 +12,8 @@ namespace {
 template <class Real>
 constexpr Real kSameSurface = Real(0.5);
 
-/// In tolerances: the widest gap that counts as closed, and the extension of a face across it.
+/// Both in units of the tolerance: the widest gap that counts as closed, and how far a face is extended
+/// across it.
 template <class Real>
 constexpr Real kGap = 3;
 template <class Real>
@@ -95,8 +96,8 @@ bool hidden(const TouchedSurface<Real>& touched, const Convex<Real>& other, int 
   return true;
 }
 
-/// Returns true if the other shape covers an edge at every point of the contact. Near the end at which the
-/// surface continues the test is inconclusive: points are tested a small distance away from it.
+/// Returns true if the other shape covers an edge at every point of the contact. The test is inconclusive
+/// near the end at which the surface continues, so points are tested a small distance away from it.
 template <class Real>
 bool covered(const TouchedSurface<Real>& touched, int edge, bool at_start, const Convex<Real>& other,
              int other_edges, const Pose<Real>& pose) {
@@ -192,7 +193,7 @@ SeamAnswer<Real> look_across_seam(const TouchedSurface<Real>& touched, const Con
     if (answer.kind != Answer::Kind::Own) return answer;
   }
 
-  // The edge itself, if the neighbour covers it: the surface continues at its nearer end.
+  // The edge itself, if the neighbour covers it: the surface then continues at the edge's nearer end.
   Real middle = 0;
   for (int i = 0; i < touched.count; ++i) middle += dot(tangent, touched.points[i] - first);
   const bool at_start = 2 * middle < static_cast<Real>(touched.count) * dot(tangent, second - first);

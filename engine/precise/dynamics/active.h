@@ -18,9 +18,9 @@ struct ActiveContact {
   int mode = 0;  ///< contact mode, 0: sticks; +1, -1: slips in this direction, friction acts against it
   int count = 0;
   Feature features[2] = {};
-  /// Forces when the contact mode was decided, N: of each point, and of a grip. If more contacts carry than
-  /// statics determines, forces are these plus the smallest changes that the motion requires, so that they do
-  /// not jump.
+  /// Forces when the contact mode was decided, N: of each point, and tangential while it sticks. If statics
+  /// does not determine the forces, because there are more contacts than needed, the forces are these plus
+  /// the smallest changes that the motion requires, so that they do not jump.
   double pushes[2] = {}, grip = 0;
 
   bool sticks() const { return friction > 0 && mode == 0; }

@@ -115,8 +115,9 @@ void EquationsOfMotion::add_response(const ContactResponse& response, std::span<
   }
 }
 
-/// Computes the rows of the active contacts and the matrix C R, and factorises it. `forces`: with the
-/// friction of slipping contacts; otherwise responses are along the rows themselves, as for projections.
+/// Computes the rows of the active contacts and the matrix C R, and factorises it. With `forces`, responses
+/// include the friction of slipping contacts; otherwise they are along the rows themselves, as projections
+/// need.
 void EquationsOfMotion::linearise_contacts(bool forces) {
   constraints_.clear();
   std::vector<Row<double>> pushes, tangents;

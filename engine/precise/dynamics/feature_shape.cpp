@@ -13,7 +13,7 @@ namespace {
 
 using Kind = Feature::Kind;
 
-/// Normals of a chain with a smaller sine between them count as equal.
+/// Normals of a chain count as equal if the sine of the angle between them is smaller.
 constexpr double kAlike = 1e-12;
 
 Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
@@ -273,7 +273,7 @@ Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const F
   if (best.distance + radii > 0 || (a.edges() == 0 && b.edges() == 0)) {
     const CornerPair corners = closest_corners(a, pose_a, b, pose_b);
     const double apart = apart_along(corners.direction, a, pose_a, b, pose_b) - radii;
-    // Sharp corners touch nothing but edges: for them this is only a bound on the distance.
+    // Sharp corners touch only edges. For two sharp corners this is only a bound on the distance.
     const bool touches = radii == 0 && corners.distance < 1e-9 * (a.reach + b.reach);
     if (apart > best.distance && !touches) {
       best.distance = apart;

@@ -61,10 +61,10 @@ struct Gap {
 Gap gap_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
            const Pose<double>& pose_b);
 
-/// Returns true if chains allow a feature with this gap to push. Chains push from the front only. At a vertex
-/// that bends to the back they push along the normals between those of its two segments, and the contact
-/// belongs to the first segment. `near`: gaps below count as touching, m; much deeper overlaps came from the
-/// back.
+/// Returns true if a feature with this gap may push, given the rules for chains. Chains push from the front
+/// only. At a vertex that bends to the back they push along the normals between those of its two segments,
+/// and the contact belongs to the first segment. Gaps below `near` (m) count as touching; a much deeper
+/// overlap came from the back.
 bool admits(const Feature& feature, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
             const FeatureShape& b, const Pose<double>& pose_b, double near);
 
@@ -92,9 +92,9 @@ struct Separation {
 Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                       const Pose<double>& pose_b);
 
-/// Returns the one or two features at which outlines with a separation of at most `near` touch; two if edges
-/// lie on each other. Among edges whose normals separate equally well, to within `near`, those with the
-/// fastest opening gap are taken; with zero velocities the first of them.
+/// Returns the one or two features at which outlines with a separation of at most `near` touch; two if an
+/// edge lies on an edge. If several edges' normals separate the outlines equally well, to within `near`,
+/// takes the one whose gap opens fastest, which is the first one if all velocities are zero.
 std::vector<Feature> touching_features(const FeatureShape& a, const Pose<double>& pose_a,
                                        const Twist<double>& twist_a, const FeatureShape& b,
                                        const Pose<double>& pose_b, const Twist<double>& twist_b, double near);
@@ -104,8 +104,8 @@ struct Limits {
   static constexpr int kMost = 4;
   int count = 0;
   double value[kMost] = {};
-  bool comes_down[kMost] = {};  ///< true: another corner's gap over the edge; false: the corner's or normal's
-                                ///< range
+  bool comes_down[kMost] = {};  ///< true: the gap between another corner and the edge; false: the range of
+                                ///< the corner or of the normal
 
   void add(double distance, bool gap) { value[count] = distance, comes_down[count] = gap, ++count; }
 };

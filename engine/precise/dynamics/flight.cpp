@@ -6,12 +6,12 @@
 namespace plumb::precise {
 namespace {
 
-/// Returns the wrench of a law that is constant between switching times, wherever its body is.
+/// Returns the wrench of a law that is constant between switching times for any position of its body.
 Wrench<double> constant_wrench(const PointForce& law) { return {law.force, 0}; }
 Wrench<double> constant_wrench(const Torque& law) { return {{}, law.torque}; }
 template <class Law>
 Wrench<double> constant_wrench(const Law&) {
-  return {};  // constant as it is zero
+  return {};  // this law is constant only as zero
 }
 
 bool is_on(const ForceLaw& law, double time) {

@@ -20,7 +20,7 @@ namespace plumb::precise {
 ///   L = m + sum L_k - U U^T / J,          b = U T / J - W.
 class HangingTree final : public Flow {
  public:
-  /// Empty if anything else acts, if shapes may touch, or if not `wanted`.
+  /// Is empty if anything else acts on the bodies, if shapes may touch, or if not `wanted`.
   HangingTree(const Scene& scene, const Parts& parts, EquationsOfMotion& equations, bool wanted);
 
   bool empty() const { return links_.empty(); }
@@ -30,7 +30,7 @@ class HangingTree final : public Flow {
   std::size_t size() const { return links_.size(); }
   std::size_t slot(std::size_t link) const { return links_[link].slot; }
 
-  /// Returns the angles and angular velocities in the state `y` of all coordinates.
+  /// Returns the part of the state `y` of all coordinates that holds the angles and angular velocities.
   std::span<const double> taken_from(std::span<const double> y);
   /// Adds `change(i)` to each; `hang` must follow.
   template <class Change>
@@ -51,7 +51,7 @@ class HangingTree final : public Flow {
   struct Link {
     int parent = -1;  // a link before it, or none
     std::size_t slot = 0;
-    int body = 0, holder = kFixedFrame;  // itself, and the body it hangs on
+    int body = 0, holder = kFixedFrame;  // the link's body, and the body it hangs on
     Vec2d anchor{}, holder_anchor{};     // of its hinge, in the frames of both
     bool turns = true;
     double mass = 0, inertia = 0;  // inertia about its hinge, I + m c^2

@@ -8,7 +8,7 @@
 namespace plumb::precise {
 namespace {
 
-/// If a pivot has lost all but a few of its digits, it is rounding: its direction depends on others.
+/// A pivot that has lost all but a few digits consists of rounding: its direction depends on others.
 constexpr double kDependent = 4096 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -34,8 +34,8 @@ HingeLines::HingeLines(std::span<const HingePlace> order, const std::vector<Revo
   }
 }
 
-/// Reorders a single line so that it is eliminated from both ends alternately: two short independent
-/// recursions instead of a long one, whose every step waits for the one before.
+/// Reorders a single line so that it is eliminated from both ends alternately. Two short independent
+/// recursions are faster than a long one, in which every step waits for the one before.
 void HingeLines::from_both_ends() {
   const int n = static_cast<int>(lines_.size());
   for (int k = 0; k < n; ++k) {
@@ -126,7 +126,7 @@ HingeLines::Widest HingeLines::widest(std::span<const Pose<double>> poses) const
   return found;
 }
 
-/// Inverts a block by its determinant: its pivots are xx and determinant / xx.
+/// Inverts a block by its determinant. The block's pivots are xx and determinant / xx.
 HingeLines::Inverse HingeLines::inverse(const Block& block) {
   const double determinant = block.xx * block.yy - block.xy * block.xy, own = block.own_y * block.xx;
   if (!(block.xx > kDependent * block.own_x && determinant > kDependent * own)) return deficient(block);
@@ -136,7 +136,7 @@ HingeLines::Inverse HingeLines::inverse(const Block& block) {
   return {block.yy * share, -(block.xy * share), block.xx * share};
 }
 
-/// Inverts a singular block: a direction that depends on others gets no force.
+/// Inverts a singular block. A direction that depends on others gets no force.
 HingeLines::Inverse HingeLines::deficient(const Block& block) {
   Inverse found;
   if (block.xx > kDependent * block.own_x) {

@@ -19,8 +19,8 @@ namespace plumb::precise {
 ///   of a neighbour: +-(I / m + p p'^T / I) of the body that both share.
 class HingeLines {
  public:
-  /// `order`: `JointSystem::hinges`, of a system whose rows are those of `hinges` alone; empty if there are
-  /// none.
+  /// `order` is `JointSystem::hinges` of a system whose rows are those of `hinges` alone. Empty if `hinges`
+  /// is.
   HingeLines(std::span<const HingePlace> order, const std::vector<Revolute>& hinges,
              std::span<const double> inverse_mass, std::span<const double> inverse_inertia);
 
@@ -59,8 +59,8 @@ class HingeLines {
   };
   Widest widest(std::span<const Pose<double>> poses) const;
 
-  /// Adds to the accelerations M^-1 J^T lambda such that J a + (dJ/dt) v = 0, at the poses of `place`; call
-  /// it once for each.
+  /// Adds M^-1 J^T lambda to the accelerations such that J a + (dJ/dt) v = 0, at the poses of `place`. Call
+  /// it once for each `place`.
   void accelerate(std::span<const Twist<double>> twists, std::span<Twist<double>> accelerations);
   /// Adds to `shift` the M^-1 J^T lambda that makes J v zero.
   void stop(std::span<const Twist<double>> twists, std::span<Twist<double>> shift);
@@ -75,20 +75,20 @@ class HingeLines {
  private:
   struct Line {
     int a = kFixedFrame, b = kFixedFrame, hinge = 0;
-    int next = -1;                                                // the one later hinge that shares a body
-    bool side = false, next_side = false;                         // true: it is b of this hinge, of the next
+    int next = -1;                         // the one later hinge that shares a body
+    bool side = false, next_side = false;  // true: the shared body is b of this hinge; of the next
     double mass_a = 0, mass_b = 0, inertia_a = 0, inertia_b = 0;  // inverse
     Vec2d anchor_a{}, anchor_b{};
-    double shared_mass = 0, shared_inertia = 0;  // of that body, with the sign of the neighbour's block
+    double shared_mass = 0, shared_inertia = 0;  // inverses of the shared body, signed as in A
   };
   /// A hinge during elimination: the inverse of its own block, and its effect on its neighbour.
   struct Block {
     Vec2d arm_a{}, arm_b{};
     double xx = 0, xy = 0, yy = 0;  // of A; then reduced by earlier hinges
     double own_x = 0, own_y = 0;
-    double x = 0, y = 0;  // the right side; then reduced; then the multipliers
+    double x = 0, y = 0;  // right side; then reduced; then multipliers
     double w00 = 0, w01 = 0, w10 = 0,
-           w11 = 0;  // the neighbour's block beside it, times the inverse of its own
+           w11 = 0;  // the coupling block to the next hinge, times the inverse of this one's
   };
   struct Inverse {
     double xx = 0, xy = 0, yy = 0;

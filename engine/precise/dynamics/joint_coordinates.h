@@ -31,7 +31,7 @@ struct GeneralJoints::Pull {
 };
 
 /// Calls visit.row(row, rule) for each scalar coordinate with each of its rules, and visit.point(point, rule)
-/// for a point whose rule is not rigid. The residual of a row is C.
+/// for a point whose rule is not rigid. C is the residual of the row.
 template <class Visit>
 void GeneralJoints::each_coordinate(const Entry& e, const Ends& ends, const Visit& visit) {
   std::visit(

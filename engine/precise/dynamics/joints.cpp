@@ -167,7 +167,8 @@ void GeneralJoints::each_spring(const BodiesNow& now,
   }
 }
 
-/// Adds the derivatives of a pull by the first `directions` of: x, y and angle of a, of b; their velocities.
+/// Adds the derivatives of a pull by the first `directions` of these: x, y and angle of a, then of b; their
+/// velocities in the same order.
 template <class Evaluate>
 void GeneralJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions, const Evaluate& evaluate,
                                std::vector<ForceBlock>& out) {

@@ -59,11 +59,12 @@ class GeneralJoints {
     double speed = 0, max_force = 0;
     std::optional<Formula> drive{};  ///< of a motor's speed, in place of `speed`
     std::string joint{};
-    /// Meaning of a limit's C: an angle; the position of anchor b along a's axis; the anchors' distance.
+    /// Meaning of C for a limit: an angle; the position of anchor b along a's axis; the distance of the
+    /// anchors.
     enum class Kind { Turn, Line, Distance };
     Kind kind = Kind::Turn;
     int a = kFixedFrame, b = kFixedFrame;
-    Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass; of a for distances alone
+    Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass; a's only for distances
     /// Returns the motor's speed at `time`, s, and its rate.
     Jet speed_at(double time) const {
       const Jet now[] = {{time, 1}};

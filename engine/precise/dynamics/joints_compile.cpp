@@ -115,7 +115,7 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
     add(scene, joint, entries_);
     if (entries_.size() == before) continue;
     Entry& e = entries_.back();
-    // Whole turns count from those at creation.
+    // Counts whole turns from the angles at creation.
     const double angle_a = e.a == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.a)];
     const double angle_b = e.b == kFixedFrame ? 0 : angles[static_cast<std::size_t>(e.b)];
     std::visit(

@@ -16,8 +16,8 @@ struct Pair {
   Gap gap(const Feature& f) const { return gap_of(f, a, pose_a, b, pose_b); }
 };
 
-/// Returns the closest corners: beyond the ends of edges rounded shapes touch by their corners, even if an
-/// edge's line is as close to rounding.
+/// Returns the pair of corners with the least gap. Beyond the ends of their edges, rounded shapes touch with
+/// their corners. The lines of these edges may be equally close up to rounding, but are not used.
 Feature closest_corners(const Pair& pair) {
   Feature best{Kind::Corners, 0, 0};
   double least = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ std::vector<Feature> touching_features(const FeatureShape& a, const Pose<double>
           std::min(opening, dot(n.linear_a, twist_a.velocity) + n.angular_a * twist_a.angular_velocity +
                                 dot(n.linear_b, twist_b.velocity) + n.angular_b * twist_b.angular_velocity);
     }
-    // Directions that open equally fast, to rounding, count as equal: the one with more points wins.
+    // Directions whose gaps open equally fast, to rounding, count as equal: the one with more points wins.
     const double alike = 1e-9 * std::max(std::abs(opening), std::abs(fastest));
     const bool better = found.empty() || opening > fastest + alike ||
                         (opening > fastest - alike && features.size() > found.size());

@@ -28,7 +28,7 @@ std::vector<std::string> joint_names_by_row(const Scene& scene, const GeneralJoi
   return names;
 }
 
-/// Computes the rows for bodies that lie on each other: only their body indices matter.
+/// Computes the rows with all bodies at the origin: only the body indices of the rows matter.
 std::vector<Row<double>> pattern(const Joints& joints, const GeneralJoints& others, std::size_t bodies) {
   std::vector<Row<double>> rows(joints.row_count() + others.row_count());
   const std::vector<Pose<double>> poses(bodies);
@@ -69,8 +69,8 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
   return lightest > 100 * heaviest;
 }
 
-/// Returns the hinges of mechanisms that consist of hinges alone. Excludes wide mass ratios, which need the
-/// iterative refinement that rows have.
+/// Returns the hinges if they are the only joints. Excludes wide mass ratios, which need iterative
+/// refinement; only rows have it.
 HingeLines hinge_lines(const JointSystem<double>& system, const Joints& joints, const GeneralJoints& others,
                        const std::vector<double>& inverse_mass, const std::vector<double>& inverse_inertia,
                        bool wide_mass_ratio, const Scene& scene) {

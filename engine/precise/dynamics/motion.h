@@ -31,8 +31,8 @@ class EquationsOfMotion final : public Flow {
  public:
   static constexpr std::size_t kPerBody = 6;
 
-  /// `every_stage`: forces and joints are evaluated even if there are none.
-  /// `tolerance`: of `Precise`; joints of closed loops that are open by more are an error.
+  /// With `every_stage`, forces and joints are evaluated even if there are none. `tolerance` is that of
+  /// `Precise`; closed loops whose joints are open by more than it are an error.
   EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight, bool every_stage,
                     double tolerance);
 
@@ -48,7 +48,7 @@ class EquationsOfMotion final : public Flow {
   void rate(double time, std::span<const double> y, std::span<double> out) override;
   /// Returns the power of the forces of the last evaluation, without gravity and persistent contacts.
   double power() const override { return power_; }
-  /// Does the same, after which `rows` and `multipliers` are those of this state.
+  /// Does the same; afterwards `rows` and `multipliers` are those of this state.
   void rate_with_rows(double time, std::span<const double> y, std::span<double> out);
   std::int64_t evaluations() const { return evaluations_; }
   void count_evaluation() { ++evaluations_; }
@@ -77,44 +77,44 @@ class EquationsOfMotion final : public Flow {
   double rounding_of_gaps() const;
   std::size_t body_count() const { return poses_.size(); }
 
-  /// Returns the least `JointSystem::weakest`, and the most dependent rows, of evaluations since
-  /// `forget_rank`.
+  /// Returns two extremes over the evaluations since `forget_rank`: the least `JointSystem::weakest`, and the
+  /// largest number of dependent rows.
   double weakest() const { return weakest_; }
   int dependent_rows() const { return dependent_rows_; }
   void forget_rank() { weakest_ = 1, dependent_rows_ = 0; }
   /// Returns true if joints close loops: their rows may become dependent during the motion.
   bool has_loops() const { return has_loops_; }
-  /// Returns `JointSystem::weakest` in state y; zero if rows are dependent that are not always so. Not
-  /// counted as an evaluation.
+  /// Returns `JointSystem::weakest` in state y; zero if rows are dependent other than those that always are.
+  /// Not counted as an evaluation.
   double weakness(double time, std::span<const double> y);
   /// Treats rows that were dependent at the last factorisation as dependent everywhere.
   void keep_dependent() { system_.keep_dependent(); }
   void release_dependent() { system_.release_dependent(); }
-  /// `project` ignores rows with an independent fraction below `share`, and gaps up to `open`, m, may remain.
-  /// 0: holds all rows that can be held.
+  /// Makes `project` ignore rows with an independent fraction below `share`, and accept gaps up to `open`, m.
+  /// With 0 it holds all rows that can be held.
   void hold_only_above(double share, double open) { system_.set_least_share(share), may_stay_open_ = open; }
-  /// Takes one step of Newton's method to the point of the joints' manifold nearest to `target`: closes gaps,
-  /// and moves towards it along the manifold. Returns the distance moved, m.
+  /// Makes one step of Newton's method towards the point on the joints' manifold that is nearest to `target`:
+  /// closes gaps, and moves towards `target` along the manifold. Returns the distance moved, m.
   double draw_near(double time, std::span<const double> target, std::span<double> y);
   /// Removes from the velocities in y the part that joints do not allow.
   void allow_velocities(double time, std::span<double> y);
-  /// Removes from changes of positions, and of velocities, the part that violates the joints, with the rows
-  /// of the last `hold`.
+  /// Removes the part that violates the joints from changes of positions and of velocities, with the rows of
+  /// the last `hold`.
   void keep_allowed(std::span<double> change);
   /// Closes the gaps in y, except for rows with an independent fraction below `weak`; returns the widest
   /// remaining gap, m.
   double left_open(double time, std::span<double> y, double weak);
   /// Returns the joint of the weakest row of the last factorisation.
   std::string weakest_joint() const;
-  /// Returns the joints with redundant rows in state y: they may be omitted, or carry no force of their own.
+  /// Returns the joints that have redundant rows in state y. Such rows may be left out, or carry no force.
   std::vector<std::string> redundant_joints(double time, std::span<const double> y);
 
   /// Sets the persistent contacts: they are held as joints are, by accelerations and by `project`.
   void hold_contacts(std::vector<ActiveContact> patches);
   std::span<const ActiveContact> held() const { return patches_; }
 
-  /// Sets the mode of each stop of a joint (`GeneralJoints::stops`): held as a constraint, a motor saturated
-  /// in either direction, or inactive. Cleared by an empty list.
+  /// Mode of a stop of a joint (`GeneralJoints::stops`): inactive, held as a constraint, or a motor saturated
+  /// in either direction. `hold_stops` sets them; an empty list clears them.
   enum class StopMode : signed char { Free, Held, Forward, Backward };
   void hold_stops(std::vector<StopMode> modes);
   bool has_forces() const { return has_forces_; }
@@ -135,7 +135,7 @@ class EquationsOfMotion final : public Flow {
   /// Adds the impulses along the rows of `response` to the velocities in `y`.
   void push(const ContactResponse& response, std::span<const double> impulses, Compensated& y) const;
 
-  /// Returns the accelerations by body of the scene, without contacts; valid until the next call of any
+  /// Returns the accelerations without contacts by body of the scene; valid until the next call of any
   /// function. Zero for bodies that are not integrated.
   std::span<const Twist<double>> accelerations_without_contacts(double time, std::span<const double> y);
 
@@ -146,7 +146,7 @@ class EquationsOfMotion final : public Flow {
   /// motor that holds its speed, a moving prescribed body.
   bool held_works() const;
 
-  /// Returns true if only gravity and hinges act, contacts apart, with masses not far apart.
+  /// Returns true if, contacts apart, only gravity and hinges act, and the masses do not differ widely.
   bool has_hinges_alone() const;
 
   /// Computes the forces of all joints and of the held contacts at a state. Not counted as an evaluation.
@@ -157,8 +157,8 @@ class EquationsOfMotion final : public Flow {
 
   std::span<const std::size_t> bodies() const { return bodies_; }
 
-  /// Results of the last evaluation of `rate`: poses and twists by body; of `rate_with_rows`, the joints'
-  /// rows and their multipliers.
+  /// Results of the last evaluation of `rate`: poses and twists by body. Of the last `rate_with_rows`: the
+  /// joints' rows and their multipliers.
   std::span<const Pose<double>> poses() const { return poses_; }
   std::span<const Twist<double>> twists() const { return twists_; }
   std::span<const Row<double>> rows() const { return rows_; }
@@ -251,7 +251,7 @@ class EquationsOfMotion final : public Flow {
     std::size_t body, slot;
     PrescribedPath path;
   };
-  std::vector<Prescribed> prescribed_;  // bodies with a motion of their own: no force moves them
+  std::vector<Prescribed> prescribed_;  // bodies with a prescribed motion, which no force changes
   double length_ = 1, speed_ = 1;       // the scene's, m and m/s
   double tolerance_ = 0;
   double may_stay_open_ = 0;  // m, of gaps

@@ -7,8 +7,7 @@
 // Closed linkages near kinematic singularities, at which their rows become dependent.
 namespace plumb::precise {
 
-/// Returns true if joints close a loop, through the world or not: bodies and joints then do not form a
-/// forest.
+/// Returns true if joints close a loop, through the world or not, so that bodies and joints form no forest.
 bool EquationsOfMotion::find_loops() const {
   std::vector<int> group(poses_.size() + 1);
   std::iota(group.begin(), group.end(), 0);

@@ -33,8 +33,8 @@ void EquationsOfMotion::project(double time, Compensated& y) {
   kick(shift, 1, y);
 }
 
-/// Throws `Error` (Run) if velocities, with `shift` added, open a joint by more than the tolerance allows: at
-/// a singularity of closed loops there is no valid shift.
+/// Throws `Error` (Run) if velocities, with `shift` added, open a joint by more than the tolerance allows: no
+/// shift is valid at a singularity of closed loops.
 void EquationsOfMotion::check_speeds(std::span<const Twist<double>> shift) const {
   double fastest = speed_, worst = 0;
   std::size_t joint = 0;
@@ -109,7 +109,7 @@ void EquationsOfMotion::hang(double time, Compensated& y) {
 void EquationsOfMotion::close_gaps(double time, Compensated& y) {
   constexpr int kMost = 20;
   constexpr double kOpen = 1e-9;  // fraction of the scene's length: a larger gap is not due to rounding
-  // Newton's method may end with gaps of so many rounding errors.
+  // Newton's method may end with gaps of up to this many rounding errors.
   constexpr double kRoundings = 100;
   std::vector<Twist<double>>& shift = accelerations_;
   double before = std::numeric_limits<double>::infinity();
@@ -158,8 +158,8 @@ void EquationsOfMotion::shift_places(std::span<const Twist<double>> shift, Compe
   }
 }
 
-/// Returns the widest gap of a joint or a persistent contact at the bodies' poses, m; for angles at an arm of
-/// the scene's length.
+/// Returns the widest gap of a joint or a persistent contact at the bodies' poses, m. An angle counts as the
+/// displacement at a lever arm of the scene's length.
 EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
   WorstGap worst;
   const auto offer = [&](double gap, const auto& subject) {
@@ -194,7 +194,7 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
   return worst;
 }
 
-/// Returns the least possible gap: the rounding of the positions whose differences gaps are.
+/// Returns the least possible gap: gaps are differences of positions, so this is the rounding of those.
 double EquationsOfMotion::rounding_of_gaps() const {
   double extent = length_;
   for (const std::size_t body : bodies_) {

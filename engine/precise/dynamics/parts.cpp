@@ -76,7 +76,7 @@ std::vector<char> not_flying(const Scene& scene, const Index& index) {
     }
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    // Prescribed motions are integrated as well, so that steps and searches for contacts have their path.
+    // Prescribed bodies are integrated too, because steps and contact searches need their path.
     if (scene.bodies[i].type != BodyType::Dynamic) result[i] = scene.bodies[i].motion.empty() ? 0 : 1;
   }
   return result;
@@ -106,7 +106,7 @@ std::size_t partner(const Scene& scene, const Parts& parts, std::size_t a, const
   return a;
 }
 
-/// Scales derived from a law at the start: a length, and an acceleration.
+/// Length and acceleration that a law has at the start, used as scales.
 struct LawScale {
   double length = 0, acceleration = 0;
 };
@@ -165,7 +165,7 @@ class LawScales {
   const Index& index_;
 };
 
-/// Returns the acceleration (m/s^2) by the springs of joints at the start, of points up to `arm` away.
+/// Returns the acceleration (m/s^2) that springs of joints cause at the start, of points up to `arm` away.
 double acceleration_by_springs(const Scene& scene, double arm) {
   const GeneralJoints joints(scene);
   if (!joints.has_springs()) return 0;

@@ -18,10 +18,10 @@ struct Motion {
 
 /// Partition of the scene's bodies by how they are moved, derived before anything is allocated.
 struct Parts {
-  std::vector<std::size_t> flying;  ///< bodies on polynomials: static, kinematic, under constant forces alone
+  std::vector<std::size_t> flying;      ///< on polynomials: static, kinematic, or under constant forces alone
   std::vector<std::size_t> integrated;  ///< dynamic bodies with joints, with shapes that may touch, or with
                                         ///< forces that depend on the motion
-  bool ballistic = false;               ///< contacts apart, only constant forces act on the integrated bodies
+  bool ballistic = false;               ///< apart from contacts, only constant forces act on these
   std::vector<FeatureShape> outlines;   ///< of shapes that may touch another one
   std::vector<std::pair<std::size_t, std::size_t>>
       apart;                     ///< bodies, first < second, whose joint keeps them from touching; sorted
@@ -30,7 +30,7 @@ struct Parts {
 
 Parts divide(const Scene& scene);
 
-/// Returns the scene with only the laws that act on one of `bodies`, which ascend.
+/// Returns the scene without the laws that act on none of `bodies`, which are in ascending order.
 Scene with_laws_on(const Scene& scene, const std::vector<std::size_t>& bodies);
 
 /// Returns true if body types, filters and joints allow the pair's shapes to touch.
@@ -40,7 +40,7 @@ bool may_meet(const Scene& scene, const Parts& parts, std::size_t body_a, const 
 /// The scene's own scales, by which errors are measured.
 struct Scales {
   double length = 1;  ///< m: the largest extent of an integrated body, joint or lever
-  double speed = 1;   ///< m/s: reached by the scene's accelerations over that length
+  double speed = 1;   ///< m/s: the speed that the scene's accelerations reach over that length
 };
 
 Scales scales_of(const Scene& scene, const Parts& parts);

@@ -21,8 +21,8 @@ std::vector<EquationsOfMotion::JointEnd> EquationsOfMotion::ends_of_joints(const
   return ends;
 }
 
-/// Computes the joints' multipliers under the forces of contacts and stops of the last evaluation: `press`
-/// only sums responses, without the joints' own multipliers.
+/// Computes the joints' multipliers under the forces of contacts and stops of the last evaluation. `press`
+/// sums only the responses to these forces, without the multipliers.
 void EquationsOfMotion::find_multipliers_beside_contacts(double time, std::span<const double> y) {
   accelerate_freely(time, y, accelerations_);
   for (std::size_t k = 0; k < active_response_.rows.size(); ++k) {

@@ -25,9 +25,9 @@ CornerMotion corner_motion(const FeatureShape& o, int corner, const StepMotionBo
   return {at.pose.position + arm, at.twist.velocity + cross(at.twist.angular_velocity, arm)};
 }
 
-/// Returns the time for which no corner falls to an edge of `e`, whose normal turns with it: f = n . (c - p).
-/// With the corner's motion relative to the edge's body, r from its centre,
-///   f'' = n . r'' + 2 w t . r' + (dw/dt) t . r - w^2 n . r.
+/// Returns the time for which all corners stay above an edge of `e`: f = n . (c - p), where the normal n
+/// turns with the edge. With the corner's motion relative to the edge's body, and r from that body's centre,
+/// f'' = n . r'' + 2 w t . r' + (dw/dt) t . r - w^2 n . r.
 double edge_lasts(const View& v, const StepMotionBounds& paths, bool of_a, int edge, double left) {
   const FeatureShape &e = of_a ? v.a : v.b, &c = of_a ? v.b : v.a;
   const StepMotionBounds::Placed &at_e = of_a ? v.at_a : v.at_b, &at_c = of_a ? v.at_b : v.at_a;
@@ -45,7 +45,7 @@ double edge_lasts(const View& v, const StepMotionBounds& paths, bool of_a, int e
   for (int k = 0; k < c.count(); ++k) {
     const CornerMotion corner = corner_motion(c, k, at_c);
     const double f = dot(n, corner.position - start.position) - v.a.radius - v.b.radius;
-    // The edge's own motion at the foot of the corner.
+    // The velocity of the edge's body at the foot of the corner.
     const Vec2d carried =
         at_e.twist.velocity + cross(at_e.twist.angular_velocity, corner.position - at_e.pose.position);
     shortest_time = std::min(shortest_time, lasts(f, dot(n, corner.velocity - carried), fall));

@@ -23,9 +23,8 @@ struct OutlinePair {
 double lasts(double f, double rate, double most_fall);
 
 /// Finds when two outlines first touch during a step, by conservative advancement with acceleration bounds.
-/// Along a separating direction every corner's height f obeys
-///   f(t + s) >= f + f' s - A s^2 / 2,
-/// A a bound on f'' from the step's polynomials, so that nothing is missed at any speed or spin.
+/// Along a separating direction every corner's height f obeys f(t + s) >= f + f' s - A s^2 / 2, where A is a
+/// bound on f'' from the step's polynomials. So no touch is missed at any speed or spin.
 class ConservativeAdvancement {
  public:
   /// `steps`: limit on the steps of one search; beyond it, `Error` (Run).
@@ -36,8 +35,8 @@ class ConservativeAdvancement {
   /// Returns the first time in [from, until] at which the pair is `near` (m) or closer.
   std::optional<double> first(const OutlinePair& pair, double from, double until, double near) const;
 
-  /// For a pair that touches at the step's start without being held: `apart` is the time at which its
-  /// separation exceeds `near`, if within the step. `pressed` is set if the overlap grows by `near` before
+  /// For a pair that touches at the step's start without being held: `apart` is the time within the step, if
+  /// any, at which its separation exceeds `near`. `pressed` is set if the overlap grows by `near` before
   /// that.
   struct Departure {
     std::optional<double> apart, pressed;

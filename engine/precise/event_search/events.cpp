@@ -12,7 +12,7 @@ class Watch {
   Watch(const std::function<void(double, std::span<double>)>& evaluate, std::span<const double> tolerance)
       : evaluate_(evaluate), tolerance_(tolerance), scratch_(tolerance.size()) {}
 
-  /// Returns the values with the tolerance added: negative is an event.
+  /// Returns the values with the tolerance added: an event is where one is negative.
   std::vector<double> at(double time) {
     evaluate_(time, scratch_);
     std::vector<double> values = scratch_;
@@ -24,8 +24,8 @@ class Watch {
     return scratch_[index] + tolerance_[index];
   }
 
-  /// Returns the root of a function that is not negative at `low` and negative at `high`: the bound on the
-  /// negative side.
+  /// Returns the root of a function that is not negative at `low` and negative at `high`: the end of the
+  /// final bracket at which the function is negative.
   double locate(std::size_t index, double low, double f_low, double high, double f_high) {
     assert(low <= high && f_low >= 0 && f_high < 0);
     int side = 0;
@@ -61,8 +61,8 @@ struct Sample {
   std::vector<double> values;
 };
 
-/// Returns the minimum of the parabola through three samples, if it lies between them and falls to a third of
-/// all three or below.
+/// Returns the time of the minimum of the parabola through three samples, if it lies between them and is at
+/// most a third of each of them.
 std::optional<double> dip(const Sample& a, const Sample& b, const Sample& c, std::size_t i) {
   const double fa = a.values[i], fb = b.values[i], fc = c.values[i];
   if (fb < 0) return std::nullopt;

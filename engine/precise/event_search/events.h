@@ -11,7 +11,7 @@ namespace plumb::precise {
 /// Finds the first zero crossing in a step: the first time at which one of several functions falls below its
 /// own -tolerance. A function that starts at zero, to the tolerance, counts only after it has risen.
 struct Fall {
-  double time = 0;        ///< s: the first time known to lie beyond, to rounding
+  double time = 0;  ///< s: the earliest time, to rounding, at which the value is known to be below -tolerance
   std::size_t index = 0;  ///< of the function
 };
 

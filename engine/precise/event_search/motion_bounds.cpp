@@ -8,8 +8,8 @@
 namespace plumb::precise {
 namespace {
 
-/// Bounds are widened by this fraction: positions and velocities are two polynomials that agree to the step's
-/// error.
+/// Fraction by which bounds are widened: positions and velocities are separate polynomials that agree only to
+/// the step's error.
 constexpr double kMargin = 1e-3;
 
 }  // namespace
@@ -93,7 +93,7 @@ void StepMotionBounds::follow_integrated(std::size_t body, int slot, EventFreeIn
 void StepMotionBounds::follow_parabola(std::size_t body, const BodyState& from, const BodyState& to) {
   Path& p = paths_[body];
   const double h = end_ - start_;
-  // The Bernstein points of a parabola: its ends, and the intersection of its end tangents.
+  // The control points of a parabola in Bernstein form: its ends, and the intersection of its end tangents.
   const Vec2d a = from.position, b = to.position, middle = a + (0.5 * h) * from.velocity;
   p.hull = {{std::min({a.x, b.x, middle.x}), std::min({a.y, b.y, middle.y})},
             {std::max({a.x, b.x, middle.x}), std::max({a.y, b.y, middle.y})}};

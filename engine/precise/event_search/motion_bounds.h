@@ -19,7 +19,7 @@ class StepMotionBounds {
  public:
   StepMotionBounds(const Flight& flight, std::span<const std::size_t> integrated, std::size_t bodies);
 
-  /// Takes the last step of `motion`; valid until its next one.
+  /// Bounds the motion of the last step of `motion`; valid until its next step.
   void take(EventFreeIntegrator& motion);
 
   double start() const { return start_; }
@@ -59,7 +59,7 @@ class StepMotionBounds {
   static constexpr std::size_t kControls = StepPolynomial::kMostTerms + 1;
   struct Path {
     Bernstein<kControls> vx{}, vy{};
-    Aabb<double> hull{};  // of the centre of mass
+    Aabb<double> hull{};  // box of the path of the centre of mass
     double turned = 0;    // rad, largest rotation away from the start
   };
 

@@ -123,7 +123,7 @@ void TouchFinder::measure(std::span<const BodyState> states, ContactCandidate& t
   touch.quiet = std::max(1e-12 * speed_ + 256 * kEpsilon * around, touch.graze);
 }
 
-/// Measures a limit: its row stays the same while bodies do not move.
+/// Updates the rates of a limit. Its row stays the same while bodies do not move.
 void TouchFinder::measure_stop(std::span<const BodyState> states, ContactCandidate& touch) const {
   const Row<double>& row = touch.rows[0].normal;
   double around = 0;

@@ -22,7 +22,7 @@ struct ContactCandidate {
   OutlinePair pair{};
   std::optional<std::size_t> stop{};  ///< index of the limit among the equations' stops; then without shapes
   double friction = 0;                ///< static, and of impacts
-  double sliding_friction = 0;        ///< kinetic, of a lasting contact that slips
+  double sliding_friction = 0;        ///< kinetic, of a persistent contact that slips
   double restitution = 0;
   int count = 0;
   Feature features[2] = {};
@@ -30,7 +30,7 @@ struct ContactCandidate {
   double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
   double slip = 0;         ///< m/s, of b against a along the tangent
   double quiet = 0;        ///< m/s, rounding error of these rates, or `graze` if larger
-  double graze = 0;        ///< m/s, largest approach that ends by itself while the gap is within rounding
+  double graze = 0;        ///< m/s: slower approaches end before the gap changes by more than rounding
 };
 
 /// Returns true if a point of a touch closes, faster than rounding.
@@ -60,11 +60,12 @@ class TouchFinder {
   double scale_of_speed() const { return speed_; }
   double scale_of_length() const { return length_; }
 
-  /// Returns the rounding error of a gap, m, with bodies at the given states.
+  /// Returns the rounding error of a gap, m, for bodies in the given states.
   double near(std::span<const BodyState> states) const;
 
-  /// Returns the touches, pairs in ascending order. `states` by body of the scene. `passing` gets the pairs
-  /// that touch where a chain may not push: at its back, and at an end that belongs to the next segment.
+  /// Returns the shapes that touch, pairs in ascending order. `states` is by body of the scene. Adds to
+  /// `passing` the pairs that touch where a chain may not push: at its back, and at an end that belongs to
+  /// the next segment.
   std::vector<ContactCandidate> touches(std::span<const BodyState> states, double near,
                                         std::vector<OutlinePair>& passing) const;
 

@@ -4,7 +4,7 @@
 #include "engine/precise/events/contacts.h"
 #include "engine/precise/events/state_members.h"
 
-// Saves and restores which contacts are held and how.
+// Saves and restores the held contacts and their modes.
 namespace plumb::precise {
 namespace {
 

@@ -11,14 +11,14 @@ namespace {
 
 /// Samples of forces and slips per step.
 constexpr int kSamples = 5;
-/// Samples per radian of time-periodic forces: 16 a period.
+/// Samples per radian of a time-periodic force: 16 per period.
 constexpr double kSamplesARadian = 2.6;
-/// Force below zero at which a contact opens, as a fraction of the largest force: more than rounding, and
-/// than the difference between a step's polynomial and the step itself.
+/// A contact opens when its force is this far below zero, as a fraction of the largest force: more than
+/// rounding, and more than the difference between a step's polynomial and the step itself.
 constexpr double kForceNoise = 3e-11;
 
-/// Returns the feature of the corner that touches next when the limit `index` of a corner on an edge is
-/// reached.
+/// Returns the feature of the neighbouring corner that comes down on the edge when the limit `index` of `f`
+/// reaches zero: the previous corner for limit 2, otherwise the next one.
 Feature feature_of_height(const Feature& f, const FeatureShape& a, const FeatureShape& b, int index) {
   Feature other = f;
   int& corner = f.kind == Feature::Kind::CornerOfB ? other.b : other.a;
@@ -181,8 +181,8 @@ double Contacts::contact_value(const Monitored& monitored, const ContactForces& 
     case Quantity::Cone: {
       double normal = 0;
       for (int i = 0; i < patch.count; ++i) normal += forces.normal[first + static_cast<std::size_t>(i)];
-      // At the tip of the cone the contact opens, which is not a slip. Without a tangential force the cone is
-      // never left.
+      // At the tip of the friction cone the contact opens, which is not a slip. Without a tangential force
+      // the contact never leaves the cone.
       return patch.friction * std::max(normal, 0.0) - std::abs(forces.tangent[monitored.patch]);
     }
     case Quantity::Slip: {
@@ -327,8 +327,8 @@ int Contacts::samples_until(double until) const {
   return std::max(kSamples, static_cast<int>(std::min(std::ceil(kSamplesARadian * swings), kMost)));
 }
 
-/// Corrects the end of the step: the step that ends at the event differs by the step's error from the
-/// polynomial on which the event was found. Each iteration of Newton's method on the gap makes a step to the
+/// Corrects the end of the step. The event was found on the step's polynomial, from which the step that ends
+/// at the event differs by the step's error. Each iteration of Newton's method on the gap makes a step to a
 /// new time.
 void Contacts::refine(const Event& event) {
   constexpr int kMost = 4;
@@ -351,8 +351,8 @@ void Contacts::refine(const Event& event) {
     if (std::abs(row.residual) <= near_ / 64 || !(closing < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - row.residual / closing;
     if (time == smooth_.time() || time <= start) return;
-    // Anew from the step's start, also to a later time: a further step would lose the part that is not yet
-    // read.
+    // Cuts from the step's start, even for a later time: a further step would lose the part that has not been
+    // read yet.
     smooth_.cut(time);
   }
 }
@@ -365,8 +365,8 @@ void Contacts::refine_limit(std::size_t limit) {
     if (std::abs(at.gap) <= 1e-14 * length || !(at.rate < -1e-6 * finder_.scale_of_speed())) return;
     const double time = smooth_.time() - at.gap / at.rate;
     if (time == smooth_.time() || time <= start) return;
-    // Anew from the step's start, also to a later time: a further step would lose the part that is not yet
-    // read.
+    // Cuts from the step's start, even for a later time: a further step would lose the part that has not been
+    // read yet.
     smooth_.cut(time);
   }
 }

@@ -18,23 +18,24 @@
 namespace plumb::precise {
 namespace {
 
-/// Bouncing ends when the rest of the Zeno cascade takes less than this fraction of the scene's own time, or
-/// rises by less than this many roundings of a gap. In its own time the scene's accelerations cross its
-/// length.
+/// Bouncing ends when the rest of the Zeno cascade takes less than kLeftToBounce of the scene's own time, or
+/// when bounces rise by less than kLowestBounce roundings of a gap. The scene's own time is the one in which
+/// its accelerations cross its length.
 constexpr double kLeftToBounce = 3e-5, kLowestBounce = 32;
-/// Corners that touch alternately are closed if they return within this fraction of the scene's own time.
+/// Points that open are closed if they would touch again within this fraction of the scene's own time, as do
+/// corners that touch alternately.
 constexpr double kClatter = 1e-7;
 /// Gaps up to this multiple of the rounding of positions count as touching.
 constexpr double kTouching = 8;
 constexpr int kMostRounds = 100, kMostEventsAtOnce = 500;
 
-/// Returns an estimate of the angular frequency (rad/s) with which a formula swings while only time passes:
-/// its fastest change over its range, at times spread over the first seconds. A sine's is exact wherever the
-/// times fall.
+/// Returns an estimate of the angular frequency (rad/s) of a formula in time, with its other variables fixed:
+/// its fastest change over half its range, both sampled over the first seconds. For a sine this is its
+/// frequency.
 template <std::size_t kCount>
 double swing_of(const Formula& formula, std::array<Jet, kCount> variables) {
   constexpr int kTimes = 4096;
-  constexpr double kSpan = 10, kGolden = 0.6180339887498949;  // s; a step that repeats no fraction
+  constexpr double kSpan = 10, kGolden = 0.6180339887498949;  // s; a stride that never repeats a fraction
   if (!formula.uses(0)) return 0;
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   double fastest = 0, place = 0;
@@ -157,7 +158,7 @@ void Contacts::settle() {
     std::vector<ContactCandidate> touches = finder_.touches(states_, near_, passing_);
     stops_.find(now, smooth_.state().value(), finder_, states_, touches);
     if (round == 0) record_.touches = touches;
-    if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // the motion continues as before
+    if (round == 0 && touches.empty() && held_.empty() && stops_.empty()) {  // no event: the motion continues
       touching_.clear();
       settled_ = true;
       return;
@@ -196,8 +197,8 @@ std::vector<Twist<double>> Contacts::accelerations() {
   return result;
 }
 
-/// Returns how fast each point's gap accelerates towards closing: minus the gap's second derivative, under
-/// the held contacts; without contacts for the points that are held themselves.
+/// Returns the acceleration with which each point's gap closes, minus its second derivative, under the held
+/// contacts. Points that are held themselves are evaluated without contacts.
 std::vector<std::array<double, 2>> Contacts::pulls(std::span<const ContactCandidate> touches) {
   std::vector<std::array<double, 2>> result(touches.size());
   const std::vector<Twist<double>> with = accelerations();
@@ -214,9 +215,9 @@ std::vector<std::array<double, 2>> Contacts::pulls(std::span<const ContactCandid
   return result;
 }
 
-/// Finds approaches that do not count as impacts: a gap that opens with the acceleration a and closes at v
-/// narrows by only v^2 / (2 a). If that is within the rounding of a gap, there is no impact. A corner level
-/// with the face on which a disc rolls is an example.
+/// Finds approaches that do not count as impacts. A gap that closes at v and opens with the acceleration a
+/// narrows by only v^2 / (2 a). If that is within the rounding of a gap, there is no impact. An example is a
+/// corner level with the face on which a disc rolls.
 void Contacts::find_grazes(std::vector<ContactCandidate>& touches) {
   const std::vector<Twist<double>> now = accelerations();
   for (ContactCandidate& touch : touches) {
@@ -257,7 +258,7 @@ void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
         pull[static_cast<std::size_t>(place - before.begin())][static_cast<std::size_t>(point)];
     if (!(drawn > 0)) return e;
     // A bounce takes 2 v / a, the next one e times as long; the series has this limit. Its impulses add up to
-    // those of a contact that begins now, within the same time.
+    // those that a persistent contact would exert from now on, within the same time.
     const double left = 2 * e * speed / (drawn * (1 - e)), height = e * e * speed * speed / (2 * drawn);
     if (left > kLeftToBounce * own_time && height > kLowestBounce * near_) return e;
     ends = true;
@@ -271,8 +272,8 @@ void Contacts::resolve_impacts(std::vector<ContactCandidate>& touches) {
   if (ends) count(ContactEvent::Rest, limit);
 }
 
-/// Decides which points with zero gap rate have forces, by Coulomb's law for the accelerations, and which
-/// motors at their speed hold it.
+/// Decides by Coulomb's law for the accelerations which points with zero gap rate have forces, and which
+/// motors at their speed maintain it.
 Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   const double now = smooth_.time();
   const std::span<const double> y = smooth_.state().value();
@@ -295,7 +296,7 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   }
   if (p.problem.size() > 0 &&
       std::none_of(p.problem.response.begin(), p.problem.response.end(), [](double x) { return x != 0; }))
-    p.problem.rate.assign(p.problem.size(), 0.0);  // no part of it can move
+    p.problem.rate.assign(p.problem.size(), 0.0);  // no row can move
   CoulombSolution solution = solve(p.problem, brakes);
   while (solution.solved && start_sliding(touches, p, solution)) solution = solve(p.problem, brakes);
   if (!solution.solved) {
@@ -314,8 +315,8 @@ Contacts::Decision Contacts::decide(std::vector<ContactCandidate>& touches) {
   return resolve_zeno_contacts(touches) ? Decision::Again : Decision::Done;
 }
 
-/// Sets the kinetic friction of patches that begin to slip, which may be less than the static friction that
-/// they have overcome. Returns true if there were any.
+/// Sets the kinetic friction of patches that begin to slip. It may be less than the static friction that they
+/// have overcome. Returns true if any patch begins to slip.
 bool Contacts::start_sliding(std::span<const ContactCandidate> touches, TouchProblem& p,
                              const CoulombSolution& solution) {
   bool any = false;
@@ -330,8 +331,8 @@ bool Contacts::start_sliding(std::span<const ContactCandidate> touches, TouchPro
   return any;
 }
 
-/// Beside far stronger motors other forces would lose their digits: reduce the motors' bounds as long as
-/// weaker motors suffice.
+/// Solves the problem with motors that are not far stronger than the other forces, which would otherwise lose
+/// their digits: reduces the motors' bounds as long as weaker motors suffice.
 CoulombSolution Contacts::solve(CoulombProblem& problem, std::span<const Brake> brakes) {
   constexpr double kStronger = 1e3;
   if (brakes.empty()) return solve_coulomb(problem);
@@ -414,8 +415,8 @@ void Contacts::activate(std::span<const ContactCandidate> touches, const TouchPr
   equations_.hold_contacts(std::move(patches));
 }
 
-/// Closes points that open but would return at once, as with corners that touch alternately. Returns true if
-/// there were any.
+/// Closes points that open but would touch again at once, as do corners that touch alternately. Returns true
+/// if there were any.
 bool Contacts::resolve_zeno_contacts(std::vector<ContactCandidate>& touches) {
   const double own_time = finder_.scale_of_length() / finder_.scale_of_speed();
   const auto opens = [](const ContactCandidate& touch, int i) {

@@ -21,11 +21,10 @@
 
 namespace plumb::precise {
 
-/// Contacts of `Precise`, and limits and motors of joints. Between events the persistent ones are constraints
-/// of the equations of motion; at events they are determined anew.
-/// `stop` locates the first event of the last step and cuts the step there.
-/// `settle` resolves impacts, and finds the contact modes (push, stick, slip or open) by a complementarity
-/// problem in the accelerations.
+/// Contacts of `Precise`, and limits and motors of joints. Between events, persistent ones are constraints of
+/// the equations of motion; each event determines them anew. `stop` locates the first event of the last step
+/// and cuts the step there. `settle` resolves impacts, and finds the contact modes (push, stick, slip or
+/// open) by a complementarity problem in the accelerations.
 class Contacts {
  public:
   Contacts(const Scene& scene, const Parts& parts, const Flight& flight, EquationsOfMotion& equations,
@@ -38,7 +37,8 @@ class Contacts {
   /// length. For bodies placed from outside.
   void refuse_overlaps(double share);
 
-  /// Handles the event at the motion's time; also after jumps of forces and changes from outside.
+  /// Handles the event at the time of the motion. Also call it after forces jump and after changes from
+  /// outside.
   void settle();
   bool settled() const { return settled_; }
   /// Determines the contact modes anew, for a reason that is not an event of the motion.
@@ -48,16 +48,15 @@ class Contacts {
     record_.met.reset();
   }
 
-  /// Lets go of all contacts, limits and motors: after bodies were changed from outside, closing joints would
-  /// otherwise draw them back to where they touched before.
+  /// Releases all contacts, limits and motors. Call it after bodies were changed from outside: closing joints
+  /// would otherwise draw the bodies back to where they touched before.
   void let_go();
 
-  /// Cuts the last step at its first event, and is then unsettled.
+  /// Cuts the last step at its first event, after which `settle` is needed.
   void stop();
 
-  /// A function that is zero where a step ended, and whose zero depends on the state and on parameters: the
-  /// gap of a feature of two shapes or its rate, the gap of a limit, or a monitored quantity of a persistent
-  /// contact.
+  /// A function of the state and of parameters that is zero where a step ended: the gap of a feature of two
+  /// shapes or its rate, the gap of a limit, or a monitored quantity of a persistent contact.
   struct Guard {
     enum class Kind { Gap, Rate, Limit, Quantity };
     Kind kind = Kind::Gap;
@@ -74,21 +73,22 @@ class Contacts {
     std::optional<Guard> guard;             ///< of the event at which the step ended
     std::optional<OutlinePair> met;         ///< shapes that met there; their features are among `touches`
     std::vector<ContactCandidate> touches;  ///< before the impacts
-    bool impacts = false;                   ///< some of them closed
+    bool impacts = false;                   ///< some touches were closing
     bool rests = false;                     ///< a Zeno cascade was brought to its limit
-    bool paradox = false;                   ///< Painleve's paradox: an impulse that is not of an impact
+    bool paradox = false;                   ///< Painleve's paradox: an impulse other than that of an impact
     std::int64_t struck = 0;                ///< number of impacts that were resolved
   };
   const Record& record() const { return record_; }
   double near() const { return near_; }  ///< m: gaps below it count as touching
   bool holds(const OutlinePair& pair) const { return std::binary_search(held_.begin(), held_.end(), pair); }
 
-  /// The same events with another scene of the same structure (contact_stop.cpp). `follow` copies which
-  /// contacts and stops are held, and their modes; shapes and coefficients are those of this scene.
+  /// Copies the held contacts and stops, with their modes, from a run of another scene of the same structure;
+  /// shapes and coefficients stay those of this scene. The functions below then follow the same events
+  /// (contact_stop.cpp).
   void follow(const Contacts& other);
   /// Returns the value of a guard: m, m/s for a rate, or the unit of the monitored quantity.
   double guard_value(const Guard& guard, double time, std::span<const double> y);
-  /// Returns the guards of held limits, forces and slips, whose zeros end their modes.
+  /// Returns the guards of held limits, forces and slips: where one is zero, a mode ends.
   std::vector<Guard> guards_of_modes() const;
   /// Resolves the impacts of `touches` at another state y: the same features, by this scene's coefficients.
   void impacts_at(double time, std::vector<ContactCandidate> touches, Compensated& y);
@@ -107,14 +107,14 @@ class Contacts {
     Quantity quantity{};
     std::size_t patch = 0;
     int point = 0;
-    Feature feature{};  // of a height: the corner that comes down
+    Feature feature{};  // of a height: the other corner
     std::size_t stop = 0;
   };
   struct Event {
     double time = 0;
     Quantity quantity{};
     std::optional<OutlinePair> meet;                      // shapes that come into contact
-    std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and the corner that comes down
+    std::optional<std::pair<std::size_t, Feature>> down;  // a held patch, and a corner that reaches its edge
     std::optional<std::size_t> limit;                     // of a joint, when reached
     Monitored monitored{};                                // if a monitored quantity changed sign
   };

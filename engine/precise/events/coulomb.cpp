@@ -53,22 +53,22 @@ class Pivoting {
     const int p = problem_.patch_of[point];
     return problem_.patches[p].friction * scale_[point] / scale_[n_ + p];
   }
-  /// Returns the tangential force per unit normal force, before s.
+  /// Returns the tangential force per unit normal force, at s = 0.
   double drawn(std::size_t point) const {
     const int p = problem_.patch_of[point];
     if (place_[p] >= 0) return -cone(point);
     return -problem_.patches[p].slip * cone(point);
   }
 
-  /// Returns m0 in scaled forces; `set`: the tangential force without any normal force, before s.
+  /// Returns m0 in scaled forces. `set` returns the tangential force at zero normal force and s = 0.
   double bound(std::size_t patch) const { return problem_.patches[patch].bound / scale_[n_ + patch]; }
   double set(std::size_t patch) const {
     return place_[patch] >= 0 ? -bound(patch) : -problem_.patches[patch].slip * bound(patch);
   }
 
-  /// Solves the same problem with tau = p - m, its parts p, m >= 0, and the slip's magnitude g as unknowns
-  /// (M. Anitescu, F. A. Potra, Nonlinear Dynamics 14, 1997). This has one more unknown per patch, but is
-  /// copositive: Lemke's method reaches a solution if all patches may stick, for any cone width.
+  /// Solves the same problem with other unknowns: tau = p - m with parts p, m >= 0, and the slip's magnitude
+  /// g (M. Anitescu, F. A. Potra, Nonlinear Dynamics 14, 1997). This has one more unknown per patch, but is
+  /// copositive: Lemke's method reaches a solution if all patches may stick, for any width of the cone.
   CoulombSolution solve_split() {
     const std::size_t f = free_.size(), size = n_ + 3 * f;
     std::vector<double> matrix(size * size, 0.0), q(size, 0.0);
@@ -171,7 +171,7 @@ class Pivoting {
           matrix_[(n_ + f + k) * size + j] = 2 * cone(j);
       }
     }
-    // With wide cones s is as large as they are: scale s and its row by their width.
+    // With wide cones s grows in proportion to their width: scale s and its row by it.
     wide_.assign(f, 1.0);
     for (std::size_t k = 0; k < f; ++k) {
       for (std::size_t j = 0; j < n_; ++j) {

@@ -6,13 +6,14 @@
 namespace plumb {
 
 /// Contact points with Coulomb friction as one complementarity problem: at the level of accelerations
-/// (forces) or of velocities (impulses). With lambda the normal forces, tau the tangential ones and a, b the
+/// (forces) or of velocities (impulses). With lambda the normal forces, tau the tangential ones, and a, b the
 /// resulting normal and tangential rates,
-///   a >= 0,  lambda >= 0,  a lambda = 0,
-///   |tau| <= m = m0 + mu sum of lambda;  b > 0 only with tau = -m, b < 0 only with tau = +m.
-/// Points of the same two shapes on one tangent line form one patch with one tangential force: its
-/// distribution among them changes nothing. A patch without points is a force of bounded size, such as a
-/// motor's or a brake's. A point of a patch without friction is a force that pushes, such as a limit's.
+///     a >= 0,  lambda >= 0,  a lambda = 0,
+///     |tau| <= m = m0 + mu sum of lambda;  b > 0 only with tau = -m, b < 0 only with tau = +m.
+/// Points of the same two shapes on one tangent line form one patch with one tangential force, because its
+/// distribution among them changes nothing. A patch without points is a force of bounded size, such as that
+/// of a motor or a brake. A point of a patch without friction is a force that only pushes, such as that of a
+/// limit.
 struct CoulombProblem {
   struct Patch {
     double friction = 0;  ///< Coulomb's coefficient
@@ -36,7 +37,8 @@ struct CoulombSolution {
   std::vector<double> rate;   ///< by row: with the forces
   std::vector<char> pushes;   ///< by point: a = 0 determines its force, which may be zero
   std::vector<int> mode;      ///< by patch: 0 sticks, +1 and -1 slips in that direction
-  bool ambiguous = false;     ///< a slipping point's own response is negative: more solutions may exist
+  bool ambiguous = false;     ///< a slipping point responds to its own force in the wrong direction: several
+                              ///< solutions may exist
 };
 
 /// Solves by Lemke's method (`solve_complementarity`), in quantities scaled by the response of each row.

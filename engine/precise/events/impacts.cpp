@@ -13,7 +13,8 @@ namespace plumb::precise {
 namespace {
 
 /// Maximum number of impacts resolved one after the other. An endless sequence shrinks like a geometric
-/// series: approach that remains is rounding, and is resolved together, with restitution only where it is 1.
+/// series. After this many, the remaining approach is rounding and is resolved at once, with restitution only
+/// where it is 1.
 constexpr std::int64_t kMostInSequence = 20000;
 
 double fastest(const ContactCandidate& touch) {
@@ -97,7 +98,7 @@ void ImpactLaw::strike(double time, const std::function<bool(std::size_t, int)>&
     second += solution.force[i] * (solution.rate[i] - p.problem.rate[i]) / 2;
   }
   if (first + second > 0 && second > 0) {
-    assert(first < 0);  // an approach: the impulses brake at first
+    assert(first < 0);  // the touch approaches, so the impulses first reduce the energy
     for (double& impulse : solution.force) impulse *= -first / second;
   }
   apply(p.response, solution.force, touches, states, y);
@@ -109,7 +110,7 @@ void ImpactLaw::strike_point(double time, std::size_t struck, std::span<ContactC
   const auto part = [&](std::size_t t, int point) { return t == struck && closes_at(touch, point); };
   TouchProblem p = TouchProblem::of(touches, part, {}, equations_, time, y.value());
   const std::size_t n = p.problem.points(), size = n + 1;
-  // Shares of the points in the normal impulse: as in the impulse that stops them all.
+  // Fraction of the normal impulse at each point: the same as for the impulse that stops all points.
   std::vector<double> share(n, 1);
   for (std::size_t i = 0; i < n; ++i) p.problem.rate.push_back(touch.closing[p.index_of[i]]);
   p.problem.rate.push_back(touch.slip);
@@ -138,7 +139,7 @@ void ImpactLaw::strike_point(double time, std::size_t struck, std::span<ContactC
     throw Error(Error::Kind::Run, subject(touch), "effective mass", "infinite",
                 "an impact meets what joints and other contacts hold everything fast: nothing can give way");
   }
-  // Without a response along the tangent there is no slip, and nothing couples to it.
+  // Without a response along the tangent there is no slip, and nothing couples to the tangent.
   if (!(point.tangent_response > 0))
     point.tangent_response = 1, point.cross_response = 0, c.friction = c.later_friction = 0;
   const ContactImpulse along =
@@ -186,8 +187,8 @@ std::int64_t ImpactLaw::resolve(double time, std::vector<ContactCandidate>& touc
       continue;
     }
     // Corners of one shape that approach together are one impact. If one of them opens, the corners are
-    // resolved in turn, until neither approaches: the limit of corners that touch at slightly different
-    // times.
+    // resolved alternately until neither approaches: this is the limit for corners that touch at slightly
+    // different times.
     const ContactCandidate& struck = touches[worst];
     bool both = true;
     for (int i = 0; i < struck.count; ++i) both = both && closes_at(struck, i);
@@ -214,7 +215,7 @@ bool ImpactLaw::jamb(double time, std::vector<ContactCandidate>& touches, std::s
       std::vector<double> w;
       equations_.respond(time, y.value(), {touch.rows[i].normal, touch.rows[i].tangent}, r, w);
       const double own =
-          w[0] - way * touch.sliding_friction * w[1];  // the gap's rate by a normal impulse with its friction
+          w[0] - way * touch.sliding_friction * w[1];  // the gap's rate per normal impulse with its friction
       if (own / w[0] >= least) continue;
       least = own / w[0];
       worst = t, worst_point = i, worst_way = way;

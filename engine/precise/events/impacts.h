@@ -34,15 +34,16 @@ struct TouchProblem {
 
 /// Impacts at an instant: Newton's restitution and Coulomb's friction for impulses. For a touch with gap
 /// rates u before and u' after,
-///   u' >= -e u if it approaches, u' >= 0 otherwise;  impulses push, and only where equality holds;
-///   tangential impulses oppose the remaining slip, or stop it within Coulomb's cone. Two corners of one
-///   shape that approach an edge of another together are one problem. If only one of them approaches, they
-///   are resolved alternately until neither does: such impacts shrink like a geometric series, and end at its
-///   limit. Simultaneous touches are a sequence, the fastest first, until none approaches, or one problem
-///   (`ContactRules::simultaneous`). Limits of joints that are reached take part in every impact as joints
-///   do, but only push, and have no restitution. With another law of impact (`ContactRules::impact`) each
-///   pair is one point: for two corners that approach together, the centre of the impulse that would stop
-///   both. Joints take part; reached limits are resolved in turn.
+///     u' >= -e u if it approaches, u' >= 0 otherwise;  impulses push, and only where equality holds;
+/// tangential impulses oppose the remaining slip, or stop it within Coulomb's cone. Two corners of one shape
+/// that approach an edge of another together are one problem. If only one of them approaches, they are
+/// resolved alternately until neither does: such impacts shrink like a geometric series, and end at its
+/// limit. Simultaneous touches are resolved in sequence, the fastest first, until none approaches, or as one
+/// problem (`ContactRules::simultaneous`). Reached limits of joints take part in every impact as joints do,
+/// but only push, and have no restitution.
+/// With another law of impact (`ContactRules::impact`) each pair is one point: for two corners that approach
+/// together, the point of application of the impulse that would stop both. Joints take part; reached limits
+/// are resolved in turn.
 class ImpactLaw {
  public:
   ImpactLaw(const TouchFinder& finder, EquationsOfMotion& equations)
@@ -56,9 +57,9 @@ class ImpactLaw {
   std::int64_t resolve(double time, std::vector<ContactCandidate>& touches, std::span<BodyState> states,
                        Compensated& y, const Restitution& restitution);
 
-  /// Painleve's paradox: a slipping touch that no finite force holds. A jamming impulse stops its slip while
-  /// it pushes, then sticks (or slips back) until the gap's rate is zero again. Returns true if one was
-  /// found.
+  /// Resolves Painleve's paradox: a slipping touch that no finite force holds. An impulse stops the slip
+  /// while it pushes, then sticks (or slips back) until the gap's rate is zero again. Returns true if such a
+  /// touch was found.
   bool jamb(double time, std::vector<ContactCandidate>& touches, std::span<BodyState> states, Compensated& y);
 
  private:

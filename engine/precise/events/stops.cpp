@@ -6,9 +6,9 @@
 namespace plumb::precise {
 namespace {
 
-/// Excess over its bound at which a force counts as an event, as a fraction of the largest force.
+/// A force counts as an event if it exceeds its bound by this fraction of the largest force.
 constexpr double kExcessNoise = 3e-11;
-/// Fraction of the scene's speed: rounding of a rate.
+/// Rates below this fraction of the scene's speed are rounding.
 constexpr double kQuiet = 1e-12;
 /// Fraction of the scene's length, or of a radian: smaller gaps count as zero.
 constexpr double kNear = 1e-13;
@@ -40,7 +40,7 @@ void Stops::find(double time, std::span<const double> y, const TouchFinder& find
   }
 }
 
-/// Returns the speed that a motor lacks.
+/// Returns by how much a motor's speed falls short of its target.
 double Stops::lacking(std::size_t k, double time, std::span<const Twist<double>> twists) const {
   return stop(k).speed_at(time).value - rate_along(rows_[k], twists);
 }
@@ -125,7 +125,7 @@ Stops::Approach Stops::approach(std::size_t limit, double time, std::span<const 
   return {row.residual, rate_along(row, equations_.twists())};
 }
 
-/// Returns a time from `time` on during which a limit is certainly not reached.
+/// Returns a duration from `time` on during which a limit is certainly not reached.
 double Stops::safe_step(std::size_t k, const Approach& now, const StepMotionBounds& paths, double time,
                         double until) const {
   const GeneralJoints::Stop& s = stop(k);
@@ -166,7 +166,7 @@ std::optional<double> Stops::first_time(std::size_t k, const StepMotionBounds& p
   };
   double time = start;
   Approach now = look(time);
-  // If the limit is reached at the start, and opening or about to: start when it is open.
+  // If the limit is reached at the start and opens, or is about to, begin at the time when it is open.
   const double deepest = std::min(now.gap, 0.0) - tolerance(k);
   for (double share = 1e-8; now.gap + tolerance(k) <= there && time < until; share *= 4) {
     time = std::min(start + share * h, until);

@@ -14,9 +14,9 @@
 
 namespace plumb::precise {
 
-/// Limits and motors of joints. They take part in the decisions about contacts. A limit that is reached is a
-/// touch without friction and restitution, and a constraint for as long as it pushes. A motor is a constraint
-/// at its speed for as long as its force suffices (a `Brake`), and a constant force otherwise.
+/// Limits and motors of joints. They take part in the decisions about contacts. A reached limit is a touch
+/// without friction and restitution, and a constraint for as long as it pushes. A motor is a constraint at
+/// its speed for as long as its force suffices (a `Brake`), and a constant force otherwise.
 class Stops {
  public:
   Stops(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);
@@ -28,8 +28,8 @@ class Stops {
   void find(double time, std::span<const double> y, const TouchFinder& finder,
             std::span<const BodyState> states, std::vector<ContactCandidate>& touches);
 
-  /// After impacts: updates the rows, including those of `touches`. Motors off their speed push from now on;
-  /// returns those at their speed.
+  /// Updates the rows after impacts, including those of `touches`. Motors that are not at their speed push
+  /// from now on; returns those at their speed.
   std::vector<Brake> push(double time, std::span<const double> y, std::span<const BodyState> states,
                           std::vector<ContactCandidate>& touches);
 
@@ -38,14 +38,14 @@ class Stops {
     return stop(brake.stop).speed_at(time).first;
   }
 
-  /// Set the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now on;
-  /// `force` is the largest of their forces.
+  /// Sets the decided modes of limits and of brakes (0 holds, +1 and -1 yields in that direction) from now
+  /// on; `force` is the largest of their forces.
   void hold(std::size_t limit);
   void take(const Brake& brake, int mode);
   void act(double force);
 
-  /// Returns the monitored values: gaps of free limits, force margins of held stops, the speed that motors
-  /// lack. Negative, beyond the tolerance, is an event.
+  /// Returns the monitored values: gaps of free limits, force margins of held stops, speeds that motors lack.
+  /// A value below minus the tolerance is an event.
   double tolerance(std::size_t stop) const;
   void evaluate(double time, std::span<const double> y, std::span<double> values);
   std::size_t count() const { return modes_.size(); }
@@ -71,7 +71,8 @@ class Stops {
   };
   Approach approach(std::size_t limit, double time, std::span<const double> y);
 
-  /// Frees limits and motors: after bodies were changed from outside, nothing holds until it is decided anew.
+  /// Releases limits and motors. Call it after bodies were changed from outside: nothing is held until it is
+  /// decided anew.
   void let_go();
 
   /// Takes over the modes of another scene's stops, of the same structure.

@@ -7,7 +7,8 @@ namespace plumb::precise {
 double falling_restitution(double restitution, double speed, double yield_speed, double exponent) {
   if (yield_speed <= 0 || speed <= yield_speed) return restitution;
   const double ratio = yield_speed / speed;
-  // Two square roots are rounded correctly on every platform; the library's power function is not.
+  // Square roots are rounded correctly on every platform, so two of them are used; the library's power
+  // function is not.
   return restitution * (exponent == 0.25 ? std::sqrt(std::sqrt(ratio)) : std::pow(ratio, exponent));
 }
 

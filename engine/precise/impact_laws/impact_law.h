@@ -1,7 +1,7 @@
 #pragma once
 
-/// Laws of one impact at one contact point, in closed form, a file each. A law uses only the rates of gap and
-/// slip and their response to unit impulses, so it holds for any shapes and joints.
+/// Laws of one impact at one contact point, in closed form, one per file. A law uses only the rates of gap
+/// and slip and their response to unit impulses, so it holds for any shapes and joints.
 namespace plumb::precise {
 
 /// A contact point in an impact. Rates are those before it.
@@ -14,9 +14,9 @@ struct ImpactPoint {
 };
 
 struct ImpactCoefficients {
-  double restitution = 0;             ///< 0..1; each law has its own definition
-  double friction = 0;                ///< Coulomb's coefficient of the slip that the impact begins with
-  double later_friction = 0;          ///< after that slip has stopped: of sticking and of reversed slip
+  double restitution = 0;     ///< 0..1; each law has its own definition
+  double friction = 0;        ///< Coulomb's coefficient for the slip with which the impact begins
+  double later_friction = 0;  ///< coefficient after that slip has stopped, for sticking and reversed slip
   double tangential_restitution = 0;  ///< 0..1, see `with_tangential_restitution`
 };
 
@@ -25,8 +25,8 @@ struct ContactImpulse {
   double tangential = 0;  ///< N s
 };
 
-/// Applies Newton's law: the gap opens at `restitution` times the rate at which it closed; friction obeys
-/// Coulomb's law for the impulses and the slip that is left. With friction it may gain energy, because the
+/// Applies Newton's law: the gap opens at `restitution` times the rate at which it closed. Friction obeys
+/// Coulomb's law for the impulses and the final slip. With friction the impact may gain energy, because the
 /// opening rate is prescribed whatever friction does (Kane and Levinson 1985). `later_friction` is not used.
 ContactImpulse newton_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
 
@@ -40,13 +40,14 @@ ContactImpulse poisson_impulse(const ImpactPoint& point, const ImpactCoefficient
 ContactImpulse stronge_impulse(const ImpactPoint& point, const ImpactCoefficients& coefficients);
 
 /// Returns the coefficient of restitution at an impact of `speed`: `restitution` up to `yield_speed`, beyond
-/// that restitution (speed / yield_speed)^-exponent. Exponent 1/4: a body that yields plastically (Johnson,
-/// Contact Mechanics (1985), 11.5). Speeds in m/s; with a `yield_speed` of 0 it is constant.
+/// that restitution (speed / yield_speed)^-exponent. An exponent of 1/4 describes a body that yields
+/// plastically (Johnson, Contact Mechanics (1985), 11.5). Speeds in m/s; with a `yield_speed` of 0 it is
+/// constant.
 double falling_restitution(double restitution, double speed, double yield_speed, double exponent = 0.25);
 
-/// Restores a part of the slip that friction has stopped: adds the tangential impulse that leaves a slip of
-/// -tangential_restitution times the initial one, as far as friction holds, the gap does not close again and
-/// the whole impact has lost energy. Does nothing if the contact slips at the end.
+/// Restores a part of the slip that friction has stopped. Adds the tangential impulse that leaves a slip of
+/// -tangential_restitution times the initial one, limited such that friction holds, the gap does not close
+/// again and the whole impact loses energy. Does nothing if the contact slips at the end.
 ContactImpulse with_tangential_restitution(const ImpactPoint& point, const ImpactCoefficients& coefficients,
                                            const ContactImpulse& impulse);
 

@@ -20,7 +20,7 @@ ContactImpulse newton_impulse(const ImpactPoint& point, const ImpactCoefficients
     const ContactImpulse slipping{wanted / (nn + share * nt), share * wanted / (nn + share * nt)};
     if (slipping.normal >= 0 && direction * slip_after(point, slipping) >= 0) return slipping;
   }
-  return stuck;  // reached by rounding at the edge of the cone alone
+  return stuck;  // at the edge of the cone: reached by rounding only
 }
 
 }  // namespace plumb::precise

@@ -13,8 +13,8 @@ SlipPath::SlipPath(const ImpactPoint& point, const ImpactCoefficients& c) : star
   bend_ = 0;
   if (point.slip != 0)
     bend_ = way * slowing < 0 ? -point.slip / slowing : std::numeric_limits<double>::infinity();
-  // Sticking needs this fraction of the normal impulse; if friction cannot provide it, the contact slips
-  // back.
+  // Sticking needs this fraction of the normal impulse as a tangential one. If friction cannot provide it,
+  // the contact slips back.
   const double sticking = -point.cross_response / point.tangent_response;
   second_share_ = std::clamp(sticking, -c.later_friction, c.later_friction);
   first_slope_ = point.normal_response + first_share_ * point.cross_response;
@@ -30,7 +30,7 @@ ContactImpulse SlipPath::impulse(double p) const {
 }
 
 double SlipPath::compression() const {
-  // A slope that is not positive is the jamming of Painleve's paradox. The slip then stops, because the
+  // With a slope that is not positive the contact jams (Painleve's paradox). The slip then stops, because the
   // responses are those of a mass matrix, and the second slope is positive.
   if (first_slope_ > 0 && -start_ <= first_slope_ * bend_) return -start_ / first_slope_;
   return bend_ - closing(bend_) / second_slope_;

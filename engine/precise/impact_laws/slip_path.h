@@ -5,8 +5,8 @@
 namespace plumb::precise {
 
 /// The course of an impact along its growing normal impulse p, by Routh's method: gap rate and slip are
-/// linear in p, with at most one bend, at which the initial slip has stopped. After it the contact sticks, or
-/// slips in the other direction, until the end.
+/// linear in p, with at most one bend, at which the initial slip has stopped. After the bend the contact
+/// sticks, or slips in the other direction, until the end.
 class SlipPath {
  public:
   SlipPath(const ImpactPoint& point, const ImpactCoefficients& coefficients);
@@ -27,7 +27,7 @@ class SlipPath {
  private:
   double start_;                       ///< m/s, gap rate at p = 0
   double first_slope_, second_slope_;  ///< 1/kg, of the gap rate before and after the bend
-  double first_share_, second_share_;  ///< tangential impulse a normal one
+  double first_share_, second_share_;  ///< tangential impulse per normal impulse
   double bend_;
 };
 

@@ -6,7 +6,7 @@
 namespace plumb::precise {
 namespace {
 
-/// Slip at the end, as a fraction of that before, below which the contact counts as stopped: rounding.
+/// Fraction of the initial slip below which the final slip counts as zero, up to rounding.
 constexpr double kStopped = 1e-9;
 
 }  // namespace
@@ -19,8 +19,8 @@ ContactImpulse with_tangential_restitution(const ImpactPoint& point, const Impac
   double more = c.tangential_restitution * std::abs(point.slip) / point.tangent_response;
   const double cone = std::max(c.friction, c.later_friction) * impulse.normal;
   more = std::min(more, std::max(0.0, cone - way * impulse.tangential));
-  // Without slip the addition costs the energy tangent_response more^2 / 2, which must not exceed the energy
-  // lost so far.
+  // From zero slip, the added impulse costs the energy tangent_response more^2 / 2, which must not exceed the
+  // energy lost so far.
   const double lost = std::max(0.0, -energy_change(point, impulse));
   more = std::min(more, std::sqrt(2 * lost / point.tangent_response));
   const double opening = closing_after(point, impulse), change = way * point.cross_response;

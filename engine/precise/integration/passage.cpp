@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Independent fraction of a row below which it counts as dependent, because the branches are that close
-/// together there. The expected motion comes nearer than that when it passes a crossing.
+/// Independent fraction of a row below which it counts as dependent, because the branches are too close to
+/// distinguish. An expected motion that passes a crossing comes closer than that.
 constexpr double kLost = 1e-7;
-/// Allowed gap of a linkage at a crossing, in roundings of the scene's extent. If it is wider, the branches
-/// do not meet: they approach and turn away, fast but smoothly.
+/// Allowed gap of a linkage at a crossing, in roundings of the scene's extent. If the gap is wider, the
+/// branches do not meet: they approach each other and turn away, fast but smoothly.
 constexpr double kRoundings = 16;
 /// Number of samples along the expected motion.
 constexpr int kLooks = 24;
@@ -50,7 +50,7 @@ std::span<const double> Passage::expected(double time) {
   return at_;
 }
 
-/// Returns a measure proportional to the distance from a crossing: rows weaken with its square.
+/// Returns a measure proportional to the distance from a crossing: the weakness of rows is its square.
 double Passage::strength(double time) { return std::sqrt(equations_.weakness(time, expected(time))); }
 
 /// Minimises by golden-section search, to a millionth of the interval.
@@ -80,7 +80,8 @@ std::optional<Passage::Crossing> Passage::crossing(double from, double to) {
     times[1] = times[2], values[1] = values[2];
     times[2] = from + (to - from) * k / kLooks;
     values[2] = strength(times[2]);
-    // The lowest sample is next to the minimum, except for a minimum between the first two.
+    // A sample that is not larger than its neighbours is next to a minimum. A minimum between the first two
+    // samples has only one neighbour.
     const bool low = k == 1 ? values[1] <= values[2] : values[1] <= values[2] && values[1] <= values[0];
     if (!low) continue;
     const double time = least_between(times[0], times[2]);

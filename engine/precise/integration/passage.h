@@ -10,14 +10,12 @@
 
 namespace plumb::precise {
 
-/// A closed linkage that passes a kinematic singularity, where joints' rows become dependent (a four-bar that
-/// lies in one line) and two branches of its manifold cross. The motion along its own branch is smooth there,
-/// but the equations of motion are not: off the manifold by d, at a distance s from the crossing,
-/// accelerations are off by d / s. As a flow this is
-///   dy/dt = f(P(y)),
-/// f the equations of motion and P the nearest point on the branch, which is as smooth as the branch itself:
-/// a step with stages on both sides of the crossing keeps its order. The motion so far selects the branch: P
-/// starts from its extrapolated polynomial.
+/// Passes a closed linkage through a kinematic singularity, where joints' rows become dependent (a four-bar
+/// that lies in one line) and two branches of its manifold cross. The motion along its own branch is smooth
+/// there, but the equations of motion are not: at a distance d off the manifold, and s from the crossing,
+/// accelerations have errors of d / s. So this flow is dy/dt = f(P(y)), with f the equations of motion and P
+/// the nearest point on the branch. It is as smooth as the branch: a step with stages on both sides of the
+/// crossing keeps its order. The motion so far selects the branch: P starts from its extrapolated polynomial.
 class Passage final : public Flow {
  public:
   explicit Passage(EquationsOfMotion& equations);
@@ -28,7 +26,7 @@ class Passage final : public Flow {
   void expect(double time, std::span<const double> y, std::span<const double> rate);
 
   /// Finds the next crossing on the expected motion, after `from` and up to `to`. The branches meet (`meets`)
-  /// unless lengths differ by more than rounding: then they approach, and turn away from each other.
+  /// unless lengths differ by more than rounding: then they approach each other and turn away.
   struct Crossing {
     double time = 0;
     bool meets = true;
@@ -45,7 +43,7 @@ class Passage final : public Flow {
 
   EquationsOfMotion& equations_;
   StepPolynomial path_;
-  double start_ = 0, length_ = 1;  // s, of the path
+  double start_ = 0, length_ = 1;  // s, along the path
   std::vector<double> base_, at_, place_;
 };
 

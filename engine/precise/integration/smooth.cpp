@@ -13,12 +13,12 @@
 namespace plumb::precise {
 namespace {
 
-/// Longest step, in the time that the scene's accelerations take over its length: nothing else bounds it when
-/// all bodies are at rest.
+/// Longest step, in units of the time in which the scene's accelerations cross its length: nothing else
+/// limits the step when all bodies are at rest.
 constexpr double kLongestStep = 1e6;
-/// After a jump, the longest step as a multiple of a first step.
+/// Longest step after a jump, as a multiple of the first step.
 constexpr double kAfterJump = 1000;
-/// Error of a step whose stages did not converge: the next try is a fifth as long.
+/// Error reported for a step whose stages did not converge: the next attempt is a fifth as long.
 constexpr double kNotFound = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -55,7 +55,7 @@ EventFreeIntegrator::EventFreeIntegrator(const Scene& scene, const Parts& parts,
 
 /// Makes the end of the last step the start of the next.
 void EventFreeIntegrator::begin() {
-  equations_.set_window(time_, time_);  // forces switched on now stay on to the end of the step
+  equations_.set_window(time_, time_);  // forces that are switched on now act until the end of the step
   const bool switched = std::binary_search(switches_.begin(), switches_.end(), time_);
   if (rate_known_ && !switched) {
     now().method.advance();
@@ -114,7 +114,7 @@ double EventFreeIntegrator::step(double limit) {
   }
 }
 
-/// Under constant forces alone a step is a parabola of any length, with constant accelerations.
+/// Steps to `end` under constant forces alone: a parabola of any length, with constant accelerations.
 void EventFreeIntegrator::fly(double end) {
   const double h = end - start_;
   const std::span<const double> rate = rate_at_start();
@@ -136,8 +136,8 @@ void EventFreeIntegrator::fly(double end) {
   polynomial_known_ = rate_known_ = true;
 }
 
-/// Returns the error of a step to `end`; up to 1 it may be accepted. `again`: first step, or after a failed
-/// one.
+/// Returns the error of a step to `end`; up to 1 it may be accepted. `again` is true for a first step and
+/// after a failed one.
 double EventFreeIntegrator::try_step(double end, bool again) {
   const double h = end - start_;
   if (!stiff_) {
@@ -161,8 +161,8 @@ void EventFreeIntegrator::accept(double h, double error) {
   if (method_ == MotionMethod::Automatic && !equations_.holds_anything()) watch_stiffness();
 }
 
-/// Returns the end of the proposed step, or of equal parts of the time to `limit`, which avoids a short last
-/// step.
+/// Returns the end of the next step. If the proposed step does not reach `limit`, divides the time to `limit`
+/// into equal parts, which avoids a short last step.
 double EventFreeIntegrator::end_of_step(double limit) const {
   const double left = limit - start_;
   const double parts = std::ceil(left / proposed_step_);
@@ -247,7 +247,7 @@ void EventFreeIntegrator::at(double time, bool project_too, Compensated& out) {
   }
   if (!project_too && !was_in_angles()) return;
   if (last_near_) {
-    // The error of weak rows by rounding would exceed the polynomial's own error.
+    // Rounding in weak rows would cause a larger error than the polynomial itself.
     constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
     const double tolerance = kSteps * tolerance_;
     equations_.hold_only_above(std::min(kRounding / tolerance, 0.1), tolerance * scales_.length);

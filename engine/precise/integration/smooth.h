@@ -24,19 +24,19 @@
 
 namespace plumb::precise {
 
-/// Integrates the integrated bodies between events: steps whose error meets the tolerance, and the state at
-/// any time within the last one. The caller handles events: it makes a step, locates events inside it, and
-/// ends it at one by `cut`; after a jump it must call `restart`.
+/// Integrates the integrated bodies between events, in steps whose error meets the tolerance, and gives the
+/// state at any time within the last step. The caller handles events: it makes a step, locates events inside
+/// it, and ends it at one by `cut`; after a jump it must call `restart`.
 class EventFreeIntegrator {
  public:
   EventFreeIntegrator(const Scene& scene, const Parts& parts, const Precise& precise,
                       EquationsOfMotion& equations);
 
   double time() const { return time_; }                ///< s: end of the last step
-  const Compensated& state() const { return y_; }      ///< at that time, joints closed
+  const Compensated& state() const { return y_; }      ///< the state at `time()`, joints closed
   std::size_t dimension() const { return y_.size(); }  ///< 0: nothing is integrated
 
-  /// Returns true if only constant forces act until the next event: steps are then parabolas.
+  /// Returns true if only constant forces act until the next event, so that steps are parabolas.
   bool flies() const { return ballistic_ && !equations_.holds_anything(); }
 
   /// Makes one step that meets the tolerance, from `time` to at most `limit` (may be infinite) and to at most
@@ -53,15 +53,16 @@ class EventFreeIntegrator {
   const Compensated& state_at_start() const { return y0_; }
 
   /// Returns the polynomial over the last step, relative to `state_at_start`, with s = (t - start) / (time -
-  /// start). Of order 7; computed on the first call after a step. If shapes may touch or limits of joints be
-  /// reached, it covers all coordinates.
+  /// start). It is of order 7 and is computed on the first call after a step. It covers all coordinates if
+  /// shapes may touch or limits of joints may be reached.
   const StepPolynomial& polynomial();
 
   /// Computes the state at a time within the last step, by its polynomial. `project` closes the joints there
   /// too.
   void at(double time, bool project, Compensated& out);
 
-  /// Ends the last step at `time`, within it, as a step of its own: with the method's own order.
+  /// Makes the last step end at `time`, within it: repeats it with that length, so that it keeps the order of
+  /// the method.
   void cut(double time);
 
   /// Goes back to a time within the last step and discards the motion beyond it.
@@ -78,13 +79,13 @@ class EventFreeIntegrator {
   std::int64_t implicit_steps() const { return implicit_steps_; }
   /// Returns the number of steps over a kinematic singularity.
   std::int64_t leaps() const { return leaps_; }
-  /// Returns the joints with rows that follow from others at the start.
+  /// Returns the joints that have redundant rows at the start.
   const std::vector<std::string>& redundant_joints() const { return redundant_joints_; }
 
   /// Throws `Error` (Run) that names the body whose motion changes fastest.
   [[noreturn]] void throw_step_underflow() const;
 
-  /// Saves all data on which later steps and states from `sampled` on depend.
+  /// Saves all data on which later steps depend, and states from the time `sampled` on.
   void save(double sampled, SnapshotWriter& out);
   void restore(SnapshotReader& in);
 
@@ -112,7 +113,7 @@ class EventFreeIntegrator {
 
   void begin();
   void fly(double end);
-  // Near kinematic singularities of closed linkages (smooth_passage.cpp).
+  // These are for steps near kinematic singularities of closed linkages (smooth_passage.cpp).
   bool is_near_crossing();
   void expect_passage();
   void look_at_rows();
@@ -135,8 +136,8 @@ class EventFreeIntegrator {
   void project(double time, Compensated& y);
 
   /// Number of steps whose errors together equal `Precise::tolerance`. Errors add up over thousands of steps
-  /// and grow along chaotic motion; a method of order 8 needs 2.4 times as many steps for these three
-  /// additional digits.
+  /// and grow along chaotic motion. The three additional digits cost 2.4 times as many steps of a method of
+  /// order 8.
   static constexpr double kSteps = 1000;
 
   const double tolerance_;
@@ -158,7 +159,7 @@ class EventFreeIntegrator {
   StepControl control_;
   bool stiff_ = false, last_implicit_ = false;  // the next step is implicit; the last one was
   bool jumped_ = false;                         // since the last step
-  bool last_flew_ = false;                      // the last step was a parabola
+  bool last_flew_ = false;                      // the last step was a ballistic parabola
   int signs_of_stiffness_ = 0, steps_without_ = 0;
   double start_ = 0, time_ = 0;
   Compensated y0_, y_;                                  // at the start and end of the last step
@@ -169,10 +170,10 @@ class EventFreeIntegrator {
     int dependent = 0;
   };
   Rank rank_at_start_;         // of the joints' rows, at the start of the next step
-  double weakest_before_ = 1;  // and of the last one
+  double weakest_before_ = 1;  // `weakest` at the start of the last step
   bool near_ = false;          // the next step is near a kinematic singularity
-  bool last_near_ = false;     // the last one was
-  bool expects_ = false;       // the step before provides its expected passage
+  bool last_near_ = false;     // the last step was near one
+  bool expects_ = false;       // the last step gave the expected passage
   std::int64_t rejected_ = 0, implicit_steps_ = 0, leaps_ = 0;
 };
 

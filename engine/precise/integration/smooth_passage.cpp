@@ -7,44 +7,47 @@
 #include "engine/precise/integration/smooth.h"
 #include "engine/scene/error.h"
 
-// Steps of closed linkages near kinematic singularities, and across these.
+// Steps of closed linkages near kinematic singularities, and across them.
 namespace plumb::precise {
 namespace {
 
-/// Distance in steps above which a crossing is ignored. At tolerances finer than kNearAt steps may stay small
-/// beside it: the steps that see the singularity off the branch shorten in proportion to the distance, and
-/// steps limited by rounding (divided by the strength of a weak row) in proportion to the tolerance. So the
-/// distance grows as the tolerance falls. Otherwise steps would never come near the crossing, and end by
+/// A crossing farther away than kNear steps is ignored. At tolerances finer than kNearAt this distance grows
+/// as the tolerance falls, because steps beside a crossing may be small. Steps that see the singularity off
+/// the branch shorten in proportion to the distance, and steps limited by rounding (divided by the strength
+/// of a weak row) in proportion to the tolerance. They would never come near the crossing, and would
 /// underflow.
 constexpr double kNear = 5, kNearAt = 1e-9;
-/// Independent fraction of the weakest row below which rows count as weak: some 0.3 rad from a crossing.
-/// Above it steps are not affected by a crossing, and with a greater distance other motions would count as an
+/// Rows count as weak if the independent fraction of the weakest row is below this: about 0.3 rad from a
+/// crossing. Crossings do not affect steps farther away, and a larger value would treat other motions as an
 /// approach.
 constexpr double kWeak = 0.1;
-/// Look-ahead in steps: a step that ends before a crossing leaves room for the one across it.
+/// Look-ahead, in steps: a step that ends before a crossing leaves room for the step across it.
 constexpr double kAhead = 2.2;
-/// Positions of the crossing within a step across it, as fractions of the step, in order of preference: far
-/// from the method's stages, which rounding spoils near it. kSoon: for steps that start close to one.
+/// Position of the crossing within the step across it, as a fraction of the step, in order of preference: far
+/// from the method's stages, which suffer from rounding near the crossing. kSoon is for steps that start
+/// close to a crossing.
 constexpr double kBetween[] = {0.465, 0.45, 0.48, 0.43, 0.5, 0.4, 0.55, 0.715, 0.7, 0.15, 0.16};
 constexpr double kSoon[] = {0.15, 0.16, 0.14, 0.225, 0.065, 0.03, 0.02, 0.465, 0.43, 0.5};
-/// Distances to a crossing, in steps. Within kPass the step goes across it, and within kClose by kSoon's
-/// positions. Farther off it ends before it: by half a step, or beyond kFar by at least half of kFar.
+/// Distances to a crossing, in steps. Within kPass a step goes across it, and within kClose it uses kSoon's
+/// positions. From farther away a step ends before the crossing: half a step before it, or beyond kFar at
+/// least kFar / 2 steps before it.
 constexpr double kFar = 1.1, kPass = 0.75, kClose = 0.3;
-/// The shortest and the longest step across a crossing, in steps.
+/// Shortest and longest step across a crossing, as multiples of the proposed step.
 constexpr double kShortestOver = 0.2, kLongestOver = 2.5;
-/// Error bound of steps near crossings, in their units: the motion so far selects the branch, so it must be
-/// accurate.
+/// Error bound of steps near crossings, as a fraction of the scene's length or speed, or of one radian: the
+/// motion so far selects the branch, so it must be accurate.
 constexpr double kTight = 1e-11;
-/// Error bound of a step across a crossing, in tolerances, if rounding allows no less.
+/// Error bound of a step across a crossing, in tolerances, where rounding prevents a smaller error.
 constexpr double kLoose = 1;
-/// Steps shorter than this fraction of the time that the scene's accelerations take over its length give up.
+/// Steps give up if they are shorter than this fraction of the time in which the scene's accelerations cross
+/// its length.
 constexpr double kShortest = 1e-5;
 
 }  // namespace
 
-/// Returns true if the linkage approaches or leaves a singularity: extrapolated, the strength of its weakest
-/// row would reach zero within a few steps. It is proportional to the distance from there. The last step is
-/// from `start_` to `time_`.
+/// Returns true if the linkage approaches or leaves a singularity: the strength of its weakest row, which is
+/// proportional to the distance from the singularity, would reach zero within a few steps if extrapolated.
+/// The last step is from `start_` to `time_`.
 bool EventFreeIntegrator::is_near_crossing() {
   if (!equations_.has_loops() || stiff_ || method_ == MotionMethod::Symplectic || equations_.holds_anything())
     return false;
@@ -56,7 +59,7 @@ bool EventFreeIntegrator::is_near_crossing() {
   return now * h < std::abs(now - before) * steps * std::max(proposed_step_, h);
 }
 
-/// Extrapolates, before a step, the expected motion from the motion so far.
+/// Extrapolates the motion so far to the expected motion of the next step.
 void EventFreeIntegrator::expect_passage() {
   const bool near = is_near_crossing();
   if (near && !near_) {
@@ -71,7 +74,8 @@ void EventFreeIntegrator::expect_passage() {
   passage_.expect(path, start_, time_, y0_.value());
 }
 
-/// Uses the rows themselves if there was no last step.
+/// Decides from the rows themselves whether the next step is near a singularity. For use if there was no last
+/// step.
 void EventFreeIntegrator::look_at_rows() {
   if (!equations_.has_loops() || near_ || stiff_ || method_ == MotionMethod::Symplectic ||
       equations_.holds_anything())
@@ -99,7 +103,7 @@ double EventFreeIntegrator::step_near_crossing(double limit) {
       error = try_near_crossing(std::min(end, limit));
       if (error <= strict) return accept_near_crossing(error / strict);
       h = (std::min(end, limit) - start_) * control_.after_rejection(error / strict);
-      if (!crossing) proposed_step_ = std::min(proposed_step_, h);  // later steps are no longer than this one
+      if (!crossing) proposed_step_ = std::min(proposed_step_, h);  // later steps must not be longer
     } else {
       const std::span<const double> places = left > kClose * h ? std::span<const double>(kBetween) : kSoon;
       double best = loose, best_end = 0;
@@ -116,7 +120,7 @@ double EventFreeIntegrator::step_near_crossing(double limit) {
         ++leaps_;
         return accept_near_crossing(std::min(error / strict, 1.0));
       }
-      if (limit < start_ + left / 0.55) {  // another event comes first
+      if (limit < start_ + left / 0.55) {  // another event comes before the step's end
         error = try_near_crossing(limit);
         if (error <= loose) return accept_near_crossing(std::min(error / strict, 1.0));
       }
@@ -136,8 +140,8 @@ double EventFreeIntegrator::accept_near_crossing(double error) {
   return time_;
 }
 
-/// Returns the error of a step to `end`, without the part that joints do not allow, which is removed there.
-/// Leaves y at that end.
+/// Tries a step to `end` and returns its error, without the part that violates the joints, because the
+/// projection removes that part. Leaves y at `end`.
 double EventFreeIntegrator::try_near_crossing(double end) {
   const double h = end - start_;
   constexpr double kRefused = std::numeric_limits<double>::infinity();
@@ -153,13 +157,13 @@ double EventFreeIntegrator::try_near_crossing(double end) {
   for (std::size_t i = 0; i < raw.size(); ++i) raw[i] += all_.method.increment()[i];
   try {
     take_increment(end);
-  } catch (const Error&) {  // cannot be projected from so far
+  } catch (const Error&) {  // too far from the joints' manifold to be projected
     return kRefused;
   }
   equations_.keep_allowed(fifth);
   equations_.keep_allowed(third);
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    // Beyond the tolerance, the projection may have reached another branch.
+    // If the projection moves the state by more than the tolerance, it may have reached another branch.
     if (i % EquationsOfMotion::kPerBody < 3 &&
         !(std::abs(y_[i] - raw[i]) <= kSteps * std::max(1.0, kTight / tolerance_) * all_.error_scale[i]))
       return kRefused;

@@ -8,18 +8,18 @@
 #include "engine/precise/integration/smooth.h"
 #include "engine/scene/error.h"
 
-// Scales of the errors, and the first step derived from them.
+// Scales of the errors, and the first step that follows from them.
 namespace plumb::precise {
 namespace {
 
-/// If only angles are integrated, errors of positions and velocities are not checked: the bound on angles is
-/// reduced to this fraction instead.
+/// If only angles are integrated, errors of positions and velocities are not checked: instead, the bound on
+/// angles is reduced to this fraction.
 constexpr double kAngles = 0.5;
 
 }  // namespace
 
-/// Sets the unit of the error by component: the tolerance times the scene's length and speed, a body's own
-/// speed if that is more, and one radian.
+/// Sets the unit of the error by component: the tolerance times the scene's length and speed (or a body's own
+/// speed if that is larger), and times one radian.
 void EventFreeIntegrator::set_error_scale() {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = EquationsOfMotion::state(y_.value(), slot);
@@ -44,7 +44,7 @@ double EventFreeIntegrator::first_step() const {
   for (std::size_t i = 0; i < rate.size(); ++i) {
     fastest = std::max(fastest, std::abs(rate[i]) * (tolerance_ / now().error_scale[i]));
   }
-  const double eighth = std::sqrt(std::sqrt(std::sqrt(tolerance_)));  // the method's error goes with h^8
+  const double eighth = std::sqrt(std::sqrt(std::sqrt(tolerance_)));  // the error is proportional to h^8
   return fastest > 0 ? std::min(std::max(0.1, eighth) / fastest, longest_step_) : longest_step_;
 }
 

@@ -7,8 +7,8 @@
 namespace plumb::precise {
 
 void EventFreeIntegrator::save(double sampled, SnapshotWriter& out) {
-  // A flight may also be read before its last step, if an impact was slightly later than located: the
-  // difference is a step of its own, with the same parabola.
+  // A flight may be read at a time before its last step, if the impact was slightly later than first located.
+  // The difference is a step of its own on the same parabola.
   const bool within = sampled < time_ && sampled != start_ && y_.size() > 0;
   const bool goes_by_it = equations_.has_loops() && start_ < time_ && y_.size() > 0;
   const bool with_polynomial = (within || goes_by_it) && method_ != MotionMethod::Symplectic;

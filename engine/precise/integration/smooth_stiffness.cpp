@@ -12,7 +12,7 @@ namespace plumb::precise {
 /// Switches to the implicit method when only stability limits the steps. Switches back when steps are so
 /// short that the explicit method could make them as well.
 void EventFreeIntegrator::watch_stiffness() {
-  constexpr double kStable = 6.1;  // stability limit of DOP853, in step length times rate
+  constexpr double kStable = 6.1;  // stability limit of DOP853 for step length times rate
   constexpr int kSigns = 15, kPause = 6, kLookEvery = 10;
   const double h = time_ - start_;
   if (!stiff_) {
@@ -30,7 +30,7 @@ void EventFreeIntegrator::watch_stiffness() {
     if (h * fastest_rate() > kStable / 2) return;
   }
   stiff_ = !stiff_;
-  if (!hanging_.empty()) rate_known_ = false;  // of the other coordinates
+  if (!hanging_.empty()) rate_known_ = false;  // the known rate is of other coordinates
   signs_of_stiffness_ = steps_without_ = 0;
   control_.reset();
   implicit_.forget();

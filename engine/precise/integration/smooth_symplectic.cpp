@@ -17,7 +17,8 @@ double EventFreeIntegrator::symplectic_step(double limit) {
   return end;
 }
 
-/// Finds a step length that meets the tolerance from here on: the error is the difference to two half steps.
+/// Finds a step length that meets the tolerance from here on. The error is the difference between one step
+/// and two half steps.
 double EventFreeIntegrator::longest_symplectic_step() {
   constexpr double kFewest = 1e-12;
   const auto fits = [&](double h) {
@@ -33,7 +34,7 @@ double EventFreeIntegrator::longest_symplectic_step() {
   const auto meets = [&](double h) {
     try {
       return fits(h);
-    } catch (const Error&) {  // joints do not close over so long a step
+    } catch (const Error&) {  // the joints cannot be closed after so long a step
       return false;
     }
   };

@@ -42,10 +42,10 @@ ForceBlock& StiffMotion::block(int on, int by) {
   return blocks_.back();
 }
 
-/// Adds joint forces with constant multipliers as laws of force. A revolute joint pushes with f at r_b and -f
-/// at r_a: the torques r x f change by -r . f as r turns. The force l u of a distance joint also turns with
-/// its direction u. With s = (-u_y, u_x) across it and p = (s, r x s) the anchors' motion across it, the
-/// change is l / d times p p^T.
+/// Adds joint forces with constant multipliers as laws of force. A revolute joint pushes with f at r_b and
+/// with -f at r_a: the torques r x f change by -r . f as r turns. The force l u of a distance joint also
+/// turns with its direction u. With s = (-u_y, u_x), perpendicular to it, and p = (s, r x s), the anchors'
+/// motion along s, the change is l / d times p p^T.
 void StiffMotion::add_tension() {
   const std::span<const double> multipliers = equations_.multipliers();
   const std::span<const Pose<double>> poses = equations_.poses();
@@ -100,8 +100,8 @@ bool StiffMotion::order_is_known() const {
   return true;
 }
 
-/// Orders bodies breadth first from one with few neighbours (E. Cuthill, J. McKee 1969), each followed by the
-/// rows that it shares with later ones.
+/// Orders bodies breadth first from one with few neighbours (E. Cuthill, J. McKee 1969). Each body is
+/// followed by the rows that it shares with later ones.
 void StiffMotion::find_order() {
   const std::size_t bodies = inverse_mass_.size();
   std::vector<std::vector<int>> neighbours(bodies), rows_of(bodies);
@@ -156,7 +156,7 @@ void StiffMotion::find_order() {
     }
   }
   for (std::size_t& row : row_place_) {
-    if (row == kNowhere) row = place++;  // between bodies that do not move
+    if (row == kNowhere) row = place++;  // a row between bodies that do not move
   }
   for (System& system : systems_) system.stages = 0;
 }
@@ -249,7 +249,8 @@ void StiffMotion::solve(Use use, std::span<double> x) {
   const double h = system.h;
   std::vector<double>& g = system.right_side;
   std::fill(g.begin(), g.end(), 0.0);
-  // Change of positions by the accelerations on the right side: u_j = r_q,j + h sum_k a_jk r_v,k.
+  // Change of positions that follows from the accelerations on the right side: u_j = r_q,j + h sum_k a_jk
+  // r_v,k.
   moved_.resize(stages * n);
   const auto move = [&] {
     for (int j = 0; j < stages; ++j) {

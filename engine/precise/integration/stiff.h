@@ -16,10 +16,10 @@ namespace plumb::precise {
 
 /// The equations of motion for an implicit method. With force derivatives K = dF/dq, D = dF/dv, a change of
 /// the stages' accelerations x_i obeys
-///   M x_i - sum_k (h^2 (A A)_ik K + h a_ik D) x_k - J^T mu_i = g_i,   J x_i = 0,
-/// one banded system for all stages, bodies and rows, with neighbours in the mechanism next to each other:
-/// its cost is linear in the length of a chain. K includes the geometric stiffness of joint forces, as their
-/// levers turn; the curvature of the joints' paths is left to Newton's iterations.
+///     M x_i - sum_k (h^2 (A A)_ik K + h a_ik D) x_k - J^T mu_i = g_i,   J x_i = 0,
+/// one banded system for all stages, bodies and rows. Neighbours in the mechanism are next to each other in
+/// it, so its cost is linear in the length of a chain. K includes the geometric stiffness of joint forces,
+/// whose lever arms turn; the curvature of the joints' paths is left to Newton's iterations.
 class StiffMotion final : public StiffFlow {
  public:
   StiffMotion(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);

@@ -10,7 +10,7 @@
 namespace plumb::precise {
 namespace {
 
-/// Lengths of the stages: kGamma, kMiddle, and kGamma backwards.
+/// Lengths of the stages, as fractions of the step: kGamma, then kMiddle, then kGamma in reverse.
 constexpr int kHalf = 8;
 constexpr double kGamma[kHalf] = {0.13020248308889008087881763,  0.56116298177510838456196441,
                                   -0.38947496264484728640807860, 0.15884190655515560089621075,
@@ -36,9 +36,9 @@ void SymplecticMotion::step(double time, double h, Compensated& y) {
   for (int i = kHalf; i-- > 0;) go(kGamma[i]);
 }
 
-/// Makes one RATTLE step: changes velocities by half the accelerations, moves with the joint impulses that
-/// close the joints at the end, then adds the other half with the impulses that keep them closed. Starts with
-/// the accelerations and the Jacobian at y, and ends with those at the new y.
+/// Makes one RATTLE step. Changes velocities by half the accelerations, moves with the joint impulses that
+/// close the joints at the end, then adds the other half with the impulses that keep the joints closed.
+/// Starts with the accelerations and the Jacobian at y, and ends with those at the new y.
 void SymplecticMotion::stage(double time, double h, Compensated& y) {
   kick(0.5 * h, acceleration_, y);
   drift(time, h, y);
@@ -49,7 +49,7 @@ void SymplecticMotion::stage(double time, double h, Compensated& y) {
   kick(1, push_, y);
 }
 
-/// Sets q += h v, then q += M^-1 J^T lambda with J of the start until C(q) = 0, and corrects v accordingly.
+/// Sets q += h v, then q += M^-1 J^T lambda with J at the start until C(q) = 0, and corrects v accordingly.
 void SymplecticMotion::drift(double time, double h, Compensated& y) {
   constexpr int kMost = 50;
   const std::span<const std::size_t> bodies = equations_.bodies();

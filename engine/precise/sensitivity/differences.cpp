@@ -10,14 +10,15 @@ namespace {
 /// Fraction of the derivative by which differences of two widths may disagree before a function counts as
 /// kinked. A kink gives a disagreement of the order of one, smooth functions of the fourth power of the step.
 constexpr double kKink = 1e-5;
-/// Times that the step of a difference along a state is reduced to stay on one side of a kink nearby.
+/// Number of times that the step of a difference along a state is reduced so that it stays on one side of a
+/// nearby kink.
 constexpr int kReductions = 4;
 constexpr double kReduction = 0.1;
 
 }  // namespace
 
-/// Derives a function of the scene's own laws along a direction from `from`. `values_` keeps what it found.
-/// Returns the fraction of the direction that one step is.
+/// Derives a function of the scene's own laws along a direction, at `from`. Keeps the function's values in
+/// `values_`. Returns one step as a fraction of the direction.
 double Sensitivities::derive_by_state(const Function& function, const Point& from, const Direction& along,
                                       std::span<double> out, double step) {
   std::fill(out.begin(), out.end(), 0.0);
@@ -48,8 +49,8 @@ void Sensitivities::derive_by_parameter(std::size_t parameter, const Function& f
 }
 
 /// Derives a function along a direction and by a parameter together, at the current state. Returns false if
-/// the function has a kink there: second differences of two widths then do not have the ratio of four that
-/// those of a smooth function have.
+/// the function has a kink there. For a smooth function, second differences of two widths have a ratio of
+/// four; at a kink they have not.
 bool Sensitivities::derive(std::size_t parameter, const Function& function, const Direction& along,
                            std::span<const double> scale, std::span<double> out) {
   middle_.resize(out.size());

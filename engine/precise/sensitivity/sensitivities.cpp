@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
-/// Error of a step of the variational equations, relative to the derivatives' size: not below the rounding
-/// of their differences.
+/// Limits on the error of a step of the variational equations, relative to the derivatives' size. The lower
+/// one is the rounding of their differences.
 constexpr double kLeastTolerance = 1e-11, kMostTolerance = 1e-9;
 /// Number of impacts at one instant that count as a cascade.
 constexpr std::int64_t kCascade = 100;
-/// Largest difference between the shifts of the times of two impacts at one instant for which the parameter
-/// shifts them together, in units of the scene's own time over the parameter's scale.
+/// The parameter shifts two impacts at one instant together if the shifts of their times differ by less than
+/// this, in units of the scene's own time over the parameter's scale.
 constexpr double kTogether = 1e-7;
-/// Distance of zeros of two guards in the scene's own time that counts as one instant: events are found to
-/// about 1e-12 of it.
+/// Zeros of two guards count as one instant if they are closer than this fraction of the scene's own time.
+/// Events are located to about 1e-12 of it.
 constexpr double kSameTime = 1e-9;
 constexpr int kMostSteps = 100000;
 
@@ -129,7 +129,7 @@ class Sensitivities::VariationalFlow final : public Flow {
         all_.derive_by_parameter(parameters_[k], law_, from, part_);
         for (std::size_t i = 0; i < n; ++i) change[i] += part_[i];
       }
-      // Positions change with the velocities, under any laws.
+      // The derivative of a position is the velocity, under any laws.
       for (std::size_t i = 0; i < n; ++i) {
         if (i % kPerBody < 3) change[i] = by[i + 3];
       }
@@ -146,7 +146,7 @@ class Sensitivities::VariationalFlow final : public Flow {
 };
 
 /// Integrates the state and the derivatives by `parameters` to `end`, between events. Returns the parameters
-/// whose derivatives are lost on the way, because no step is short enough or they are not finite.
+/// whose derivatives were lost, because no step is short enough or they are not finite.
 std::vector<std::size_t> Sensitivities::integrate(Present& present, std::span<const std::size_t> parameters,
                                                   double end) {
   const std::size_t n = scale_.size();
@@ -245,7 +245,7 @@ void Sensitivities::write(std::size_t body, std::optional<std::size_t> slot, dou
     std::fill_n(by.begin() + static_cast<std::ptrdiff_t>(kPerBody * *slot), kPerBody, 0.0);
 }
 
-/// Returns the guard of an event; nothing if the event has no guard that depends on the motion.
+/// Returns the guard of an event; nullopt if it has none that depends on the motion.
 std::optional<Contacts::Guard> Sensitivities::guard_of(const Contacts::Record& record) const {
   if (!record.met) return record.guard;
   for (const ContactCandidate& touch : record.touches) {
@@ -292,8 +292,8 @@ bool Sensitivities::opens_start(std::size_t j, const Contacts::Record& record) {
   return false;
 }
 
-/// Friction ends slips that a parameter gives to contacts which stick or roll at the start. For infinitesimal
-/// slips this takes no time, and the impulse is the one that ends the slip.
+/// Removes the slips that a parameter gives to contacts which stick or roll at the start. Friction ends an
+/// infinitesimal slip at once, by the impulse that stops it.
 void Sensitivities::stop_slips(std::size_t j) {
   const auto project = [](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
     Compensated state = as_state(y);
@@ -357,8 +357,8 @@ double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::s
   return later;
 }
 
-/// Computes the rate of a guard along the motion, `rate`; returns true if it is uncertain that the motion
-/// reaches the guard's zero: the approach of a gap ends within the rounding of the gap.
+/// Computes the rate of a guard along the motion, `rate`. Returns true if it is uncertain that the guard
+/// reaches zero, because the gap stops closing within its own rounding.
 bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guard,
                            std::span<const double> rate, double& guard_rate) {
   double found[1];
@@ -378,8 +378,8 @@ bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guar
   return !(guard_rate < 0) || guard_rate * guard_rate <= 2 * bend * contacts.near();
 }
 
-/// Returns the other guards that pass through zero together with the event's guard: their modes change at the
-/// same instant, without events of their own.
+/// Returns the other guards that are zero together with the event's guard: their modes change at the same
+/// instant, without events of their own.
 std::vector<Sensitivities::Zero> Sensitivities::zeros_beside(const Contacts::Guard& guard,
                                                              std::span<const double> rate) {
   std::vector<Zero> zeros;

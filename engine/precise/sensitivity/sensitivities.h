@@ -20,41 +20,44 @@
 
 namespace plumb::precise {
 
-/// Forward sensitivities S = dy/dp of a run of `Precise`, carried along beside it.
-///   Between events they obey the variational equations dS/dt = f_y S + f_p, with f the laws of motion with
-/// the contact modes of that time. They are integrated together with the state.
-///   At an event, where a guard g(t, y, p) is zero, the time of the event moves by
-/// t' = -(g_y S + g_p) / (g_t + g_y f-). With the impact R(t, y, p), or the identity where only modes change,
-///   S+ = R_y (S- + f- t') + R_t t' + R_p - f+ t'     (the saltation matrix; Aizerman and Gantmakher 1958).
-///   All derivatives of f, g and R are taken in one way, as a fourth-order difference along a direction. The
-/// functions are those of the engine itself, with modes, features and order of impacts frozen, so they are
-/// smooth, and the differences never cross an event. Hence any number of a scene may be a parameter, and any
-/// law that the engine has has sensitivities. The run itself is not touched: its bits stay the same.
+/// Forward sensitivities S = dy/dp of a run of `Precise`, computed beside it. Between events they obey the
+/// variational equations
+///     dS/dt = f_y S + f_p,
+/// with f the laws of motion with the contact modes of that time. They are integrated together with the
+/// state. At an event, where a guard g(t, y, p) is zero, the time of the event moves by
+///     t' = -(g_y S + g_p) / (g_t + g_y f-).
+/// With the impact R(t, y, p), or the identity where only modes change,
+///     S+ = R_y (S- + f- t') + R_t t' + R_p - f+ t'     (the saltation matrix; Aizerman and Gantmakher 1958).
+/// All derivatives of f, g and R are fourth-order differences along a direction. The functions are those of
+/// the engine itself, with modes, features and order of impacts frozen, so they are smooth, and the
+/// differences never cross an event. Hence any number of a scene may be a parameter, and every law of the
+/// engine has sensitivities. The bits of the run itself do not change.
 class Sensitivities {
  public:
-  /// `scene` has the laws of `variations`' middle.
+  /// `scene` has the laws from which the `variations` differ.
   Sensitivities(const Scene& scene, std::vector<Variation> variations, const Precise& precise);
 
   std::size_t size() const { return names_.size(); }
   double time() const { return now_.time; }
 
-  /// Continues from a state given from outside, `given`, of which the joints are then closed; `closed` is the
-  /// run's state after that.
+  /// Continues from a state that was set from outside: `given` before its joints were closed, `closed` after
+  /// that.
   void start(double time, const Compensated& given, const Compensated& closed);
   /// Continues to `time` without an event; `y` is the run's state there.
   void advance(double time, const Compensated& y);
-  /// Handles the event of the last step: `before` and `after` are the run's states, `contacts` the run's.
+  /// Handles the event of the last step. `before` and `after` are the run's states, `contacts` are its
+  /// contacts.
   void pass_event(const Compensated& before, const Compensated& after, const Contacts& contacts);
   /// Switches forces that change at `time`.
   void switch_forces(double time);
-  /// Sets a body's state from outside: it no longer depends on parameters. `slot` is that of an integrated
-  /// body.
+  /// Handles a state of a body that was set from outside: it no longer depends on parameters. `slot` is that
+  /// of an integrated body.
   void write(std::size_t body, std::optional<std::size_t> slot, double time, const BodyState& state);
   /// Ends all derivatives.
   void fail_all(NoDerivative reason, double time);
 
-  /// Returns d state / d parameter at `time`, from the last `advance` on, by body of the scene: units are
-  /// those of the state over the parameter's. Throws `NotDifferentiable`. Leaves all derivatives as they are.
+  /// Returns d state / d parameter at `time`, which is not before the last `advance`, by body of the scene,
+  /// in units of the state over the parameter's. Throws `NotDifferentiable`. Changes no derivatives.
   std::vector<BodyState> at(std::size_t parameter, double time, std::size_t bodies);
 
   /// Throws `NotDifferentiable` with the recorded reason why the derivative ended, or else with `reason` and
@@ -128,9 +131,9 @@ class Sensitivities {
   Values scale_;         // by component of y: m, rad, m/s, rad/s
   double own_time_ = 1;  // s, the scene's length over its speed
   Present now_;
-  bool started_ = false;  // `start` was called since the last event
+  bool started_ = false;  // `start` was called after the last event
   std::vector<std::optional<Failure>> failures_;
-  std::vector<Values> values_;  // of a function, by place of a difference
+  std::vector<Values> values_;  // of a function, one for each place of a difference
   Values at_, middle_, part_;
 };
 

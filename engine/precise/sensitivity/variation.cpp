@@ -21,7 +21,7 @@ double scale_of(NumberKind kind, double value, double length) {
   return value != 0 ? std::abs(value) : 1;
 }
 
-// Joints measure a rope's length, or an angle at creation, at the start of their bodies, so their laws depend
+// Joints take a rope's length, or an angle at creation, from the start of their bodies, so their laws depend
 // on the start.
 bool is_joined(const Scene& scene, const std::string& body) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {

@@ -51,7 +51,7 @@ class CountingIterator {
   Cursor* cursor_;
 };
 
-/// Returns the first member, in the order of the text, whose key an earlier one has; nullptr if keys are
+/// Returns the first member, in the order of the text, whose key has occurred before; nullptr if keys are
 /// unique.
 const Node* find_duplicate(const Node& object) {
   std::vector<const Node*> sorted;
@@ -80,7 +80,7 @@ std::string explain(std::string message) {
     const std::string expected = std::string("; expected '") + bracket + "'";
     if (message.ends_with(expected)) message.insert(message.size() - 3, "',' or ");
   }
-  // The library quotes all text that it read last, up to megabytes; the expected token follows it.
+  // The library quotes all text that it read last, up to megabytes, and puts the expected token after it.
   constexpr std::size_t kHead = 160, kTail = 80;
   if (message.size() > kHead + kTail) {
     message = printable(message, kHead) + " " + message.substr(message.size() - kTail);
@@ -108,7 +108,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool number_float(number_float_t value, const string_t& text) override {
-    // Whole numbers get here if 64 bits do not hold them.
+    // Whole numbers that 64 bits cannot hold get here.
     Node& node = add(Kind::Number);
     node.number = value, node.beyond_64_bits = text.find_first_of(".eE") == string_t::npos;
     return true;
@@ -163,8 +163,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return *node;
   }
 
-  /// Pointers in `open_` stay valid: an array's items move only when one is added, and none of them is open
-  /// then.
+  /// Pointers in `open_` stay valid. An array moves its items only when one is added, and at that time none
+  /// of them is open.
   bool open(Kind kind) {
     open_.push_back(&add(kind));
     if (open_.size() <= kDeepest) return true;
@@ -185,7 +185,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   int key_line_ = 0;
 };
 
-/// Returns the problem with the bytes themselves, or an empty string. Sets `at` to its position.
+/// Returns the problem if the text contains foreign bytes (a byte order mark, invalid UTF-8), else an empty
+/// string. Sets `at` to its position.
 std::string find_foreign_bytes(std::string_view text, std::size_t& at) {
   at = 0;
   if (text.size() > kLongestText) {

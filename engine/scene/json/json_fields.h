@@ -45,10 +45,12 @@ double integer(const View& view, double lowest, double highest);
 /// Reads 64 bits as a whole number; a negative one stands for its two's complement.
 std::uint64_t bits(const View& view);
 
-/// Returns the index in `names` of the string here; throws `Error` (Name) that suggests the nearest.
+/// Returns the index in `names` of the string here; otherwise throws `Error` (Name) that suggests the nearest
+/// name.
 std::size_t choice(const View& view, std::span<const std::string_view> names);
 
-/// Calls `visit` with a view of each entry of the list here; `problem` is the message if it is none.
+/// Calls `visit` with a view of each entry of the list here. If this is not a list, throws with the message
+/// `problem`.
 template <class Visit>
 void each(const View& view, const char* problem, const Visit& visit) {
   if (view.node().kind != Kind::Array) view.fail(Error::Kind::Syntax, problem);

@@ -31,7 +31,7 @@ std::string entry_subject(const Node& list, const Node& item) {
   return "";
 }
 
-/// Returns true if errors name the whole list, not its entry: a position, not its x.
+/// Returns true if errors name the whole list instead of an entry: a position, not its x.
 bool is_vector(const Node& list) {
   return list.kind == Kind::Array && list.key != "bodies" && list.key != "joints" && list.key != "forces" &&
          list.key != "drives" && list.key != "shapes" && list.key != "points";

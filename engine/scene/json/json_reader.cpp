@@ -26,7 +26,7 @@ namespace {
 using json::Fields;
 using json::View;
 
-/// Names of the things that have fields, for messages.
+/// Names, for messages, of the types that have fields.
 template <class T>
 constexpr std::string_view kThing = "";
 template <>
@@ -56,7 +56,7 @@ class AddKeys {
   Fields::Keys& keys_;
 };
 
-/// Reads a formula: text, or a number in its place.
+/// Reads a formula: text, or a number instead.
 std::string formula(const View& view) {
   if (view.node().kind == json::Kind::Number) {
     const double value = json::number(view);
@@ -69,7 +69,7 @@ std::string formula(const View& view) {
   return text;
 }
 
-/// Reads each field that it visits, if it is there or required.
+/// Reads each field that it visits if the field is present or required.
 class Reader {
  public:
   explicit Reader(const Fields& fields) : fields_(fields) {}
@@ -143,7 +143,8 @@ class Reader {
     read_kind(view, out, out, "force", "", kForceNames);
   }
 
-  /// Reads a part whose "type" names the alternative of `kind`, which is the part or in it.
+  /// Reads a part whose "type" selects the alternative of `kind`. The variant `kind` is the part itself or a
+  /// member of it.
   template <class Part, class... Kinds>
   static void read_kind(const View& view, Part& out, std::variant<Kinds...>& kind, const std::string& noun,
                         const std::string& ending, std::span<const std::string_view> names) {

@@ -36,7 +36,8 @@ class Writer {
   }
   void operator()(std::string_view key, bool value, const FieldRule&) { out_.key(key), out_.boolean(value); }
   void operator()(std::string_view key, Vec2d value, const FieldRule&) { out_.key(key), out_.vector(value); }
-  /// Writes bits as a signed number, so that all of them are -1: readers with doubles would round 2^64 - 1.
+  /// Writes bits as a signed number, so that a mask of all bits is -1: readers with doubles would round 2^64
+  /// - 1.
   void operator()(std::string_view key, std::uint64_t bits, const FieldRule&) {
     out_.key(key), out_.integer(static_cast<std::int64_t>(bits));
   }

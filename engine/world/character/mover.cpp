@@ -12,7 +12,7 @@
 namespace plumb {
 namespace {
 
-// Maximum number of surfaces hit in one move, and of iterations to resolve overlaps: more than corners need.
+// Maximum number of surfaces hit in one move, and of iterations to resolve overlaps. Corners need fewer.
 constexpr int kMostRounds = 16;
 constexpr int kMostPushes = 8;
 
@@ -73,7 +73,7 @@ class Move {
   double dt_, remaining_ = 0;
   Vec2d position_{}, velocity_{};
   std::optional<MoverGround> ground_{};
-  Planes held_{};     // of overlaps that it could not leave
+  Planes held_{};     // overlaps that it could not leave
   Planes touched_{};  // current contacts, for the displacement
   Planes met_{};      // all contacts of the move, for the velocity
   MoverResult result_{};
@@ -87,8 +87,8 @@ Vec2d Move<Real>::velocity_of(const MoverContact& contact) const {
   return world_.velocity_at(contact.body, contact.point) - surface * perpendicular(contact.normal);
 }
 
-// Pushes the mover out of overlaps, the deepest first. Each adds its half plane, and the displacement is the
-// shortest into all of them. If there is no solution, it moves as far as obstacles permit.
+// Pushes the mover out of overlaps, the deepest first. Each overlap adds its half plane, and the displacement
+// is the shortest one into all half planes. If none reaches all of them, moves as far as obstacles permit.
 template <class Real>
 void Move<Real>::push_out() {
   const Vec2d start = position_;
@@ -134,7 +134,7 @@ double Move<Real>::note_hit(const MoverContact& contact, Vec2d velocity) {
   }
   double impulse = 0, gained = 0;
   if (options_.mass > 0 && closing > 0 && world_.type(contact.body) == BodyType::Dynamic) {
-    // Inelastic: both continue at one speed, within the force limit.
+    // The hit is inelastic: both continue at one speed, within the force limit.
     const double lever = cross(contact.point - world_.centre(contact.body), normal);
     const double inertia = world_.inertia(contact.body);
     const double gives = 1 / world_.mass(contact.body) + (inertia > 0 ? lever * lever / inertia : 0);
@@ -150,7 +150,8 @@ void Move<Real>::block(const MoverContact& contact, Vec2d velocity) {
   const double speed = std::min(0.0, note_hit(contact, velocity));
   touched_.add({contact.normal, 0});
   met_.add({contact.normal, speed});
-  // A surface too steep to walk on is not climbed in the air either: it also acts as a vertical wall.
+  // A surface that is too steep to walk on must not be climbed in the air either, so it also acts as a
+  // vertical wall.
   const double rise = dot(contact.normal, senses_.up());
   const Vec2d across = contact.normal - rise * senses_.up();
   if (rise > 0 && !senses_.is_walkable(contact.normal) && length(across) > 0) {
@@ -226,7 +227,7 @@ bool Move<Real>::walk() {
     change_ground({*path.stop, path.stop->normal, false});
     return true;
   }
-  // The mover follows a receding surface at that speed.
+  // If the surface recedes, the mover follows it at that speed.
   const Vec2d ground_velocity = velocity_of(ground_->contact);
   const double surface = note_hit(*path.stop, std::abs(speed) * direction + ground_velocity);
   const double receding = std::max(0.0, dot(path.stop->normal, ground_velocity) - surface);
@@ -235,8 +236,8 @@ bool Move<Real>::walk() {
   return false;
 }
 
-// Climbs a step: tries up, ahead and down again. Goes there if that leads to ground no higher than a step,
-// and returns true.
+// Climbs a step: tries to move up, ahead and down again. If that leads to ground no higher than a step, moves
+// there and returns true.
 template <class Real>
 bool Move<Real>::step_up(double speed) {
   const double whole = remaining_ * std::abs(speed), height = senses_.step_height();
@@ -279,7 +280,7 @@ void Move<Real>::stay_on_ground(double press) {
 }
 
 // Carries the mover with the ground's motion during dt. The contact point moves on a circle about the body's
-// centre, which moves on a line. Everything but the ground's own body stops the mover.
+// centre, which moves on a line. Every other body stops the mover.
 template <class Real>
 void Move<Real>::ride() {
   const MoverContact& contact = ground_->contact;

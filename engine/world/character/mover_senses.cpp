@@ -61,7 +61,7 @@ MoverSenses<Real>::MoverSenses(const BasicWorld<Real>& world, const Capsule& cap
 template <class Real>
 MoverPath MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d displacement,
                                 BodyId except) const {
-  constexpr double kSliding = 1e-9;  // sine of the angle up to which a motion is along a surface, not into it
+  constexpr double kSliding = 1e-9;  // sine of the angle to a surface up to which a motion counts as along it
   const double whole = length(displacement);
   if (!(whole > 0)) return {from, 0, {}};
   const Vec2d direction = (1 / whole) * displacement;
@@ -71,7 +71,7 @@ MoverPath MoverSenses<Real>::go(const QueryShape& shape, Vec2d from, Vec2d displ
     if (hit.body == except) return 1.0;
     MoverContact contact{hit.shape, hit.body, hit.point, hit.normal, skin_};
     if (hit.overlapped) {
-      // The mover is already within the skin: it may move away from the shape or along it.
+      // The mover is already within the skin: it may move only away from the shape or along it.
       const std::optional<MoverContact> near = contact_with(hit.shape, from, displacement);
       if (!near || near->gap < 0) return 1.0;
       contact = *near;
@@ -97,7 +97,7 @@ std::optional<MoverGround> MoverSenses<Real>::find_ground(Vec2d& position, doubl
 template <class Real>
 std::optional<MoverGround> MoverSenses<Real>::ground_at(Vec2d position, const MoverContact& contact) const {
   constexpr double kUpright = 1e-3;
-  constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, are slopes
+  constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, count as slopes
   const double rise = dot(contact.normal, up_);
   if (!(rise > kUpright)) return {};
   // The capsule's round end touches a slope, or the edge of a step. A ray behind the edge distinguishes them.

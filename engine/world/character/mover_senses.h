@@ -30,7 +30,7 @@ struct MoverGround {
   bool edge = false;  ///< edge of a step
 };
 
-/// Queries of a mover's surroundings, from which all its motion is built.
+/// Queries of a mover's surroundings. All its motion is built from them.
 template <class Real>
 class MoverSenses {
  public:
@@ -48,7 +48,7 @@ class MoverSenses {
   MoverPath go(Vec2d from, Vec2d displacement, BodyId except = {}) const {
     return go(with_skin_, from, displacement, except);
   }
-  /// Does the same, but stops only a quarter of a skin before an obstacle: to leave overlaps.
+  /// Does the same, but stops only a quarter of a skin before an obstacle. For leaving overlaps.
   MoverPath squeeze(Vec2d from, Vec2d displacement) const {
     return go(with_quarter_, from, displacement, {});
   }
@@ -62,7 +62,7 @@ class MoverSenses {
   std::optional<MoverContact> deepest(Vec2d position, Vec2d velocity) const;
   /// Returns true if a point is no higher than a step above the ground that a mover at `position` stands on.
   bool is_within_step(Vec2d point, Vec2d position) const {
-    // The mover stands a skin above the ground; a tenth of that is for rounding.
+    // The mover stands a skin above the ground; a tenth of the skin allows for rounding.
     return dot(point - position, up_) - lowest_ <= step_height_ - 0.9 * skin_;
   }
 

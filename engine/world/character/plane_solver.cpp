@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The best point so far: the nearest one inside all half planes or, if none is inside, the one least outside.
+// The best point so far: the nearest one inside all half planes or, if there is none, the one least outside.
 struct Best {
   std::span<const HalfPlane> planes;
   Vec2d wanted;

@@ -14,7 +14,7 @@ struct HalfPlane {
 
 struct PlaneSolution {
   Vec2d point{};
-  bool feasible = true;  ///< false: no point is in all half planes; this is the least outside found
+  bool feasible = true;  ///< false: no point is inside all; this is the one least outside
 };
 
 /// Returns the point inside all half planes that is nearest to `wanted`, exact to rounding and without

@@ -146,7 +146,7 @@ class Drawing {
     Vec2d a{}, b{};
   };
 
-  // Returns a box that contains all that is drawn of a joint: arms from the centres, ropes over pulleys with
+  // Returns a box that contains everything drawn for a joint: arms from the centres, ropes over pulleys with
   // their wheels, and zigzags, which reach a sixteenth of their length to the side.
   Aabb<double> box_of(const Ends& ends, int a, int b, const JointKind& kind) const {
     Aabb<double> box{ends.a, ends.a};
@@ -183,7 +183,7 @@ class Drawing {
       return;
     }
     // Lines from body to anchor, between the anchors, and on to the other body. The centre of a static body
-    // means nothing, so no line starts there.
+    // has no meaning, so no line starts there.
     const auto arm = [&](int body, Vec2d end) {
       const Vec2d middle = centre(body);
       if (w_.bodies[body].type != BodyType::Static && !(middle == end))

@@ -11,21 +11,21 @@
 namespace plumb {
 namespace {
 
-/// Largest number of rows of a spring: along its line, across it, and the levers of its two ends.
+/// Largest number of rows of a spring: along its line, across it, and one for the lever arm at each end.
 constexpr int kRows = 4;
 
-/// Largest number of Newton steps from one start. Nine in ten need at most 10.
+/// Largest number of Newton steps from one starting point. Nine in ten need at most 10.
 constexpr int kIterations = 20;
 /// Shortest fraction of a Newton step that is tried: 2^-8.
 constexpr int kHalvings = 8;
 /// Residual below which Newton's method ends after one more step, as a fraction of the motion.
 constexpr double kFound = 1e-12;
-/// The same, below which the result counts as a solution after the last iteration.
+/// The same, for accepting the result after the last iteration.
 constexpr double kEnough = 1e-9;
 /// Rounding error of a spring's direction, as a fraction of the coordinates of its ends.
 constexpr double kRounding = 1e-15;
-/// Smallest change of energy in a step that is corrected, as a fraction of the energy: far above rounding,
-/// and 1 % in 1e6 steps.
+/// Smallest energy change in a step that is corrected, as a fraction of the energy: far above rounding; in
+/// 1e6 steps such changes add up to 1 %.
 constexpr double kGain = 1e-8;
 /// Largest fraction by which a motion that loses energy is moved away from the reference motion.
 constexpr double kMostAway = 0.5;
@@ -39,7 +39,7 @@ double sinc(double x) { return std::abs(x) < 1e-2 ? 1 - x * x / 6 * (1 - x * x /
 
 double square(double x) { return x * x; }
 
-/// Returns 1 / x, and 0 for x = 0: the inverse mass 0 means that nothing moves.
+/// Returns 1 / x, and 0 for x = 0, because an inverse mass of 0 means that the body does not move.
 double inverse_of(double x) { return x > 0 ? 1 / x : 0; }
 
 double length_of(Vec2d v) { return std::sqrt(length_squared(v)); }
@@ -73,7 +73,8 @@ int ElasticStep::add_body(const Body& body) {
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-/// Sums dt c / m over the springs of each body, and the squares of the motion's rounding error, times M.
+/// Computes two sums over springs: dt c / m for each body, and M times the square of the motion's rounding
+/// error.
 void ElasticStep::find_scales(double dt) {
   damping_.assign(bodies_.size(), 0);
   rounding_ = 0;
@@ -101,9 +102,9 @@ Vec2d ElasticStep::line_after(const Spring& spring) const {
          (bodies_[spring.a].position + a.way + rotation_of(a.turn) * spring.arm_a);
 }
 
-/// Returns the effective damping of a spring over the step, N s/m. With dt c / m = z in sum a fraction 1 / (1
-/// + z + z^2 / 2) of a velocity remains: exp(-z) to second order, and nothing for large z. c itself, applied
-/// to the mean velocity, would reverse the velocity.
+/// Returns the effective damping of a spring over the step, N s/m. With dt c / m = z in sum, the fraction of
+/// a velocity that remains is 1 / (1 + z + z^2 / 2): exp(-z) to second order, and almost nothing for large z.
+/// The coefficient c itself, applied to the mean velocity, would reverse the velocity.
 double ElasticStep::damping_of(const Spring& spring) const {
   const double z = damping_[spring.a] + damping_[spring.b];
   return spring.damping * (4 + 2 * z) / (4 + 2 * z + z * z);
@@ -204,7 +205,7 @@ void ElasticStep::order() {
   ordered_ = connected_;
 }
 
-/// Finds Newton's step from the motion in `moved_`.
+/// Finds the Newton step from the motion in `moved_`.
 void ElasticStep::find_step(double dt) {
   make_rows(dt);
   system_.solve();
@@ -235,7 +236,7 @@ double ElasticStep::newton(double dt) {
   return residual;
 }
 
-/// Returns the residual at which the motion is accurate to a given fraction: computed from M times the
+/// Returns the residual at which the motion is accurate to a given fraction. It is computed from M times the
 /// squares of the free motion and of the motion in `moved_`, plus rounding.
 double ElasticStep::bound(double fraction) const {
   double sum = 0;
@@ -244,8 +245,8 @@ double ElasticStep::bound(double fraction) const {
   return square(fraction) * sum + rounding_;
 }
 
-/// Adds the change of the wrenches by one more Newton step. If the wrenches of a very stiff spring were
-/// computed from the motion alone, their error would be k times its rounding.
+/// Adds the change of the wrenches by one more Newton step. Without it, the wrenches of a very stiff spring
+/// would have an error of k times the rounding of the motion.
 void ElasticStep::refine(double dt) {
   find_step(dt);
   for (const BoundedRow& row : system_.rows) {
@@ -259,8 +260,8 @@ void ElasticStep::solve(double dt) {
   find_scales(dt);
   order();
   double least = std::numeric_limits<double>::infinity();
-  // Starting from rest makes the first step the linearly implicit one. If there are several solutions, it
-  // leads to the one that shorter steps find, too.
+  // A start from rest makes the first Newton step the linearly implicit one. If there are several solutions,
+  // it leads to the one that shorter time steps would find.
   for (const double start : {0.0, 1.0, 0.5}) {
     moved_.clear();
     for (const Motion& free : free_) moved_.push_back({start * free.way, start * free.turn});
@@ -268,7 +269,7 @@ void ElasticStep::solve(double dt) {
     if (std::isfinite(residual) && residual <= bound(kEnough)) return refine(dt);
     if (residual < least) least = residual, best_ = moved_;
   }
-  if (!std::isfinite(least)) return;  // the wrenches are not finite either, and the caller reports this
+  if (!std::isfinite(least)) return;  // the wrenches are not finite either: the caller reports it
   moved_ = best_;
   evaluate(dt);
   hold_energy(dt);
@@ -328,8 +329,8 @@ void ElasticStep::find_gains(double dt) {
 }
 
 /// Corrects the motion of groups so that they conserve energy. The motion is moved towards a reference motion
-/// that does, or away from it if energy was lost, by the smallest sufficient fraction. The reference is the
-/// motion of the group's centre of mass or, if the group is held, no motion.
+/// that conserves energy, or away from it if energy was lost, by the smallest sufficient fraction. The
+/// reference is the motion of the group's centre of mass or, if the group is held, no motion.
 void ElasticStep::hold_energy(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) moved_[i] = moved_by(static_cast<int>(i), dt);
   best_ = moved_;
@@ -359,8 +360,8 @@ void ElasticStep::hold_energy(double dt) {
   }
 }
 
-/// Sets the motion in `moved_` to that in `best_`, moved by the groups' fractions, and computes the energy
-/// gains.
+/// Sets the motion in `moved_` to that in `best_`, moved towards the reference by the groups' fractions, and
+/// computes the energy gains.
 void ElasticStep::draw(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Group& group = groups_[group_of_[i]];

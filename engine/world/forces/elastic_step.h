@@ -11,13 +11,12 @@ namespace plumb {
 
 /// A step of bodies connected by springs, by the energy-conserving method of discrete gradients (Gonzalez,
 /// Journal of Nonlinear Science 6, 1996; Simo, Tarnow and Wong, Computer Methods in Applied Mechanics and
-/// Engineering 100, 1992). With d the vector between the ends of a spring, l its length, 0 and 1 the start
-/// and the end of the step, its pull
-///     k (1 - 2 rest_length / (l0 + l1)) (d0 + d1) / 2
-/// does work equal to its loss of elastic energy exactly, however stiff the spring is and however far its
-/// bodies move or rotate. All springs are solved together, by Newton's method with the restoring parts of the
-/// derivative: along the line, across it, and of the levers. If that does not converge, the motion is moved
-/// towards one that conserves energy.
+/// Engineering 100, 1992). Let d be the vector between the ends of a spring, l its length, and 0 and 1 the
+/// start and the end of the step. Then the pull k (1 - 2 rest_length / (l0 + l1)) (d0 + d1) / 2 does work
+/// equal to its loss of elastic energy exactly, however stiff the spring is and however far its bodies move
+/// or rotate. All springs are solved together, by Newton's method with the restoring parts of the derivative:
+/// along the line, across it, and of the lever arms. If that does not converge, the motion is moved towards
+/// one that conserves energy.
 class ElasticStep {
  public:
   /// A body at the start of the step.
@@ -53,17 +52,17 @@ class ElasticStep {
   };
   /// A spring over the step.
   struct Line {
-    Vec2d arm_a{}, arm_b{};        ///< m, effective arms, for which torques do the work of the pulls
+    Vec2d arm_a{}, arm_b{};        ///< m, effective arms: with them torques do the pulls' work
     Vec2d axis{};                  ///< mean direction, of unit length
     Vec2d pull{};                  ///< N, on a
     double along = 0, across = 0;  ///< N/m, restoring derivative of the pull along the axis and across it
   };
   /// Group of bodies connected by springs. Energies are multiplied by dt^2 / 2, in kg m^2.
   struct Group {
-    Vec2d mass{}, moment{};                 ///< kg along x and y, and times the free motion: kg m
-    bool differs = false;                   ///< its motion is drawn
+    Vec2d mass{}, moment{};                 ///< kg along x and y; these times the free motion, kg m
+    bool differs = false;                   ///< its motion is corrected
     bool held = false;                      ///< one of its bodies is not moved by forces
-    double size = 0;                        ///< energy that there is
+    double size = 0;                        ///< energy at the start
     double gain = 0;                        ///< energy that the motion adds
     double least = 0, most = 1, share = 0;  ///< fraction of the correction, and its bounds during the search
   };

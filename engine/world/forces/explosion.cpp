@@ -8,7 +8,8 @@
 namespace plumb {
 namespace {
 
-// Returns true if another body lies between the centre and the body's point at `way` from it.
+// Returns true if another body lies between the centre of the explosion and the body's point at `way` from
+// it.
 template <class Real>
 bool covered(const BasicWorld<Real>& world, int body, Vec2d centre, Vec2d way, const QueryFilter& cover) {
   QueryFilter filter = cover;

@@ -55,7 +55,7 @@ void apply_water(BasicWorld<Real>& world, const Water& water, double dt, LawOpti
     const BodyMotion<Real>& motion = w.motion[body];
     const Vec2d velocity = motion.velocity.template as<double>();
     const double spin = static_cast<double>(motion.angular_velocity);
-    // At the middle of the step, so that floating bodies bob without gaining energy.
+    // Evaluated at the middle of the step, so that floating bodies bob without gaining energy.
     const Vec2d centre = w.position[body] + (0.5 * dt) * velocity;
     const double height = dot(up, centre) - water.level;
     if (height >= static_cast<double>(w.extents[body])) return {};

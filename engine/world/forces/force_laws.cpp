@@ -31,8 +31,8 @@ LawBody view_of(const WorldData<Real>& w, int body) {
           w.body_data.get(body)};
 }
 
-// Returns weight and applied forces of a body in free flight; zero for a body with constraints, whose forces
-// are not known before the step.
+// Returns the sum of weight and applied forces of a body in free flight. Returns zero for a body with
+// constraints, whose forces are not known before the step.
 template <class Real>
 Wrench<double> known_load(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -157,8 +157,8 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
            static_cast<double>(w.motion[body].inverse_inertia) * turn * turn;
   };
   const double inverse_mass = mobility(body_a, arm_a) + mobility(body_b, arm_b);
-  // spring_tension extrapolates to the middle of the step. The length is shifted so that the bodies'
-  // positions are those at place_share.
+  // spring_tension extrapolates to the middle of the step. The length is shifted such that it then refers to
+  // the bodies' positions at place_share.
   const auto shift = [&](BodyId body, int index, Vec2d end) {
     return (place_share(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
   };

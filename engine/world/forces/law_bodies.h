@@ -69,9 +69,9 @@ void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrenc
 /// Returns the fraction s of a step after which position-dependent forces are evaluated, such that springs
 /// neither gain nor lose energy. Under a constant acceleration a, a step leads to x + dt v + c dt^2 a. In
 /// free flight c = 1/2; for bodies in contact c = (1 + 1/n)/2 with n substeps. With the force at x + s dt v,
-/// phase-space area is conserved for s = 1 - c. With s = 1/2 in contact, a spring of omega dt = 1/6 would
-/// lose three quarters of its energy in ten periods. Assumes that the next step has as many substeps as the
-/// last.
+/// phase-space area is conserved for s = 1 - c. For comparison: with s = 1/2 in contact, a spring of omega dt
+/// = 1/6 would lose three quarters of its energy in ten periods. Assumes that the next step has as many
+/// substeps as the last.
 template <class Real>
 double place_share(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -137,7 +137,7 @@ void apply_to_bodies(WorldData<Real>& w, bool wakes, Law&& wrench_of) {
   add_wrenches(w, list);
 }
 
-/// Returns a drag wrench, scaled down so that it stops the relative motion within `dt` at most. Its power
+/// Returns a drag wrench, scaled down so that it at most stops the relative motion within `dt`: its power
 /// decreases by W M^-1 W dt in the step, and must not change sign. `power` (W) is that of the wrench for the
 /// motion that it opposes.
 template <class Real>
@@ -168,7 +168,7 @@ class LawShape {
   double radius_;
 };
 
-/// Calls `visit(shape)` for the body's shapes that fluids and blasts act on.
+/// Calls `visit(shape)` for those of the body's shapes on which fluids and blasts act.
 template <class Real, class Visit>
 void for_each_solid_shape(const WorldData<Real>& w, int body, Visit&& visit) {
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {

@@ -23,9 +23,9 @@ double decay(double x) {
   return sum;
 }
 
-// Means over a time t, as fractions, with damping c and x = c t: phi_1 = (1 - e^-x) / x for a decaying
-// velocity, and phi_2 = (1 - phi_1) / x for a velocity that grows from 0. Under a constant acceleration a, v'
-// = e^-x v + phi_1 t a and the displacement is t (phi_1 v + phi_2 t a).
+// Means over a time t, as fractions. With damping c and x = c t, phi_1 = (1 - e^-x) / x is that of a decaying
+// velocity, and phi_2 = (1 - phi_1) / x that of a velocity that grows from 0. Under a constant acceleration
+// a, v' = e^-x v + phi_1 t a, and the displacement is t (phi_1 v + phi_2 t a).
 struct DampedMeans {
   double first, second;
 };
@@ -74,8 +74,9 @@ constexpr double share_before(Integrator integrator) {
   return integrator == Integrator::VelocityVerlet ? 0.5 : integrator == Integrator::ExplicitEuler ? 1 : 0;
 }
 
-// Advances a velocity under a constant acceleration and damping. The acceleration alone would add `gain`;
-// damping leaves the fraction `keep` of a velocity; `x` is c times the time. Returns the displacement.
+// Advances a velocity under a constant acceleration and damping. `gain` is the change by the acceleration
+// alone, `keep` the fraction of a velocity that damping leaves, and `x` is c times the time. Returns the
+// displacement.
 template <class Value, class Real>
 Value coast(Value& velocity, Value gain, Real keep, double x, Real time) {
   const Value before = velocity;
@@ -128,20 +129,20 @@ template <class Real, class Visit>
 void for_each_kick(WorldData<Real>& w, const Visit& visit) {
   std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   w.crew.ranges(static_cast<int>(kicks.size()), kBodies, [&](int first, int last) {
-    const Visit own = visit;  // a local copy: no pointer can change it
+    const Visit own = visit;  // a local copy, which no pointer can change
     VelocityIncrement<Real>* const list = kicks.data();
     for (int i = first; i < last; ++i) own(list[i]);
   });
 }
 
-// Returns true if the body at an index of the awake ones moves by substeps.
+// Returns true if a body moves by substeps instead of by one step in free flight.
 template <class Real>
 bool moves_by_substeps(const BodyRecord<Real>& record, Integrator integrator) {
   return integrator != Integrator::VelocityVerlet || record.constraints != 0;
 }
 
-// Counts the bodies that move by substeps in each block, and reserves memory for their increments. Returns
-// the first index of each block.
+// Counts in each block the bodies that move by substeps, and reserves memory for their increments. Returns
+// the index of the first increment of each block.
 template <class Real>
 const int* place_kicks(WorldData<Real>& w, int blocks, Integrator integrator) {
   std::vector<int>& firsts = w.scratch.block_firsts;

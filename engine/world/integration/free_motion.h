@@ -32,12 +32,12 @@ void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator);
 template <class Real>
 void enforce_motion_locks(WorldData<Real>& w);
 
-/// Returns the acceleration of an unconstrained dynamic body by its weight and its load, m/s^2.
+/// Returns the acceleration that weight and load would give a dynamic body without constraints, m/s^2.
 template <class Real>
 Vec2d free_acceleration(const WorldData<Real>& w, int body);
 
-/// Returns the lowest approach speed that bounces in a step of `dt`, m/s: at rest bodies gain |gravity| dt
-/// before a contact acts.
+/// Returns the lowest approach speed that bounces in a step of `dt`, m/s. Bodies at rest gain |gravity| dt
+/// before a contact acts, so it depends on `dt`.
 template <class Real>
 Real bounce_threshold(const WorldData<Real>& w, double dt);
 

@@ -32,17 +32,16 @@ int swept_joints(const WorldData<Real>& w) {
   return w.joint_set.active_count() - w.scratch.trees.hinges;
 }
 
-// Returns true if an island of so many rows is solved directly.
+// Returns true if an island with this number of rows is solved directly.
 constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
 
-// Markers in island_size of an island with joints: solved by iterations, as one system, or as one system if
-// that costs little.
+// Values of island_size that mark an island with joints. It is solved by iterations (kSwept), as one system
+// (kJointed), or as one system if that costs little (kJointedIfCheap).
 constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1, kJointedIfCheap = -2;
 
 constexpr bool is_jointed(int size) { return size == kJointed || size == kJointedIfCheap; }
 
-// Returns true for trees of a few similar hinges without contacts, which iterations hold well and at less
-// cost.
+// Returns true for trees of a few similar hinges without contacts. Iterations hold these well and cost less.
 template <class Real>
 bool left_to_iterations(const WorldData<Real>& w, int body) {
   const Scratch<Real>& s = w.scratch;
@@ -50,8 +49,8 @@ bool left_to_iterations(const WorldData<Real>& w, int body) {
          s.not_a_tree[s.tree_of[body]] == kLeftToIterations;
 }
 
-// Scales the impulses of the joints for which `left` returns true, and of contacts at their bodies: the
-// iterations start from them.
+// Prepares to hand joints over to the iterations: scales the impulses of the joints for which `left` returns
+// true, and those of contacts at their bodies. The iterations start from them.
 template <class Real, class Left>
 void hand_over_joints(WorldData<Real>& w, const Left& left) {
   std::vector<Real>& carry = w.scratch.carry;
@@ -70,8 +69,8 @@ void hand_over_joints(WorldData<Real>& w, const Left& left) {
   });
 }
 
-// Chooses the islands with joints that are solved as one: those of few bounded rows and contacts, those with
-// a large mass ratio, or all with Solver::Direct.
+// Chooses the islands with joints that are solved as one system. These are islands with few bounded rows and
+// contacts, and islands with a large mass ratio; with Solver::Direct all.
 template <class Real>
 void choose_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -84,7 +83,7 @@ void choose_jointed(WorldData<Real>& w) {
     if (!w.is_dynamic(body)) continue;
     const int root = s.island_of[body];
     s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
-    // Along a locked axis a body has infinite mass, of which the iterations of joints know nothing.
+    // A body has infinite mass along a locked axis, which the iterations of joints do not take into account.
     const BodyRecord<Real>& record = w.bodies[body];
     if (record.lock_x || record.lock_y) s.heaviest[root] = std::numeric_limits<Real>::infinity();
   }
@@ -114,8 +113,8 @@ void choose_jointed(WorldData<Real>& w) {
     if (w.is_dynamic(body)) --s.island_joints[s.island_of[body]];
 }
 
-// Includes towers and other slender heaps, however high: with few loops and few contacts on any body the
-// factorisation has linear cost.
+// Includes towers and other slender heaps of any height: if there are few loops, and few contacts on any
+// body, the factorisation has linear cost.
 template <class Real>
 void choose_slender(WorldData<Real>& w) {
   std::vector<int>& room = w.scratch.island_room;
@@ -132,8 +131,8 @@ void choose_slender(WorldData<Real>& w) {
   }
 }
 
-// Finds the islands, by their root body, and an upper bound of the rows of each in `w.scratch.island_size`.
-// Above tuning::kDirectRows an island is solved by iterations alone.
+// Finds the islands, by their root body, and stores an upper bound of the rows of each in
+// `w.scratch.island_size`. Islands with more than tuning::kDirectRows are solved by iterations alone.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.scratch.island_of, w.bodies.size());
@@ -178,7 +177,7 @@ void add_rows(DirectIsland<Real>& island) {
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
-      // Points without impulse that are separated are left to the iterations.
+      // Points that are separated and have no impulse are left to the iterations.
       if (c->normal_impulse[i] == 0 && c->separation[i] > 0) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;
@@ -217,8 +216,8 @@ void fill_islands(WorldData<Real>& w) {
   });
 }
 
-// Orders the rows of new islands with joints. Those that would cost too much are left to the iterations until
-// islands are found again.
+// Orders the rows of new islands with joints. Islands that would cost too much are left to the iterations
+// until islands are searched again.
 template <class Real>
 void order_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -242,7 +241,7 @@ void order_jointed(WorldData<Real>& w) {
   s.islands_chosen = kept > 0 || s.direct_count > 0;
 }
 
-// Hands over the joints that are no longer solved with their island.
+// Hands the joints that are no longer solved with their island over to the iterations.
 template <class Real>
 void hand_over_left(WorldData<Real>& w) {
   hand_over_joints(w, [&](const JointRecord& joint) {

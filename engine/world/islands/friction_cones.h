@@ -5,17 +5,17 @@
 
 #include "engine/world/world_data.h"
 
-/// Friction of the contacts of jointed islands: each point has a row along either edge of its friction cone.
-/// See docs/decisions/jointed-islands.md. For jointed_islands.cpp alone.
+/// Friction of the contacts of jointed islands: each point has one row along each edge of its friction cone.
+/// See docs/decisions/jointed-islands.md. Only jointed_islands.cpp uses it.
 namespace plumb {
 
-/// Impulses along the rays n + mu t and n - mu t of a friction cone, for each point.
+/// Impulses along the edges (rays) n + mu t and n - mu t of a friction cone, for each point.
 struct FrictionRays {
   double impulse[2][2] = {};
 };
 
-/// Returns the rays that have a contact's impulses. Two points have four rays for three impulses: one of the
-/// rays gets none, so that the rows do not depend on each other.
+/// Returns the ray impulses that are equivalent to a contact's impulses. Two points have four rays for three
+/// impulses: one of the rays gets no impulse, so that the rows do not depend on each other.
 inline FrictionRays rays_of(const LastImpulses& c, double friction) {
   FrictionRays out;
   if (!(friction > 0)) return out;
@@ -31,15 +31,15 @@ inline FrictionRays rays_of(const LastImpulses& c, double friction) {
   return out;
 }
 
-/// Makes the rows of friction cones for the slip that has been found. Returns true if one has changed so much
-/// that another solve is needed. A single contact's slip u follows the one that its rows are made for, s, by
-/// du/ds = mu^2 k / (1 + mu^2 k), where k is the mobility along its tangent over that along its normal: the
-/// gain 1 + mu^2 k goes to u = s at once.
+/// Makes the rows of friction cones for the slip that was found. Returns true if a slip has changed so much
+/// that another solve is needed. For a single contact, the slip u that results depends on the slip s for
+/// which its rows were made by du/ds = mu^2 k / (1 + mu^2 k), with k the mobility along its tangent over that
+/// along its normal. So changing s by (1 + mu^2 k) (u - s) leads to u = s at once.
 template <class Real>
 bool renew_slips(JointedIsland<Real>& island, bool hold) {
-  // Tolerated error of a velocity along the normal, as a share of the largest. What sticks has none: its slip
-  // is 0 at first. What goes on sliding begins with the slip of the last substep. At 1e-3 a drum of bodies
-  // takes 40 % more instructions, at 1e-5 57 %.
+  // Tolerated error of a velocity along the normal, as a fraction of the largest one. Contacts that stick
+  // have none, because their slip is 0 at first. Contacts that keep sliding begin with the slip of the last
+  // substep. At 1e-3 a drum of bodies takes 40 % more instructions, at 1e-5 57 %.
   constexpr double kSame = 1e-2;
   bool changed = false;
   for (FrictionCone<Real>& cone : island.cones) {

@@ -20,7 +20,7 @@ bool may_hold(const WorldData<Real>& w) {
          (w.settings.solver == Solver::SoftSteps && w.settings.direct_islands);
 }
 
-// Leaves trees of a few similar links to the iterations, which hold them well and cost less.
+// Leaves trees of a few similar links to the iterations, which hold these well and cost less.
 template <class Real>
 void leave_to_sweeps(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
@@ -43,14 +43,15 @@ void leave_to_sweeps(WorldData<Real>& w) {
   }
 }
 
-// Finds sets of bodies connected by joints, and marks those that are no hinge trees, by their smallest body.
+// Finds the sets of bodies that joints connect, and marks those that are not hinge trees. Each set is
+// represented by its smallest body.
 template <class Real>
 void find_sets(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   UnionFind sets(s.tree_of, w.bodies.size());
   std::vector<char>&bad = s.not_a_tree, &grounded = s.tree_grounded;
   bad.assign(w.bodies.size(), 0), grounded.assign(w.bodies.size(), 0);
-  // Marks apply to the root of the joined set.
+  // Marks the root of the body's set.
   const auto spoil = [&](int body) {
     if (w.is_dynamic(body)) bad[sets.find(body)] = 1;
   };

@@ -11,7 +11,7 @@
 /// Bodies of an island with joints.
 namespace plumb {
 
-/// Returns the index of a body among the island's links, where it is added if it is new.
+/// Returns the index of a body among the island's links; adds the body if it is new.
 template <class Real>
 int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
   int& place = w.scratch.link_of[body];
@@ -50,7 +50,7 @@ void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
 }
 
 /// Returns the length of the link to which a row's gap is relative, as joint_opening.h defines it, m; 1 for
-/// an angle. `length`: of a joint that is a link itself, m.
+/// an angle. If the joint is itself a link, `length` is its length, m.
 template <class Real>
 double link_length(const JointedIsland<Real>& island, const BoundedRow& row, double length) {
   const auto radius = [](const BoundedBody& body, Vec2d linear, double angular) {
@@ -63,7 +63,7 @@ double link_length(const JointedIsland<Real>& island, const BoundedRow& row, dou
   return std::max(shorter, length);
 }
 
-/// Moves and turns a body within a substep.
+/// Translates and rotates a body within a substep.
 template <class Real>
 void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
   BodyMotion<Real>& motion = w.motion[body];
@@ -73,7 +73,7 @@ void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
   w.rotation[body] = turned_by(w.rotation[body], static_cast<Real>(turn));
 }
 
-/// Notes where the bodies of an island are before they are shifted.
+/// Stores the poses of an island's bodies before they are shifted.
 template <class Real>
 void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
   for (JointedLink& link : island.links) {
@@ -82,8 +82,9 @@ void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
   }
 }
 
-/// Moves the bodies of an island by the `shifts` of its system, all by the same fraction, such that none
-/// turns by more than `most`, rad, or moves by more than that share of its extent. Returns the fraction.
+/// Moves the bodies of an island by a common fraction of the `shifts` of its system: the largest one at which
+/// no body rotates by more than `most`, rad, or moves by more than that fraction of its extent. Returns the
+/// fraction.
 template <class Real>
 double shift_links(WorldData<Real>& w, const JointedIsland<Real>& island, double most) {
   double share = 1;

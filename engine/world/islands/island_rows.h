@@ -13,7 +13,8 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/world_data.h"
 
-/// The rows of an island with joints. See docs/decisions/jointed-islands.md. For jointed_islands.cpp alone.
+/// The rows of an island with joints. See docs/decisions/jointed-islands.md. Only jointed_islands.cpp uses
+/// them.
 namespace plumb {
 
 enum class Stage { Hold, Close, Relax };
@@ -32,7 +33,8 @@ class RowMaker {
 
   void make() {
     island_.system.rows.clear(), island_.ties.clear(), island_.cones.clear();
-    // Friction holds loads as it came to do so. Joints alone share redundant loads evenly.
+    // With friction, redundant contacts keep their distribution of the load. Joints alone share redundant
+    // loads evenly.
     remembers_ = hold_ && std::any_of(island_.contacts.begin(), island_.contacts.end(),
                                       [](const ContactConstraint<Real>* c) { return c->friction > 0; });
     for (block_ = 0; block_ < static_cast<int>(island_.joints.size()); ++block_)
@@ -56,8 +58,8 @@ class RowMaker {
            row.angular_b * b.spin;
   }
 
-  // `applied` is the impulse of the first solve; the second one adds to it. `last` is the impulse that the
-  // row had before the step.
+  // Adds a row. `applied` is the impulse of the first solve, to which the second one adds. `last` is the
+  // impulse that the row had before the step.
   void add(BoundedRow& row, const RowTie<Real>& tie, double lower, double upper, double last) {
     const std::size_t place = island_.ties.size();
     if (close_) {
@@ -77,8 +79,8 @@ class RowMaker {
     island_.ties.push_back(tie);
   }
 
-  // Springs, motors and friction correct no positions. Unilateral rows that are open and have no impulse may
-  // stay so, or close.
+  // Adds a row for closing gaps. Springs, motors and friction correct no positions. A unilateral row that is
+  // open and has no impulse may stay open, or close.
   void add_closing(BoundedRow row, const RowTie<Real>& tie, bool holds, bool pressed, double upper) {
     row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
     if (pressed) row.gap = std::min(row.gap, 0.0);
@@ -88,9 +90,10 @@ class RowMaker {
     island_.ties.push_back(tie);
   }
 
-  // Returns the target rate of a unilateral row with `gap`: as the mean of the displacement, or as the
-  // velocity at its end. The latter closes no faster than it does already: impulses that are taken back until
-  // a gap closes would gain energy.
+  // Returns the target rate of a unilateral row with `gap`: for the first solve as the mean over the
+  // displacement, for the second one as the velocity at its end. The latter is never slower than the present
+  // closing rate: impulses that brake before a gap has closed would have to be taken back, which would gain
+  // energy.
   double closing(double gap, const BoundedRow& row) const {
     const double rate = -std::max(gap, 0.0) / h_;
     return hold_ ? 2 * rate - velocity_along(row) : std::max(rate, std::min(held_along(row), 0.0));
@@ -108,7 +111,7 @@ class RowMaker {
       row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
       row.block = block_;
       const double most = from.most, gap = from.row.residual;
-      // Gap at the substep's start, from which springs pull and limits are measured.
+      // Gap at the start of the substep: springs pull, and limits are measured, from it.
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       double lower = -most;
       rigid_ = from.role == RowRole::Rigid;
@@ -135,7 +138,7 @@ class RowMaker {
     }
   }
 
-  // Returns the rate at which a row's coordinate has changed in the substep, m/s.
+  // Returns the mean rate at which a row's coordinate has changed in the substep, m/s.
   double moved_along(const BoundedRow& row) const {
     const JointedLink &a = island_.links[row.a], &b = island_.links[row.b];
     return dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
@@ -170,8 +173,8 @@ class RowMaker {
       const double start = hold_ ? gap - 0.5 * h_ * moved_along(row) : gap;
       row.wanted = closing(start, row);
       row.gap = std::max(gap, -double(c.push_speed) * h_ / tuning::kPushShare);
-      // A contact that bounces is disabled until its time of impact, and a gap that nothing pressed on brakes
-      // nothing at the substep's end.
+      // A contact that bounces is disabled until its time of impact. After the motion, a gap without an
+      // impulse does not slow bodies down.
       const std::size_t place = island_.ties.size();
       const bool pressed =
           !hold_ && (island_.impulses[place] > 0 || (rubs && island_.impulses[place + 1] > 0));
@@ -182,7 +185,7 @@ class RowMaker {
         const double slope = k == 0 ? friction : -friction;
         BoundedRow ray = row;
         if (close_) {
-          // One of the two closes the gap.
+          // Only one of the two rays closes the gap.
           const bool holds = k == 0 && (row.gap < 0 || pressed);
           add_closing(ray, {.impulse = &c.normal_impulse[i]}, holds, holds && pressed, k == 0 ? most : 0);
           continue;
@@ -214,10 +217,10 @@ class RowMaker {
     }
   }
 
-  // Largest coefficient of friction that counts, an angle of 89.4 degrees. The steeper the rays of a cone,
-  // the more they depend on each other: at 1,000 normals err by 0.1 of their impulse.
+  // Largest coefficient of friction that is used; its angle is 89.4 degrees. The steeper the rays of a cone
+  // are, the more they depend on each other: at 1,000, normal impulses have relative errors of 0.1.
   static constexpr double kSteepest = 100;
-  // Compliance of motors relative to their mobility: limits and rigid rows prevail over them.
+  // Compliance of motors relative to their mobility, so that limits and rigid rows prevail over motors.
   static constexpr double kDriven = 1e-6;
 
   WorldData<Real>& w_;

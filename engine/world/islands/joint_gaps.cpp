@@ -12,23 +12,23 @@
 namespace plumb {
 namespace {
 
-// Most loops of a mechanism that is closed: 8 x 8 bodies tied to their neighbours have 49. The cost grows
-// with the square of their number; a net of 30 x 30 is open in each step, and would cost as much again as its
-// step.
+// Mechanisms with more loops than this are not closed. A net of 8 x 8 bodies tied to their neighbours has 49.
+// The cost grows with the square of the number of loops; a net of 30 x 30 is open in each step, and closing
+// it would double the cost of its step.
 constexpr int kLoops = 64;
 
-// Most by which a step may open a joint, and by which it may be open then, as a share of its link
-// (joint_opening.h). What a load opens over many steps, and holds open, is left: closed in each step, it
-// would open again, and a ragdoll that lies would creep without end. At 0.007 270 of 2,000 random mechanisms
-// open by more than 1 % of their shortest link (557 without closing), at 0.004 193. When all that was
-// open was closed, propellers of long blades lost more than 2 % of their energy in 3 s of one substep a step
-// at 0.005; with this rule that was not measured.
+// A joint is closed if it is open by more than this fraction of its link (joint_opening.h), and one step has
+// opened it by as much. Gaps that a load opens over many steps, and holds open, are left: after each closing
+// they would open again, and a lying ragdoll would creep without end. At 0.007, 270 of 2,000 random
+// mechanisms open by more than 1 % of their shortest link (557 without closing), at 0.004 193. When all gaps
+// were closed, propellers of long blades lost more than 2 % of their energy in 3 s with one substep per step
+// at 0.005; this was not measured with the present rule.
 constexpr double kOpening = 0.007;
 // Rounds of closing.
 constexpr int kCloseRounds = 4;
 
-// Substeps from which joints open by no more than kOpening; with fewer they may open in proportion.
-// Closing in each step what each step of a sixtieth second opens would take spin from long blades.
+// Number of substeps from which kOpening holds; with fewer, joints may open by proportionally more.
+// Otherwise, long blades would open in each step of 1/60 s, and closing them each time would take their spin.
 constexpr int kSubsteps = 4;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -39,14 +39,14 @@ enum : char { kNotOpen, kOpen, kCollected };
 // Rows of displacements, which close gaps, or of velocities, which keep them closed.
 enum class Of { Displacements, Velocities };
 
-// A mechanism whose gaps are being closed.
+// A mechanism (bodies that joints connect) whose gaps are being closed.
 template <class Real>
 class Mechanism {
  public:
   Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening)
       : w_(w), island_(island), h_(h), opening_(opening) {}
 
-  // Returns true if the step has opened a joint. Costs much less than `collect`.
+  // Returns true if the step has opened the joint. Costs much less than `collect`.
   bool has_opened(int joint) {
     start();
     island_.joints.push_back(joint);
@@ -54,7 +54,8 @@ class Mechanism {
     return has_opened();
   }
 
-  // Collects all joints that dynamic bodies tie to a joint. Returns false if they have too many loops.
+  // Collects all joints that are connected to a joint through dynamic bodies. Returns false if they have too
+  // many loops.
   bool collect(int joint) {
     std::vector<char>& marks = w_.scratch.open_joints;
     start();
@@ -98,7 +99,7 @@ class Mechanism {
  private:
   void start() { island_.joints.clear(), island_.contacts.clear(); }
 
-  // Adds the contacts of the mechanism's bodies. Bodies that they meet stay where they are.
+  // Adds the contacts of the mechanism's bodies. Other bodies at these contacts stay where they are.
   void collect_contacts() {
     for (std::size_t link = 0; link < tied_; ++link) {
       const int body = island_.links[link].body;
@@ -108,7 +109,7 @@ class Mechanism {
         const int other = (edge & 1) != 0 ? record.body_a : record.body_b;
         const int place = link_at(w_, island_, other);
         const bool tied = place < static_cast<int>(tied_);
-        if (tied && (edge & 1) != 0) return;  // seen from its other body
+        if (tied && (edge & 1) != 0) return;  // added from its other body
         if (!tied) island_.system.bodies[place] = {};
         island_.contacts.push_back(&constraint_of(w_, record));
         const int own = static_cast<int>(link);
@@ -117,7 +118,7 @@ class Mechanism {
     }
   }
 
-  // Finds the elimination order; returns the cost of eliminating in it.
+  // Finds an elimination order; returns the cost of elimination in that order.
   double order() {
     island_.sizes.assign(island_.blocks.size(), 0);
     for (const BoundedRow& row : island_.system.rows) ++island_.sizes[row.block];
@@ -126,8 +127,9 @@ class Mechanism {
     return island_.system.order(island_.blocks, island_.sizes);
   }
 
-  // Adds a joint's rows: rigid ones and limits, and motors, which are not to be turned. An angle that was
-  // beyond a limit when the step began is left to turn back: it goes no farther meanwhile.
+  // Adds a joint's rows: rigid ones, limits, and motors, whose coordinate must not change. If an angle was
+  // beyond a limit when the step began, another stage turns it back, so here its limit only prevents that it
+  // goes farther.
   void make_joint_rows(Of of) {
     island_.system.rows.clear(), island_.allowed.clear();
     std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
@@ -180,7 +182,8 @@ class Mechanism {
     push(row, of);
   }
 
-  // A gap may close. A velocity that closes one faster than the next substep allows may stay.
+  // Adds a unilateral row. A gap may close. A velocity may remain that closes it faster than the next substep
+  // allows.
   void add_one_sided(BoundedRow row, double gap, Of of) {
     row.gap = std::min(gap, 0.0);
     row.wanted = of == Of::Displacements ? -gap : std::min(-std::max(gap, 0.0) / h_, 0.0);
@@ -203,7 +206,8 @@ class Mechanism {
     return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
   }
 
-  // Returns true if a joint's row is open by more than it may. Limits of angles have a pass of their own.
+  // Returns true if a joint's row is open by more than is allowed. Limits of angles are excluded, because
+  // another stage turns them back.
   bool is_open(std::size_t i) const {
     const BoundedRow& row = island_.system.rows[i];
     return !is_angular_limit(row) && std::abs(row.gap) > island_.allowed[i];
@@ -217,8 +221,8 @@ class Mechanism {
   static bool is_angular(const BoundedRow& row) { return row.linear_b == Vec2d{}; }
   static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && is_angular(row); }
 
-  // Returns true if the step has opened a row by more than it may be open: what was open before is left to
-  // the solver, as a load may hold it open.
+  // Returns true if the step has opened a row by more than the allowed gap. Earlier gaps are left to the
+  // solver, because a load may hold them open.
   bool has_opened() {
     note_poses(w_, island_);
     for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
@@ -243,8 +247,8 @@ class Mechanism {
     shift_links(w_, island_, tuning::kLinkTurn);
   }
 
-  // Takes from the velocities what opens the joints: a projection in the metric of the masses onto velocities
-  // that include rest, which adds no energy.
+  // Removes the part of the velocities that opens the joints. It is a projection in the metric of the masses
+  // onto a set that contains rest, so it adds no energy.
   void hold() {
     BoundedRows& system = island_.system;
     make_joint_rows(Of::Velocities), make_contact_rows(Of::Velocities);
@@ -260,7 +264,7 @@ class Mechanism {
     }
     const double before = energy();
     system.solve();
-    if (energy() > before) return;  // pushed by what moves beside it
+    if (energy() > before) return;  // a moving body beside it pushes it: keep the velocities
     for (std::size_t i = 0; i < tied_; ++i) {
       BodyMotion<Real>& motion = w_.motion[island_.links[i].body];
       if (!is_dynamic(motion)) continue;
@@ -278,7 +282,7 @@ class Mechanism {
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
   const double h_, opening_;
-  std::size_t tied_ = 0;  // links that joints tie; behind them are those that they touch
+  std::size_t tied_ = 0;  // number of links that joints connect; bodies in contact follow them
 };
 
 // Returns true if the island of a joint is known to have too many loops.

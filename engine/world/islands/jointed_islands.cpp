@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-// Typical number of a contact's rows, to estimate the cost of the factorisation.
+// Typical number of rows of a contact, to estimate the cost of the factorisation.
 constexpr int kContactRows = 3;
 
 // Updates bounds that depend on other impulses: rolling resistance, and pairs of rows bounded as a vector.
@@ -54,7 +54,7 @@ void solve(JointedIsland<Real>& island, bool hold) {
     BoundedBody& body = island.system.bodies[i];
     body.velocity = island.links[i].velocity, body.spin = island.links[i].spin;
   }
-  // At rest what is left of the velocities is rounding: errors are relative to what was solved before.
+  // At rest, the remaining velocities are rounding, so errors are relative to the energy of the first solve.
   island.system.solve(hold ? 0 : island.energy);
   if (hold) island.energy = island.system.largest_energy();
   for (int i = 0; i < kRenewals; ++i) {
@@ -82,10 +82,10 @@ void put_velocity(BodyMotion<Real>& motion, Vec2d velocity, double spin) {
   motion.angular_velocity = static_cast<Real>(spin);
 }
 
-// Finds the fraction of the impulses with which iterations may start, should they take the island over: the
-// one that takes most energy from the motion that forces would cause. It is 1 where the impulses balance a
-// load. It is small where they have stopped something, or only turn the motion, or are due to rows that
-// exclude each other but for rounding (the pull of a bridge that is straight).
+// Finds the fraction of the impulses from which iterations may start if they take the island over: the
+// fraction that takes most energy from the motion that the forces would cause. It is 1 if the impulses
+// balance a load. It is small if they stopped something, only change the direction of the motion, or come
+// from rows that contradict each other except for rounding (the pull of a straight bridge).
 template <class Real>
 void find_carry(WorldData<Real>& w, JointedIsland<Real>& island) {
   BoundedRows& system = island.system;
@@ -95,12 +95,12 @@ void find_carry(WorldData<Real>& w, JointedIsland<Real>& island) {
   for (const int joint : island.joints) w.joint_set.set_carry(joint, carry);
 }
 
-// Largest mass ratio for a correction of positions. Of chains with tips of up to 1:1e6 gaps are 0.1 % then,
-// at 100 0.4 %, at 1000 1.3 %.
+// Largest mass ratio for a correction of positions. With it, chains under tips of up to 1e6 times their
+// links' mass have gaps of 0.1 %; with a ratio of 100 they have 0.4 %, with 1000 1.3 %.
 constexpr double kMostRatio = 10;
 
-// Raises the masses of light bodies for a correction of positions, so that none moves far to spare a heavy
-// one a short way.
+// Raises the masses of light bodies for a correction of positions, so that none of them moves far just to
+// keep a heavy one from moving a little.
 template <class Real>
 void raise_masses(JointedIsland<Real>& island) {
   double least = std::numeric_limits<double>::infinity();  // inverse mass
@@ -117,9 +117,10 @@ void raise_masses(JointedIsland<Real>& island) {
   }
 }
 
-// Takes the work that forces lose by the shifts that closed joints from the velocities against them, as far
-// as there are any. `per_push` times what forces `push` in a substep is their acceleration. Otherwise what
-// closing lifts would fall ever faster, and stay where it is.
+// Accounts for the work of the shifts that closed joints. Shifts against the forces, such as lifting, add
+// potential energy; this takes that energy from the velocities opposite to the shifts, as far as there are
+// any. Otherwise bodies that are lifted in each step would fall ever faster without descending. `per_push`
+// times the velocity change `push` by the forces in a substep is their acceleration.
 template <class Real>
 void pay_for_shift(JointedIsland<Real>& island, double share, double per_push) {
   double work = 0, along = 0, size = 0;
@@ -146,7 +147,8 @@ void pay_for_shift(JointedIsland<Real>& island, double share, double per_push) {
   }
 }
 
-// Fraction of joints' gaps that a correction closes, and the relative compliance of its rows.
+// Parameters of a correction: the fraction of joints' gaps that it closes, and the relative compliance of its
+// rows.
 struct Closing {
   double share = 0, softness = 0;
 };
@@ -157,8 +159,8 @@ Closing closing_of(const WorldData<Real>& w) {
   return {tuning::kJointShare, tuning::kCloseSoftness};
 }
 
-// Makes the rows of a correction. Returns false if there is nothing to close: of joints (`joints`), or of
-// contacts.
+// Makes the rows of a correction that closes gaps of joints (`joints`) or of contacts. Returns false if none
+// of these are open.
 template <class Real>
 bool make_closing_rows(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step,
                        bool joints, double share) {
@@ -177,9 +179,9 @@ bool make_closing_rows(WorldData<Real>& w, JointedIsland<Real>& island, const Co
   return open;
 }
 
-// Moves bodies to close a fraction of the gaps of joints, with limited mass ratios, and with them the bodies
-// that press on them. Takes the work that this does against the forces from the velocities. `h`: s, length of
-// the substep in which the forces act.
+// Moves bodies to close a fraction of the gaps of joints, with limited mass ratios. Bodies that press on them
+// move along. The work that this does against the forces is taken from the velocities. `h` is the length of
+// the substep in which the forces act, s.
 template <class Real>
 void close_joints(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double h,
                   const Closing& closing) {
@@ -193,9 +195,9 @@ void close_joints(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
   pay_for_shift(island, shift_links(w, island, tuning::kLinkTurn), 1 / h);
 }
 
-// Pushes overlapping bodies apart by a fraction of their overlaps, with their own masses, and with joints as
-// they are. Were light bodies to lift heavy ones off others as far as they give way themselves, these would
-// fall back upon them in the next step.
+// Pushes overlapping bodies apart by a fraction of their overlaps, with their real masses, and with joints as
+// they are. With raised masses, light bodies would lift heavy ones as far as they yield themselves, and these
+// would fall back in the next step.
 template <class Real>
 void push_apart(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   if (!make_closing_rows(w, island, step, false, 4 * tuning::kPushShare)) return;
@@ -205,7 +207,7 @@ void push_apart(WorldData<Real>& w, JointedIsland<Real>& island, const ContactSt
 
 // ---- Motion
 
-// Notes the poses of an island's bodies.
+// Stores the poses of an island's bodies.
 template <class Real>
 void note_starts(const WorldData<Real>& w, JointedIsland<Real>& island) {
   note_poses(w, island);
@@ -213,7 +215,7 @@ void note_starts(const WorldData<Real>& w, JointedIsland<Real>& island) {
     link.rotation_c = w.rotation[link.body].c, link.rotation_s = w.rotation[link.body].s;
 }
 
-// Moves an island's bodies back to the poses that were noted.
+// Moves an island's bodies back to the stored poses.
 template <class Real>
 void put_back(WorldData<Real>& w, const JointedIsland<Real>& island) {
   for (const JointedLink& link : island.links) {
@@ -228,8 +230,8 @@ void shift_all(WorldData<Real>& w, const JointedIsland<Real>& island, double h) 
   for (const JointedLink& link : island.links) shift(w, link.body, h * link.way, h * link.turn);
 }
 
-// Finds the impulses of a motion that begins at the noted poses with the velocities `before`, and its
-// velocities. `velocity` has those without impulses, then those with them.
+// Finds the impulses and the velocities of a motion that begins at the stored poses with the velocities
+// `before`. `velocity` is the velocity without impulses, and then the one with them.
 template <class Real>
 void hold(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   for (JointedLink& link : island.links) link.way = link.before, link.turn = link.spin_before;
@@ -245,7 +247,7 @@ void hold(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Rea
   }
 }
 
-// Finds the impulses after a motion, with which velocities fit the constraints at the present poses.
+// Finds the impulses after a motion, so that velocities satisfy the constraints at the present poses.
 template <class Real>
 void relax(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   RowMaker<Real>(w, island, step, Stage::Relax).make();
@@ -256,16 +258,16 @@ void relax(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Re
   }
 }
 
-// ---- Parts of a substep. Where light links turn far under a load, the drift of joints, of third order in h,
-// is more than closing gaps can make up for.
+// ---- Division of a substep. If light links rotate far under a load, joints drift by more (of third order in
+// h) than closing gaps can make up for.
 
-// Drift of a row in a substep that is tolerated, as a fraction of its link. As each step of four substeps
-// closes half of the gaps, they stay within 8 times of it.
+// Tolerated drift of a row in a substep, as a fraction of its link. Each step of four substeps closes half of
+// the gaps, so they stay within 8 times this value.
 constexpr double kDrift = 5e-4;
-// Largest number of parts of a substep.
+// Largest number of parts into which a substep is divided.
 constexpr int kMostParts = 64;
 
-// Calls `look(gap)` with the gap of each rigid row and each limit at the present poses, in kDrift.
+// Calls `look(gap)` with the gap of each rigid row and each limit at the present poses, in units of kDrift.
 template <class Real, class Look>
 void for_each_gap(WorldData<Real>& w, const JointedIsland<Real>& island, const Look& look) {
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
@@ -285,8 +287,8 @@ void for_each_gap(WorldData<Real>& w, const JointedIsland<Real>& island, const L
   }
 }
 
-// Returns the most by which the motion from the noted poses opens a gap, in kDrift; 0 if all gaps are small
-// at its end. The bodies are at its end, and are put back.
+// Returns the largest amount by which the motion from the stored poses opens a gap, in units of kDrift; 0 if
+// all gaps are small at its end. The bodies are at the end of the motion, and are moved back to its start.
 template <class Real>
 double drift_of(WorldData<Real>& w, JointedIsland<Real>& island) {
   double widest = 0;
@@ -300,8 +302,8 @@ double drift_of(WorldData<Real>& w, JointedIsland<Real>& island) {
   return drift;
 }
 
-// Moves an island from where it is through equal parts of a substep, each with its share of the forces. Its
-// links have the velocities at the end then, and the mean ones of the last part.
+// Moves an island from its present poses through equal parts of a substep, each with its fraction of the
+// forces. Afterwards its links have the velocities at the end, and the mean velocities of the last part.
 template <class Real>
 void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, int parts) {
   ContactStep<Real> part = step;
@@ -320,7 +322,8 @@ void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
     }
     hold(w, island, part);
     shift_all(w, island, part.h);
-    // Whole gaps at once would open joints again by ten times as much, as taut links turn far for little.
+    // Closing whole gaps at once would open joints again by ten times as much, because taut links rotate far
+    // to close a small gap.
     close_joints(w, island, part, step.h, {tuning::kJointShare, tuning::kCloseSoftness});
     relax(w, island, part);
     for (std::size_t k = 0; k < island.links.size(); ++k) {
@@ -336,9 +339,9 @@ void move_through(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
   for (const int joint : island.joints) w.joint_set.set_substep(joint, step.h);
 }
 
-// Moves an island through a substep in as many parts as keep the drift small, from `drift`, that of the
-// whole. The bodies are at its start, before and after. Ends where more parts do not halve the drift: it is
-// none of the motion then, but of what contradicts the joints.
+// Moves an island through a substep, divided into enough parts to keep the drift small. `drift` is that of
+// the undivided substep. The bodies are at its start, before and after. Ends if more parts do not halve the
+// drift, which is then due to constraints that contradict the joints instead of the motion.
 template <class Real>
 void move_in_parts(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step,
                    double drift) {
@@ -346,7 +349,8 @@ void move_in_parts(WorldData<Real>& w, JointedIsland<Real>& island, const Contac
   starts.assign(island.links.begin(), island.links.end());
   double before = std::numeric_limits<double>::infinity();
   for (int parts = 1; drift > 1 && drift < 0.5 * before && parts < kMostParts;) {
-    // The drift decreases with the square of the number of parts, if it does: two parts show that.
+    // The drift should decrease with the square of the number of parts. Try two parts first to see whether it
+    // does.
     const bool first = parts == 1;
     for (double left = drift; left > 1 && parts < (first ? 2 : kMostParts); left /= 4) parts *= 2;
     move_through(w, island, step, parts);
@@ -397,7 +401,8 @@ void begin_jointed_substep(WorldData<Real>& w) {
       link.before = motion.velocity.template as<double>();
       link.spin_before = motion.angular_velocity;
       if (!w.is_dynamic(link.body)) continue;
-      // A locked axis stands still from now on. Reflected at it, the others would follow what it had.
+      // Sets the velocity along locked axes to zero, because the body does not move there. Otherwise the
+      // reflection would pass this velocity on to other bodies.
       const Vec2d mobility = island.system.bodies[k].inverse_mass;
       if (mobility.x == 0) link.before.x = 0;
       if (mobility.y == 0) link.before.y = 0;

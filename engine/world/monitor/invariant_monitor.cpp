@@ -16,8 +16,8 @@ namespace {
 /// Number of position roundings in a step that the energy balance must tolerate.
 constexpr double kRoundings = 64;
 
-/// Maximum ratio of an overlap or gap to its value in the step before at which it counts as dissolving, and
-/// not as a violation.
+/// An overlap or gap counts as shrinking, and not as a violation, if it is at most this fraction of its value
+/// in the step before.
 constexpr double kDissolving = 0.998;
 
 template <class Kind>
@@ -178,7 +178,7 @@ bool InvariantMonitor<Real>::is_driven() const {
 template <class Real>
 std::optional<Error> InvariantMonitor<Real>::check_energy() {
   const WorldData<Real>& w = world_->data();
-  // Correcting gaps and overlaps beyond their bounds may lift bodies.
+  // The solver corrects gaps and overlaps beyond their bounds, which may lift bodies.
   if (is_driven() || !gaps_.empty() || !overlaps_.empty()) {
     gained_ = 0, energy_misses_ = 0;
     return {};

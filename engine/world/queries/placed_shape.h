@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-/// Returns the body's rotation at unit length in double: one Newton step from its Real value.
+/// Returns the body's rotation in double, normalised by one Newton step from its Real value.
 template <class Real>
 Rotation<double> exact_rotation(const WorldData<Real>& w, int body) {
   const double c = static_cast<double>(w.rotation[body].c), s = static_cast<double>(w.rotation[body].s);

@@ -52,9 +52,9 @@ bool sees(const WorldData<Real>& w, int shape, const QueryFilter& filter) {
 }
 
 // Returns the margin, m, by which to grow a query so that it overlaps the fat AABB of every shape that it
-// hits. Fat AABBs contain the shapes as rounded to Real: position, rotated corners, their sum and the radius.
-// These errors are below 2 epsilon of the coordinates and 3 epsilon of the body's size, which the tree's size
-// bounds. The query's own numbers are rounded by less than epsilon of themselves.
+// hits. Fat AABBs contain the shapes after rounding to Real (of position, rotated corners, their sum and the
+// radius). These errors are below 2 epsilon of the coordinates plus 3 epsilon of the body's size; the size of
+// the tree is a bound for both. The query's own numbers are rounded by less than epsilon of themselves.
 template <class Real>
 double slack_at(const WorldData<Real>& w, double reach) {
   double size = 0;
@@ -107,7 +107,7 @@ void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, V
                           visit_leaf);
 }
 
-// Keeps the first hit: smallest fraction, then smallest shape index.
+// Keeps the first hit: the smallest fraction, then the smallest shape index.
 template <class Result>
 struct Closest {
   std::optional<Result> best{};
@@ -351,7 +351,7 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
   if (!(max_distance >= 0)) require_not_negative("nearest", "max_distance", max_distance);
   const WorldData<Real>& w = world.data();
   const Lock<Real> lock(w, filter.condition.asks());
-  double limit = std::min(max_distance, 4 * kLargestNumber);  // farther than any shape
+  double limit = std::min(max_distance, 4 * kLargestNumber);  // no shape is farther away
   const double slack = slack_at(w, size_of(point));
   std::optional<NearestResult> best;
   const auto visit_leaf = [&](int shape, Real) {

@@ -35,8 +35,8 @@ class FunctionRef<Result(Arguments...)> {
   Result (*call_)(void*, Arguments...);
 };
 
-/// A condition on shapes that a filter views. It must be a named object and outlive the filter; temporaries
-/// are rejected.
+/// A condition on shapes, as a view of a callable. The callable must be a named object and outlive the
+/// filter; temporaries are rejected.
 class ShapeCondition {
  public:
   ShapeCondition() = default;
@@ -61,14 +61,14 @@ class ShapeCondition {
 };
 
 /// Filter of a query. The query considers a shape if one of the shape's categories is in the filter's mask,
-/// and one of the filter's categories in the shape's mask. By default these are all shapes except sensors and
-/// those with an empty mask.
+/// and one of the filter's categories is in the shape's mask. The default considers all shapes except sensors
+/// and those with an empty mask.
 struct QueryFilter {
   std::uint64_t category = ~std::uint64_t{0};  ///< categories of the query
-  std::uint64_t mask = ~std::uint64_t{0};      ///< categories that it looks for
+  std::uint64_t mask = ~std::uint64_t{0};      ///< categories that it considers
   bool sensors = false;                        ///< true: includes sensors
   BodyId ignore{};                             ///< a body to skip
-  /// Tested last. It must not change the world: calls that change it throw meanwhile.
+  /// Tested last. It must not change the world: such calls throw during the query.
   ShapeCondition condition{};
 };
 

@@ -70,7 +70,7 @@ void RecordedWorld<Real>::record_hash() {
   file_.flush();
 }
 
-// Records a step before it is taken, so that a step that fails is in the recording. A step that is rejected
+// Records a step before it is made, so that the recording contains a step that fails. A step that is rejected
 // at once is not recorded.
 template <class Real>
 void RecordedWorld<Real>::record_step(double dt, int substeps) {
@@ -114,7 +114,7 @@ BodyId RecordedWorld<Real>::create_body(const BodyDefinition& definition,
   return body;
 }
 
-// Defines the member of each call, which have one to four arguments.
+// Defines the members for the calls, which have one to four arguments.
 #define PLUMB_RECORD_1(id, name, result, A) \
   template <class Real>                     \
   result RecordedWorld<Real>::name(A a) {   \

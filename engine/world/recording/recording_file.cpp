@@ -9,8 +9,8 @@
 namespace plumb {
 namespace {
 
-// Version of the format. Increase it if the meaning of records changes; new calls at the end of the table
-// need no increase.
+// Version of the format. Increase it if the meaning of records changes. Appending new calls to the table
+// needs no increase.
 constexpr std::uint32_t kVersion = 7;
 
 // "plumbrec" in little-endian order.

@@ -54,16 +54,16 @@ class RecordingWriter {
 /// Reads records.
 class RecordingReader {
  public:
-  /// Throws Error (Io) if the file cannot be read. Throws Error (Value, "recording") if it is no recording,
-  /// or one of another version or precision.
+  /// Throws Error (Io) if the file cannot be read. Throws Error (Value, "recording") if it is not a
+  /// recording, or has another version or precision.
   RecordingReader(const std::filesystem::path& file, int bytes_of_real);
 
   struct Record {
     RecordKind kind;
     std::span<const std::byte> content;
   };
-  /// Returns the next record; none at the end. A truncated last record, as after the recording program was
-  /// killed, ends the file with a message. Throws Error (Value, "recording") for a damaged record.
+  /// Returns the next record; nullopt at the end. If the last record is truncated (the recording program was
+  /// killed), the file ends there with a message. Throws Error (Value, "recording") for a damaged record.
   std::optional<Record> next();
 
   /// Returns a message about the end of the file, or an empty string.

@@ -21,18 +21,19 @@ Scene without_springs_and_drag(const Scene& scene) {
   return out;
 }
 
-// Returns the length s of the velocity at the middle of a step by the implicit midpoint method: a s^2 + b s =
-// |u|, where u is that velocity without drag. The formula avoids a difference of nearly equal numbers.
+// Returns the length s of the velocity at the middle of a step by the implicit midpoint method. It satisfies
+// a s^2 + b s = |u|, where u is the velocity without drag. The formula avoids a difference of nearly equal
+// numbers.
 double slowed(Vec2d u, double half, double linear, double quadratic, double mass) {
   const double a = half * quadratic / mass, b = 1 + half * linear / mass,
                speed = std::sqrt(length_squared(u));
   return 2 * speed / (b + std::sqrt(b * b + 4 * a * speed));
 }
 
-// Returns the velocity for which drag is z / dt times this velocity over a step, from `start` under an
-// acceleration that changes the velocity by `gain` in half a step. The velocity then decays by 1 / (1 + z +
-// z^2 / 2), which is exp(-z) to second order, and stops for large z: the implicit midpoint method would
-// reverse it.
+// Returns the velocity at which drag is evaluated, so that a step changes the velocity by -z times it. Starts
+// from `start`, under an acceleration that changes the velocity by `gain` in half a step. A velocity then
+// decays by 1 / (1 + z + z^2 / 2), which is exp(-z) to second order and near 0 for large z; the implicit
+// midpoint method would reverse it.
 template <class Value>
 Value dragged(Value start, Value gain, double z) {
   return (1 / (1 + z + 0.5 * z * z)) * ((1 + 0.5 * z) * start + (1 + z) * gain);
@@ -114,8 +115,8 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
 }
 
 /// Collects the springs' bodies and ends at the start of the step. If the world moves a body by dt v + c dt^2
-/// a, the springs use x + (1/2 - c) dt v as its position: the displacement from there to the corresponding
-/// position in the next step is dt times the mean of its velocities.
+/// a, the springs use x + (1/2 - c) dt v as its position. The displacement between this and the corresponding
+/// position in the next step is dt times the mean of the velocities.
 template <class Real>
 void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) {
   elastic_.clear();

@@ -19,9 +19,9 @@ class SceneForces {
 
   /// Adds the laws' forces for the next step of `dt` s. They are evaluated at the middle of the step,
   /// predicted without joints and contacts, so that free flight follows the midpoint method. Laws that depend
-  /// on time act with their mean over the step. Drag never reverses a body, however strong it is. Springs
-  /// conserve energy, however stiff (elastic_step.h); with a phase of theta = omega dt a step, their
-  /// frequency is too low by the fraction theta^2 / 12.
+  /// on time act with their mean over the step. Drag never reverses a body's motion, however strong it is.
+  /// Springs conserve energy, however stiff they are (elastic_step.h). If the phase of an oscillation
+  /// advances by theta = omega dt per step, its frequency is too low by the fraction theta^2 / 12.
   void apply(BasicWorld<Real>& world, double dt);
 
   /// Does the same with the forces at the start of the step, as the Euler schemes do.
@@ -30,7 +30,7 @@ class SceneForces {
  private:
   void place(const BasicWorld<Real>& world);
   void advance(const BasicWorld<Real>& world, double dt);
-  /// A body at the start of the step, as its springs see it.
+  /// A body at the start of the step, as springs need it.
   struct Elastic {
     int body = 0;  ///< in `elastic_`
     Rotation<double> rotation{};
@@ -41,7 +41,7 @@ class SceneForces {
     double linear = 0;     ///< N s/m
     double quadratic = 0;  ///< N s^2/m^2
     double angular = 0;    ///< N m s
-    double now = 0;        ///< N s/m: force over velocity in the next step
+    double now = 0;        ///< N s/m: drag force over velocity in the next step
   };
   void push(BasicWorld<Real>& world);
   void add_drag();
@@ -49,12 +49,12 @@ class SceneForces {
   void add_springs(double dt);
   void add_springs_at_start();
 
-  Forces laws_;              // all but springs and drag
+  Forces laws_;              // of all laws except springs and drag
   std::vector<Drag> drags_;  // by body
   std::vector<SpringForceLaw> springs_;
   ElasticStep elastic_;
   std::vector<Elastic> ends_;  // by body
-  bool predicts_ = false;      // there are laws that depend on the motion at the middle of a step
+  bool predicts_ = false;      // some laws depend on the motion at the middle of a step
   std::vector<BodyId> ids_;    // by body
   std::vector<std::size_t> acted_on_;
   std::vector<Vec2d> gravity_;  // m/s^2, by body

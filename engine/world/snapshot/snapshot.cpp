@@ -36,7 +36,7 @@ namespace {
 
 constexpr std::size_t kHeaderSize = packed_size<Header>();
 
-// Returns a number that usually changes with the set of members, even if nobody increased the version.
+// Returns a number that usually changes if the set of members changes, even if nobody increased the version.
 template <class Real>
 constexpr std::uint32_t layout() {
   std::uint32_t mixed = 0;
@@ -192,11 +192,11 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
           "of one colour share a body");
   add_pairs(fresh);
   share_corners(fresh);
-  // Reserve the free lists now: destroying objects later must not allocate.
+  // Reserve the free lists now, because destroying objects later must not allocate.
   fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
   fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
   fresh.static_tree.make_room(0), fresh.dynamic_tree.make_room(0);
-  // Nothing throws from here on. The hook and scratch memory stay.
+  // Nothing throws from here on. The hook and scratch memory are kept.
   const auto from = state_of(fresh), to = state_of(world.data());
   [&]<std::size_t... kEach>(std::index_sequence<kEach...>) {
     (std::swap(std::get<kEach>(from), std::get<kEach>(to)), ...);

@@ -43,7 +43,7 @@ bool is_within_reach(const Aabb<Real>& box) {
   return is_within_reach(box.lower) && is_within_reach(box.upper);
 }
 
-// Marks each number once; `mark` returns false for a number out of range or already marked.
+// Marks each number once: `mark` returns false for a number that is out of range or already marked.
 class Marks {
  public:
   explicit Marks(int size) : marks_(static_cast<std::size_t>(size), 0) {}
@@ -123,8 +123,8 @@ class Check {
     });
   }
 
-  // Places and sizes obey the limits of the calls that set them: of others, boxes would be infinite a step
-  // later, and the world could be saved but not restored.
+  // Checks that places and sizes obey the limits of the calls that set them. Beyond these, boxes would become
+  // infinite a step later, and the world could be saved but not restored.
   void lengths() const {
     const auto all = [](const auto& list, const auto& lengths_of) {
       return std::all_of(list.begin(), list.end(), lengths_of);
@@ -144,7 +144,7 @@ class Check {
     require(shapes, "shapes", "are larger than calls allow");
   }
 
-  // A slot is free and listed once, or in use.
+  // Checks that each slot is either free and listed once, or in use.
   template <class T>
   void slots(const SlotMap<T>& all) const {
     const auto [items, generations, free] = all.parts();
@@ -176,7 +176,7 @@ class Check {
             "are not as many everywhere");
   }
 
-  // Each entry belongs to one body, with numbers that a call may set.
+  // Checks that each entry belongs to one body, with numbers that a call may set.
   void uncommon() const {
     Marks taken(w_.uncommon.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
@@ -192,7 +192,7 @@ class Check {
                               .angular_damping = each.angular_damping});
   }
 
-  // Each body's list ends, and every shape is in the list of its body.
+  // Checks that each body's list ends, and that every shape is in the list of its body.
   void shape_lists() const {
     Marks listed(w_.shapes.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
@@ -209,7 +209,8 @@ class Check {
     require(listed.count() == w_.shapes.count(), "shapes", "belong to no body");
   }
 
-  // Every corner belongs to one run, and every run to shapes with as many corners, or to the free runs.
+  // Checks that every corner belongs to one run, and every run either to shapes with as many corners, or to
+  // the free runs.
   void corners() const {
     const auto [all, free] = w_.corners.parts();
     Marks taken(static_cast<int>(all.size()));
@@ -267,7 +268,7 @@ class Check {
             "are not as many as shapes");
   }
 
-  // Bodies in quarantine are listed, are static meanwhile, and have no contacts.
+  // Checks that bodies in quarantine are listed, are static meanwhile, and have no contacts.
   void quarantine() const {
     Marks listed(w_.bodies.size());
     for (const QuarantinedBody& each : w_.quarantine) {
@@ -287,7 +288,7 @@ class Check {
   bool has_body(int body) const { return body >= 0 && body < w_.bodies.size() && w_.bodies.used(body); }
   bool has_joint(int joint) const { return joint >= 0 && joint < w_.joints.size() && w_.joints.used(joint); }
 
-  // Lists of shapes and joints: chains, sensors, moved shapes, joints with limits of their loads.
+  // Checks the lists of shapes and joints: chains, sensors, moved shapes, joints with load limits.
   void lists() const {
     Marks in_chain(w_.shapes.size());
     int segments = 0, sensors = 0;
@@ -318,7 +319,7 @@ class Check {
     }
   }
 
-  // Bodies whose mass is to be computed are listed; that of a static body may be unknown.
+  // Checks that bodies whose mass is to be computed are listed. The mass of a static body may be unknown.
   void unsettled() const {
     Marks listed(w_.bodies.size());
     for (const int body : w_.unsettled)
@@ -389,7 +390,8 @@ class Check {
     require(placed, "contacts", "are not where they say");
   }
 
-  // Every index belongs to one contact: the counts agree, and no two contacts have the same index.
+  // Checks that every index belongs to one contact: the counts agree, and no two contacts have the same
+  // index.
   void homes() const {
     std::size_t count[4] = {};
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
@@ -417,7 +419,8 @@ class Check {
     require(w_.joint_set.count() == w_.joints.count(), "joints", "are not as many as are solved");
   }
 
-  // Each body's list ends, and both ends of every contact or joint are in the list of their body.
+  // Checks that each body's list ends, and that both ends of every contact or joint are in the list of their
+  // body.
   template <class Items>
   void edges(const Items& items, int BodyRecord<Real>::*first) const {
     Marks listed(2 * items.size());

@@ -80,9 +80,9 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, loaded
               quarantined)
 
 /// Returns all state that a world's future depends on, and the events of its last step, as a tuple of
-/// references. It excludes the pre-solve hook, the user's filter and combine rules, which are code, the
-/// profile, the threads, and scratch data. A new member of WorldData must be named here, and returned unless
-/// it is one of these exceptions.
+/// references. It excludes code (the pre-solve hook, the user's filter and combine rules), the profile, the
+/// threads, and scratch data. A new member of WorldData must be named here, and returned unless it is one of
+/// these exceptions.
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,

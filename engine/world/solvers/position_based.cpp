@@ -7,7 +7,8 @@
 namespace plumb {
 namespace {
 
-// Calls `correct(contacts)`, which corrects velocities, at the end of each substep.
+// Makes a step by projections. At the end of each substep, calls `correct(contacts)`, which corrects
+// velocities.
 template <class Real, class Correct>
 void project_positions(WorldData<Real>& w, double h, int substeps, int sweeps, PositionFriction friction,
                        const Correct& correct) {
@@ -45,8 +46,8 @@ void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
       [&](const PositionStep<Real>& contacts) { restore_bounces(w.motion.data(), w.graph, contacts); });
 }
 
-// Makes one projection per substep, with compliance of soft constraints; more substeps replace iterations.
-// Then velocities: restitution and dynamic friction.
+// Makes one projection per substep, with the compliance of soft constraints; more substeps replace
+// iterations. Then corrects velocities for restitution and dynamic friction.
 template <class Real>
 void solve_xpbd(WorldData<Real>& w, double h, int substeps) {
   project_positions(w, h, substeps, 1, PositionFriction::Static, [&](const PositionStep<Real>& contacts) {

@@ -15,8 +15,8 @@
 namespace plumb {
 namespace {
 
-// Largest offset of a circle from its body's centre of mass, as a fraction of its radius. Beyond it the
-// circle turns about that centre, and its normal is not the line between the bodies.
+// Largest offset of a circle from its body's centre of mass, as a fraction of its radius. A circle with a
+// larger offset rotates about that centre, so its normal is not along the line between the bodies.
 constexpr double kCentred = 1e-5;
 
 template <class Real>
@@ -92,7 +92,8 @@ void fill_joint_rows(void* world, ImpactJoint& joint) {
   joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
 }
 
-// Returns true if a touching contact without restitution holds the bodies: they are not free after an impact.
+// Returns true if any touching contact has no restitution. It may hold bodies, which are then not free after
+// an impact.
 template <class Real>
 bool any_without_restitution(WorldData<Real>& w) {
   bool any = false;
@@ -100,11 +101,11 @@ bool any_without_restitution(WorldData<Real>& w) {
   return any;
 }
 
-// Moves a struck body such that contacts which it presses in this substep are as far closed as without its
-// impact. The solver stops a pressing point for the whole substep, also before the time of the impact. If the
-// body were displaced by the change of velocity from that time on, a light ball that a heavy one drives
-// against a third would leave the third ball and be struck again. Keeps the displacement along the contact's
-// tangent.
+// Moves a struck body such that contacts that it presses in this substep stay as closed as without its
+// impact. The solver stops a pressing point for the whole substep, including the time before the impact.
+// Suppose that a heavy ball drives a light one against a third ball. If the change of velocity displaced the
+// light ball from the time of impact on, it would leave the third ball and be struck again. Keeps the
+// displacement along the contact's tangent.
 template <class Real>
 void keep_closed(WorldData<Real>& w, int body, Real h) {
   ImpactScratch<Real>& room = w.scratch.impacts;
@@ -139,7 +140,7 @@ void keep_closed(WorldData<Real>& w, Real h) {
     if (w.bodies[room.displaced[i]].first_joint == kNone) keep_closed(w, room.displaced[i], h);
 }
 
-// Begins the impacts of a substep; reuses the data of the step's last substep that have not changed.
+// Begins the impacts of a substep; reuses data of the last substep that have not changed.
 template <class Real>
 void begin_impacts(WorldData<Real>& w) {
   ImpactScratch<Real>& room = w.scratch.impacts;

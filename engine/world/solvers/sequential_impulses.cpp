@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-// Makes steps of semi-implicit Euler: integrates forces, iterates over all velocity constraints, feeds back
-// position errors, then moves the bodies.
+// Makes steps of semi-implicit Euler: integrates forces, iterates over all velocity constraints, feeds
+// position errors back, then moves the bodies.
 template <class Real>
 void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const Real inverse_h = static_cast<Real>(1 / h), closing = static_cast<Real>(tuning::kFeedback / h);

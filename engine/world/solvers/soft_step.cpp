@@ -16,8 +16,8 @@
 namespace plumb {
 namespace {
 
-// Returns the softness of a contact, as stiff as a substep of length `longest` permits. The impulse scale
-// (compliance under load) is reduced to kContactComplianceScale of the spring's.
+// Returns the softness of a contact: as stiff as a substep of length `longest` permits. The impulse scale
+// (compliance under load) is only kContactComplianceScale of the spring's.
 template <class Real>
 Softness<Real> contact_softness(double frequency_share, double h, double longest) {
   Softness<Real> soft = softness<Real>(frequency_share / longest, tuning::kContactDampingRatio, h);
@@ -37,15 +37,17 @@ void project_angular_limits(WorldData<Real>& w) {
   }
 }
 
-// Returns true if all awake bodies were in free flight or part of articulated bodies.
+// Returns true if no body is left to solve: each awake body was in free flight or is part of an articulated
+// body.
 template <class Real>
 bool nothing_left(const WorldData<Real>& w) {
   const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   return w.graph.empty() && std::all_of(kicks.begin(), kicks.end(), [](const auto& k) { return k.in_tree; });
 }
 
-// Returns marks, by record, of the contacts that have a second solver, which reads and changes them between
-// the passes, and of discs that approach fast without restitution; no marks if there are none.
+// Returns marks, by record, of contacts that must not be solved in lanes: those with a second solver, which
+// reads and changes them between the passes, and fast approaching discs without restitution. Empty if there
+// are none.
 template <class Real>
 const std::vector<char>& contacts_apart(WorldData<Real>& w) {
   std::vector<char>& apart = w.scratch.apart;
@@ -61,7 +63,7 @@ const std::vector<char>& contacts_apart(WorldData<Real>& w) {
   return apart;
 }
 
-// Returns marks, by slot, of the joints that are solved with their island; no marks if there are none.
+// Returns marks, by slot, of the joints that are solved with their island. Empty if there are none.
 template <class Real>
 const std::vector<char>& joints_apart(WorldData<Real>& w) {
   std::vector<char>& apart = w.scratch.joints_apart;
@@ -75,7 +77,8 @@ const std::vector<char>& joints_apart(WorldData<Real>& w) {
   return apart;
 }
 
-// Returns true if a joint is solved neither as part of an articulated body nor with its island.
+// Returns true if any joint is solved by iterations: neither as part of an articulated body nor with its
+// island.
 template <class Real>
 bool any_joint_swept(const WorldData<Real>& w) {
   std::size_t apart = static_cast<std::size_t>(w.scratch.trees.hinges);
@@ -83,11 +86,11 @@ bool any_joint_swept(const WorldData<Real>& w) {
   return static_cast<std::size_t>(w.joint_set.active_count()) > apart;
 }
 
-// Number of contacts with restitution in a thread's task: some microseconds of work.
+// Number of contacts with restitution in one task of a thread: some microseconds of work.
 constexpr int kBouncesOfTask = 128;
 
-// Calls `run` for parts of the contacts with restitution, which threads share. Returns true if it returned
-// true for any.
+// Calls `run` for parts of the contacts with restitution, shared among threads. Returns true if any call
+// returned true.
 template <class Real, class Run>
 bool any_bounce(WorldData<Real>& w, const Run& run) {
   const std::span<RestitutionContact<Real>> all(w.scratch.bounces);
@@ -153,9 +156,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     const bool repeat = substep > 0 && !jointed && !strikes && !parted;
     begin_jointed_substep(w);
     repeat ? integrate_and_warm_start(w) : integrate_velocities(w);
-    // Find impacts before warm starting. The warm-start impulses cancel only in the solve; before, they would
-    // be mistaken for an approach velocity: those of an earlier impact threw heavy bodies up from light ones.
-    // Warm starting follows in substeps without impacts.
+    // Find impacts before warm starting. Warm-start impulses cancel only in the solve; before that, they
+    // would be mistaken for an approach velocity (those of an earlier impact threw heavy bodies up from light
+    // ones). In substeps without impacts, warm starting follows.
     const bool place_first = !repeat;
     note_free_velocities(w);
     if (place_first) place();

@@ -15,7 +15,7 @@ void add_step_impulses(WorldData<Real>& w) {
   });
 }
 
-/// Solves by soft constraints (Catto, 2024); with Solver::Direct, a direct solve of articulated islands.
+/// Solves by soft constraints (Catto, 2024). With Solver::Direct, also solves islands with joints directly.
 template <class Real>
 void solve_soft_steps(WorldData<Real>& w, double h, int substeps);
 

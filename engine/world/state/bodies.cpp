@@ -56,7 +56,7 @@ void make_room_to_enter(WorldData<Real>& w, int body, BodyType type) {
   ensure_room(w.awake, w.awake.size() + 1);
 }
 
-// Tells all joints of a body whether it is dynamic, or none if that throws.
+// Tells all joints of a body whether it is dynamic. If that throws, no joint is changed.
 template <class Real>
 void set_joints_dynamic(WorldData<Real>& w, int body, bool is_dynamic) {
   const auto set = [&](const JointRecord& joint, bool to) {
@@ -88,7 +88,7 @@ Rotation<Real> rounded(Rotation<double> q) {
 
 template <class Real>
 int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<const ShapeDefinition> shapes) {
-  // First do everything that may be rejected or run out of memory.
+  // First do everything that may be rejected or may run out of memory.
   std::vector<NewShape<Real>> made;
   made.reserve(shapes.size());
   for (const ShapeDefinition& shape : shapes) made.push_back(prepare_shape<Real>(shape));

@@ -13,7 +13,7 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
 template <class Real>
 void remove_body(WorldData<Real>& w, int body);
 
-/// Returns the position of the body's origin (m), which is that of its frame.
+/// Returns the position of the body's origin, m.
 template <class Real>
 Vec2d origin_of(const WorldData<Real>& w, int body);
 template <class Real>

@@ -12,20 +12,21 @@ inline constexpr double kStiffFrequencyShare = 0.25;
 /// Damping ratio far above critical, so that overlaps dissolve without a bounce.
 inline constexpr double kContactDampingRatio = 10;
 
-/// Compliance of a contact under load, as a fraction of its spring's; at 1 large heaps oscillate. A heap of
-/// 100 rows collapses at 0.2 (at 0.4 with two substeps); one of 75 with two substeps sways, but stands.
+/// Compliance of a contact under load, as a fraction of its spring's compliance. At 1 large heaps oscillate.
+/// At 0.2 a heap of 100 rows collapses (at 0.4 with two substeps); with two substeps, one of 75 rows sways,
+/// but stands.
 inline constexpr double kContactComplianceScale = 0.35;
-/// Fraction of a lasting load that becomes the load estimate. Contacts are compliant only to the rest of the
-/// load, so a lasting load causes little penetration. At 1 loads would creep among redundant supports, and
-/// overlaps would grow again.
+/// Fraction of a persistent load that becomes the load estimate. Contacts are compliant only to the rest of
+/// the load, so a persistent load causes little penetration. At 1, loads would creep among redundant
+/// supports, and overlaps would grow again.
 inline constexpr double kExpectedShare = 0.9;
 /// Penetration, as a fraction of the smaller extent, from which the load estimate is the full load; below it
-/// the fraction rises linearly. A few points of a heap bear much more than the others. A heap of 100 rows of
-/// 1 m is 0.95 mm deep and sways by 3 cm; with 0.002 it is 1.04 mm deep. With 0.0015 it sways by 4.7 cm, and
-/// more from minute to minute.
+/// the fraction rises linearly. (A few points of a heap bear much more than the others.) A heap of 100 rows
+/// of 1 m penetrates by 0.95 mm and sways by 3 cm. With 0.002 it penetrates by 1.04 mm. With 0.0015 it sways
+/// by 4.7 cm, and the sway grows over minutes.
 inline constexpr double kExpectedOverlap = 0.0017;
-/// Fraction of the difference by which the load estimate follows the load in a step. Heaps of 100 rows
-/// oscillate from 0.03 on, those of 20 rows from 0.5.
+/// Low-pass filter: fraction of the difference by which the load estimate approaches the load in a step. From
+/// 0.03 on, heaps of 100 rows oscillate; from 0.5 on, heaps of 20 rows.
 inline constexpr double kExpectedRate = 0.01;
 
 /// Fraction of a penetration that a directly solved contact corrects in a substep.
@@ -49,29 +50,29 @@ inline constexpr double kDirectMassRatio = 8;
 /// iterations leave the tree stretched.
 inline constexpr int kSweptLinksLeast = 6;
 inline constexpr int kSweptLinksMost = 16;
-/// Limits up to which an island with joints is solved as one whatever its masses: rows with bounds (limits
-/// and motors), contacts, and multiplications a joint for the factorisation. Within them the solution is at
-/// most some ten times as expensive as an iteration, and a hundred times as accurate or more. Each row with
-/// bounds may need another factorisation: ragdolls of ten hinges with limits and friction have 20, and would
-/// cost 40 times as much.
+/// Limits up to which an island with joints is solved as one system, whatever its masses: rows with bounds
+/// (limits and motors), contacts, and multiplications per joint for the factorisation. Within them, the
+/// solution costs at most some ten times as much as an iteration, and is a hundred times as accurate or more.
+/// Each row with bounds may need another factorisation: ragdolls of ten hinges with limits and friction have
+/// 20 such rows, and would cost 40 times as much.
 inline constexpr int kFewBoundedRows = 16;
 inline constexpr int kFewContacts = 16;
 inline constexpr double kFewCost = 1000;
-/// Limits up to which an island with joints is solved as one: joints, contacts, and multiplications to
-/// factorise its rows. At 2e6 of these a step of four substeps takes some 20 ms. Larger islands are solved by
-/// iterations.
+/// Limits up to which an island with joints is solved as one system: joints, contacts, and multiplications to
+/// factorise its rows. Larger islands are solved by iterations. With a limit of 2e6 multiplications, a step
+/// of four substeps would take some 20 ms.
 inline constexpr int kJointedJoints = 4096;
 inline constexpr int kJointedContacts = 512;
 inline constexpr double kJointedCost = 2e5;
 /// Fraction of a joint's gap that a step closes by moving the bodies, and relative compliance of the rows for
-/// this correction. No body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With 1e-4 (50
-/// times), links of a taut bridge turn so far for a gap of 0.4 mm that it sags. At 0.1 chains close half as
-/// fast.
+/// this correction. No body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With a
+/// softness of 1e-4 (50 times), links of a taut bridge rotate so far for a gap of 0.4 mm that the bridge
+/// sags. At 0.1, chains close half as fast.
 inline constexpr double kJointShare = 0.5;
 inline constexpr double kCloseSoftness = 1e-2;
-/// The same compliance with Solver::Direct, which closes gaps in each substep: a chain of ten links that is
-/// pulled around stays closed within 1e-6 m. At 1e-2 it opens by 7e-6 m; at 1e-4 bridges sag here as well.
-/// Closing whole gaps once per step would let them sag.
+/// The same for Solver::Direct, which closes gaps in each substep: a chain of ten links that is pulled around
+/// stays closed within 1e-6 m. With a softness of 1e-2 it opens by 7e-6 m; with 1e-4 bridges sag here as
+/// well. If whole gaps were closed only once per step, bridges would sag too.
 inline constexpr double kDirectJointShare = 1;
 inline constexpr double kDirectCloseSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
@@ -92,16 +93,16 @@ inline constexpr int kLimitSweeps = 4;
 /// Fraction of a penetration or joint error that a substep of sequential impulses corrects (Baumgarte, 1972).
 /// A larger fraction would oscillate, because the correction stays in the velocities.
 inline constexpr double kFeedback = 0.2;
-/// Penetration that sequential impulses leave, as a fraction of the smaller extent, so that resting contacts
-/// do not come and go.
+/// Penetration that sequential impulses do not correct, as a fraction of the smaller extent, so that resting
+/// contacts do not come and go.
 inline constexpr double kSlop = 0.002;
 
 /// Depenetration speed, in extents of the smaller shape a second, so that deep overlaps dissolve without a
 /// burst.
 inline constexpr double kPushSpeed = 4;
 /// Additional depenetration speed between dynamic bodies that an impact has driven into each other, as a
-/// fraction of the velocity that their contact impulse gives them in a substep. At 0.2 initially overlapping
-/// shapes separate a fifth faster.
+/// fraction of the velocity that their contact impulse gives them in a substep. At 0.2, shapes that overlap
+/// initially separate a fifth faster.
 inline constexpr double kLoadPushShare = 0.05;
 
 /// Constant part of the speculative margin, as a fraction of the smaller shape's extent; the possible
@@ -129,11 +130,11 @@ inline constexpr double kSeamDepth = 0.25;
 /// in free flight cost a quarter more at 2 steps.
 inline constexpr double kBoxMargin = 0.1;
 inline constexpr double kBoxSteps = 4;
-/// Maximum motion covered by the fat AABB of a body in a crowd, in extents: at most two steps, at least the
-/// next one. A crowd that moves as one (a drum's filling) has three times as many pairs as contacts at 4
-/// steps, and costs a tenth more instructions than at 2. A body that is stirred by more than an extent a step
-/// leaves any AABB after one or two steps; a margin beyond the next step makes pairs with twenty others that
-/// end again in the next step.
+/// Largest motion that the fat AABB of a body in a crowd covers, in extents: at most two steps, at least the
+/// next one. A crowd that moves together (a drum's filling) has three times as many pairs as contacts at 4
+/// steps, and costs a tenth more instructions than at 2. A body that is stirred by more than an extent per
+/// step leaves any AABB after one or two steps. A margin beyond the next step would only add pairs with
+/// twenty others that end in the next step.
 inline constexpr double kBoxRoomInCrowd = 2;
 
 /// The self-overlap pass runs when the move buffer holds at least kScreenedMoves shapes, and one in
@@ -169,18 +170,18 @@ inline constexpr double kImpactTolerance = 1e-3;
 inline constexpr int kImpactIterations = 64, kToiIterationBudget = 4096;
 
 /// Separation at which a rebound within a step takes place, relative to the bodies' sizes and displacements.
-/// The search rounds at some 1e-15 of these: a much smaller value could not distinguish touching from
-/// overlapping. A larger one would make impacts too early by that much.
+/// The search has rounding errors of some 1e-15 of these. A much smaller value could not distinguish touching
+/// from overlapping; a larger one would make impacts too early by that much.
 inline constexpr double kReboundTolerance = 1e-14;
 
-/// Maximum number of impacts of a body within a step; at the next one it waits for the next step, with the
-/// body it meets. From kBouncesInFlight on, impacts with restitution below 1 are inelastic, because a box
-/// that lands flat has ever smaller ones, without end. It may have kLandingsInFlight of these inelastic
-/// impacts.
+/// Maximum number of impacts of a body within a step. At the next impact the body, and the body that it
+/// meets, wait for the next step. From kBouncesInFlight on, impacts with restitution below 1 are inelastic,
+/// because a box that lands flat has endlessly many, ever smaller impacts. kLandingsInFlight limits these
+/// inelastic impacts.
 inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
-/// The same limit for impacts without restitution: the corners of a side hit one after the other, and back.
-/// The last one ends the landing: no point of the side approaches after it. With 3, sharp polygons that spin
-/// by tens of radians a step lose a part of one step in 7 of 100 landings; with 8 in 1.
+/// The same limit for impacts without restitution: when a side lands, its corners hit alternately. The last
+/// impact ends the landing: no point of the side approaches after it. With a limit of 3, sharp polygons that
+/// spin by tens of radians per step lose a part of one step in 7 of 100 landings; with 8 in 1.
 inline constexpr int kLandingsInFlight = 8;
 
 /// A body may fall asleep after its speed was below kSleepSpeed, in extents a second, for kSleepTime, s.
@@ -188,8 +189,8 @@ inline constexpr double kSleepSpeed = 0.05;
 inline constexpr double kSleepTime = 0.5;
 
 /// Overlap, as a fraction of the smaller extent, above which no body falls asleep: deeper shapes are being
-/// pushed apart, and would stay as they are. It is the largest overlap that the invariant monitor accepts at
-/// rest; a heap of 100 rows has 0.002.
+/// pushed apart, and sleep would keep them deep. It is the largest overlap that the invariant monitor accepts
+/// at rest; a heap of 100 rows has 0.002.
 inline constexpr double kSleepOverlap = 0.02;
 
 /// Separation, as a fraction of the smaller extent, up to which shapes count as touching for events.

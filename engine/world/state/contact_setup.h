@@ -32,8 +32,8 @@ Watch watch_of(const ContactRecord& contact, const ContactConstraint<Real>& c) {
   return contact.hit_events || contact.pre_solve ? Watch::Reports : Watch::Off;
 }
 
-/// Returns the largest depth, m, to which rounding alone may have moved the shapes of a contact into each
-/// other.
+/// Returns an upper bound of the overlap, m, that rounding alone may have caused between the shapes of a
+/// contact.
 template <class Real>
 Real rounding_between(const WorldData<Real>& w, int body_a, int body_b) {
   return 8 * std::numeric_limits<Real>::epsilon() * (w.extents[body_a] + w.extents[body_b]);
@@ -53,7 +53,7 @@ bool aabbs_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach)
 template <class Real>
 ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach);
 
-/// Returns the locked axes of two bodies, as bits of ContactLock.
+/// Returns which axes of the two bodies are locked, as bits of ContactLock.
 template <class Real>
 unsigned locks_of(const WorldData<Real>& w, int body_a, int body_b) {
   const auto of = [&](int body) -> unsigned {
@@ -64,14 +64,14 @@ unsigned locks_of(const WorldData<Real>& w, int body_a, int body_b) {
   return of(body_a) | of(body_b) * kLockBX;
 }
 
-/// Writes the manifold into the constraint, with lever arms and effective masses; points with a known feature
+/// Writes the manifold into the constraint, with lever arms and effective masses. Points with a known feature
 /// keep their impulses. `q` is the rotation of a, `between` the vector from its centre of mass to that of b.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
                      ContactConstraint<Real>& c);
 
-/// Does the same, but writes the new normal impulses to `impulse` and leaves those of the constraint, because
+/// Does the same, but writes the new normal impulses to `impulse`. Those of the constraint are kept, because
 /// other threads may still read them.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,

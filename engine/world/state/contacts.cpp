@@ -90,7 +90,7 @@ template <class Real>
 ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
   assert(w.shapes.used(shape_a) && w.shapes.used(shape_b) &&
          w.shapes[shape_a].body != w.shapes[shape_b].body);
-  // A chain's segment must be shape a, as the manifold functions expect.
+  // A chain's segment must be shape a, because the manifold functions expect it there.
   if (w.forms[shape_b].chain || (!w.forms[shape_a].chain && shape_b < shape_a)) std::swap(shape_a, shape_b);
   const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
   ContactRecord record;
@@ -154,7 +154,7 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
     wake_body(w, record.body_b);
   } catch (...) {
     leave_graph(w, contact);
-    enter_near(w, contact);  // there is memory, as it was in Near before
+    enter_near(w, contact);  // its capacity suffices: the contact was in Near before
     count_constraint(w, record, -1);
     throw;
   }
@@ -174,7 +174,7 @@ template <class Real>
 void park_contact(WorldData<Real>& w, int contact) {
   ContactRecord& record = w.contacts[contact];
   if (record.home == ContactHome::Near) {
-    // An awake kinematic body may come to touch a sleeping one.
+    // An awake kinematic body may touch a sleeping one.
     if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
     leave_near(w, contact);
     record.home = ContactHome::Idle;

@@ -8,28 +8,28 @@
 /// separate. It is in the constraint graph while it has points, and parked while its bodies sleep.
 namespace plumb {
 
-/// Returns true if the two shapes may collide: checks bodies, filters, and joints between the bodies.
+/// Returns true if bodies, filters, and joints between the bodies let the two shapes collide.
 template <class Real>
 bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
-/// Asks the user's filter about a pair that may collide; only the calling thread may. Returns true without
-/// one.
+/// Asks the user's filter about a pair that may collide; returns true if there is no filter. Only the calling
+/// thread may ask it.
 template <class Real>
 bool is_let_through(const WorldData<Real>& w, int shape_a, int shape_b) {
   return !w.filter || w.filter(std::min(shape_a, shape_b), std::max(shape_a, shape_b));
 }
-/// Returns true if the two shapes may collide, by the user's filter too.
+/// Returns true if the two shapes may collide; asks the user's filter too.
 template <class Real>
 bool may_meet(const WorldData<Real>& w, int shape_a, int shape_b) {
   return may_collide(w, shape_a, shape_b) && is_let_through(w, shape_a, shape_b);
 }
 
-/// Returns the categories to query for a shape's AABB, folded: all if it has a group, which may overrule the
-/// mask.
+/// Returns the categories to query for a shape's AABB, folded. A shape with a group queries all, because a
+/// group may overrule the mask.
 inline std::uint32_t seen_by(const Filter& filter) {
   return filter.group != 0 ? 0xFFFFFFFFu : folded(filter.mask);
 }
-/// Returns true if a contact has points, which the solver has or had.
+/// Returns true if a contact has points, or had points in the solver.
 inline bool has_points(const ContactRecord& contact) {
   return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
 }
@@ -48,7 +48,7 @@ void create_contact(WorldData<Real>& w, int shape_a, int shape_b);
 template <class Real>
 void destroy_contact(WorldData<Real>& w, int contact);
 
-/// Moves a contact that has got points from Near to Graph, and wakes its bodies.
+/// Moves a contact that has gained points from Near to Graph, and wakes its bodies.
 template <class Real>
 void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint);
 
@@ -91,11 +91,11 @@ template <class Real>
 void destroy_forbidden_contacts(WorldData<Real>& w, int shape);
 
 /// Wakes sleeping bodies that a new static shape touches. (Other bodies are awake when they move, and wake
-/// those they meet in the next step.)
+/// the bodies that they touch in the next step.)
 template <class Real>
 void wake_touched(WorldData<Real>& w, int shape);
 
-/// Calls visit(edge, record of contact or joint) along a body's list; the visited one may be removed.
+/// Calls visit(edge, record of contact or joint) along a body's list. `visit` may remove that item.
 template <class Items, class Visit>
 void for_each_edge(Items& items, int first, Visit&& visit) {
   for (int edge = first; edge != kNone;) {

@@ -16,8 +16,8 @@
 
 namespace plumb {
 
-/// Contiguous corners of all shapes; shapes whose corners are bitwise equal share a run of them. Freed runs
-/// are reused for runs of the same length. Results do not depend on the order of the hash table: runs are
+/// Contiguous corners of all shapes. Shapes whose corners are bitwise equal share a run. Freed runs are
+/// reused for runs of the same length. Results do not depend on the order of the hash table, because runs are
 /// found by their contents.
 template <class Real>
 class CornerPool {
@@ -66,7 +66,7 @@ class CornerPool {
     if (--table_[hole].uses > 0) return;
     free_[static_cast<std::size_t>(count)].push_back(first);
     --runs_, --in_use_[static_cast<std::size_t>(count)];
-    // Later runs move back (Knuth, The Art of Computer Programming 3, 6.4, algorithm R).
+    // Moves later runs back (Knuth, The Art of Computer Programming 3, 6.4, algorithm R).
     const std::size_t mask = table_.size() - 1;
     for (std::size_t at = (hole + 1) & mask; table_[at].uses > 0; at = (at + 1) & mask) {
       const std::size_t home = hash(run(table_[at].first, table_[at].count)) & mask;

@@ -4,22 +4,22 @@
 #include "engine/world/world.h"
 #include "engine/world/world_data.h"
 
-/// While a world calls the user's code (a pre-solve hook, a combine rule, a force law, a query's visitor or
-/// filter) it is locked. Calls that would change it throw Error (Unsupported) then, with nothing changed.
-/// Reading is allowed.
+/// A world is locked while it calls the user's code (a pre-solve hook, a combine rule, a force law, a query's
+/// visitor or filter). Calls that would change it then throw Error (Unsupported) and change nothing. Reading
+/// is allowed.
 namespace plumb {
 
 /// Throws if the world is locked.
 template <class Real>
 void require_unlocked(const WorldData<Real>& w);
-/// Throws during a step, in which the data are not the state of any step.
+/// Throws during a step, because the data are then not the state of any step.
 template <class Real>
 void require_between_steps(const WorldData<Real>& w);
 
 /// Returns the data of an unlocked world, for calls that change it.
 template <class Real>
 WorldData<Real>& unlocked(BasicWorld<Real>& world);
-/// Does the same, and updates all masses: for calls that act on motions.
+/// Does the same, and updates all masses. For calls that act on motions.
 template <class Real>
 WorldData<Real>& settled(BasicWorld<Real>& world);
 
@@ -33,7 +33,7 @@ void end_use(const WorldData<Real>& w) {
 template <class Real>
 class Lock {
  public:
-  /// `wanted`: there is user code to call; otherwise nothing is locked.
+  /// `wanted` is false if there is no user code to call; then nothing is locked.
   explicit Lock(const WorldData<Real>& w, bool wanted = true) : w_(wanted ? &w : nullptr) {
     if (w_ != nullptr) w_->callers.fetch_add(1, std::memory_order_relaxed);
   }

@@ -27,7 +27,7 @@ void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
   typename CornerPool<Real>::Runs runs{};
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
     ++runs[static_cast<std::size_t>(w.forms[shape].stored())];
-  w.corners.make_room_for(runs);  // nothing is allocated from here on
+  w.corners.make_room_for(runs);  // nothing below allocates
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     ShapeForm<Real>& form = w.forms[shape];
     Corner<Real> moved[kMaxCorners + 2];
@@ -77,7 +77,7 @@ void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass, Vec2<R
   motion.inverse_inertia =
       dynamic && !record.lock_rotation && mass.inertia > 0 ? held<Real>(1 / mass.inertia) : Real(0);
   if (dynamic && record.lock_rotation)
-    motion.angular_velocity = 0;  // of a kinematic body that became dynamic
+    motion.angular_velocity = 0;  // a kinematic body that became dynamic may have one
   update_extents(w, body);
   invalidate_manifolds(w, body);
 }
@@ -114,7 +114,7 @@ Real inverse_mass_of(const BodyRecord<Real>& record, double mass) {
   return record.lock_x && record.lock_y ? Real(0) : held<Real>(1 / mass);
 }
 
-// Shapes without mass make a body of 1 kg that does not rotate: it could not be moved otherwise.
+// A body whose shapes have no mass gets 1 kg and does not rotate; without a mass it could not be moved.
 template <class Real>
 MassProperties mass_now(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -127,17 +127,17 @@ MassProperties mass_now(const WorldData<Real>& w, int body) {
     mass += part.mass;
     moment += part.mass * part.centroid;
   });
-  // A mass whose inverse is not finite counts as none.
+  // A mass whose inverse is not finite counts as no mass.
   if (!(mass > 0 && 1 / mass <= std::numeric_limits<double>::max()))
     return {1, record.centre.template as<double>(), 0};
   const Vec2d centre = (1 / mass) * moment;  // in the body's frame
-  // Corners of a damaged snapshot may lead nowhere.
+  // The corners of a damaged snapshot may give any numbers.
   if (!std::isfinite(centre.x) || !std::isfinite(centre.y))
     return {1, record.centre.template as<double>(), 0};
   for_each_part(w, body, [&](const ConvexMass& part) {
     inertia += part.inertia + part.mass * length_squared(part.centroid - centre);
   });
-  // Corners of a damaged snapshot may be in clockwise order: their inertia counts as none.
+  // The corners of a damaged snapshot may be in clockwise order: a negative inertia counts as none.
   return {mass, record.centre.template as<double>() + centre, inertia >= 0 ? inertia : 0};
 }
 

@@ -6,12 +6,11 @@
 #include "engine/world/world_data.h"
 
 /// Masses, centres of mass and sizes of bodies, computed from their shapes.
-///
-/// The frame of a dynamic body is at its centre of mass, that of a kinematic one at its origin, about which
-/// it rotates. A static body's frame stays at the centre of its first shapes, because its mass is not needed.
-/// So adding a shape to a static body or removing one has constant cost. For other bodies, changes of shapes
-/// are noted, and all masses are computed together when they are needed: before a step, and before calls that
-/// act on motions.
+/// The frame of a dynamic body is at its centre of mass. That of a kinematic one is at its origin, about
+/// which it rotates. A static body's frame stays at the centre of its first shapes, because its mass is not
+/// needed; so adding a shape to a static body, or removing one, has constant cost. For other bodies, changes
+/// of shapes are recorded, and all masses are computed together when they are needed: before a step, and
+/// before calls that act on motions.
 namespace plumb {
 
 /// Recomputes a body's mass, centre and sizes, and moves its frame to the centre.
@@ -24,12 +23,12 @@ void find_mass(WorldData<Real>& w, int body);
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
 
-/// Returns the inverse mass of a dynamic body, 1/kg; 0 if both its axes are locked: this holds along every
-/// direction.
+/// Returns the inverse mass of a dynamic body, 1/kg; 0 if both its axes are locked, because no direction is
+/// then free.
 template <class Real>
 Real inverse_mass_of(const BodyRecord<Real>& record, double mass);
 
-/// Notes that a shape is about to be added to the body or removed from it.
+/// Records that a shape is about to be added to the body or removed from it.
 template <class Real>
 void note_mass_change(WorldData<Real>& w, int body);
 /// Grows the body's sizes by a shape that was added.
@@ -38,16 +37,16 @@ void grow_extents(WorldData<Real>& w, int body, int shape);
 /// Updates all bodies that were noted.
 template <class Real>
 void settle(WorldData<Real>& w);
-/// Returns true if a change of the body's shapes was noted and not yet applied.
+/// Returns true if a change of the body's shapes was recorded and not yet applied.
 template <class Real>
 bool is_unsettled(const WorldData<Real>& w, int body) {
   return w.bodies[body].half_width < 0;
 }
 
-/// Returns the body's mass properties, even if a change is still noted; the centre is in the body's frame.
+/// Returns the body's mass properties, including a recorded change; the centre is in the body's frame.
 template <class Real>
 MassProperties mass_now(const WorldData<Real>& w, int body);
-/// Returns the offset of the body's centre of mass from its stored one, m; 0 if no change is noted.
+/// Returns the offset of the body's centre of mass from its stored one, m; 0 if no change was recorded.
 template <class Real>
 Vec2<Real> way_to_centre(const WorldData<Real>& w, int body);
 

@@ -6,7 +6,7 @@
 #include "engine/scene/subject.h"
 #include "engine/world/world_data.h"
 
-/// Error messages of calls name the subject of the call.
+/// Helpers by which errors name the subject of the call.
 namespace plumb {
 
 /// Calls `check` and rethrows its errors with `subject()` as their subject.

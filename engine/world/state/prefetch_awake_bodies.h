@@ -31,7 +31,7 @@ class PrefetchAwakeBodies {
   }
 
  private:
-  /// Fewer bodies fit into a cache, where a prefetch only costs time.
+  /// If there are fewer bodies than this, they fit into a cache and prefetching only costs time.
   static constexpr std::size_t kCached = 1 << 14;
   static constexpr std::size_t kBodies = 32, kShapes = 16;
 

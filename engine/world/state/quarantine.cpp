@@ -41,7 +41,7 @@ double one_nan(double x) { return x == x ? x : std::numeric_limits<double>::quie
 
 template <class Real>
 void let_go(WorldData<Real>& w, JointRecord& joint) {
-  if (lets_go(w, joint)) return;  // still off because of the other body
+  if (lets_go(w, joint)) return;  // the joint stays inactive because of the other body
   if (joint.active) w.joint_set.set_active(joint.slot, false), joint.active = false;
   --w.bodies[joint.body_a].constraints, --w.bodies[joint.body_b].constraints;
   w.joint_set.forget(joint.slot);
@@ -49,7 +49,7 @@ void let_go(WorldData<Real>& w, JointRecord& joint) {
 
 template <class Real>
 void hold_again(WorldData<Real>& w, JointRecord& joint) {
-  if (lets_go(w, joint)) return;  // still off because of the other body
+  if (lets_go(w, joint)) return;  // the joint stays inactive because of the other body
   ++w.bodies[joint.body_a].constraints, ++w.bodies[joint.body_b].constraints;
   w.joint_set.set_dynamic(joint.slot, w.is_dynamic(joint.body_a), w.is_dynamic(joint.body_b));
   w.joint_set.forget(joint.slot);
@@ -57,7 +57,7 @@ void hold_again(WorldData<Real>& w, JointRecord& joint) {
   if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
 }
 
-// Removes a body from the simulation: it is static meanwhile, without contacts, joints and boxes.
+// Removes a body from the simulation: until its release it is static, without contacts, joints and proxies.
 template <class Real>
 void take_out(WorldData<Real>& w, int body, const QuarantineEvent& why) {
   ensure_room(w.quarantine, w.quarantine.size() + 1);
@@ -116,8 +116,8 @@ void put_back(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
   w.enlarged[body] = 0;
 }
 
-// Returns the velocity before the step of a body in free flight. (The body moved by the mean of this velocity
-// and the present one.)
+// Returns the velocity before the step of a body in free flight, which moved by the mean of this velocity and
+// the present one.
 template <class Real>
 BodyVelocity<Real> start_of_flight(const BodyMotion<Real>& motion, double dt) {
   const Vec2d before = (2 / dt) * motion.moved.template as<double>() - motion.velocity.template as<double>();
@@ -137,7 +137,7 @@ void mend_static_bodies(WorldData<Real>& w) {
   }
 }
 
-// Clears impulses of the body's contacts and joints, and updated separations, because they are not finite
+// Clears impulses of the body's contacts and joints, and updates separations, because these are not finite
 // either.
 template <class Real>
 void forget_impulses(WorldData<Real>& w, int body) {
@@ -175,11 +175,12 @@ struct Fault {
   BadField field{};
   double value = 0;
   double speed = 0;  ///< m/s, before the step
-  bool own = false;  ///< cannot be caused by another body
+  bool own = false;  ///< no other body can have caused it
 };
 
-// Returns the bodies that caused a failure which a constraint passed on: the fastest body, or all that
-// already exceeded the limits before.
+// Returns the bodies that caused a failure which constraints may have spread: those whose failure no other
+// body can have caused, and those that were very fast before the step. If none was that fast, adds the
+// fastest of the others.
 std::vector<Fault> sources_of(const std::vector<Fault>& faults) {
   constexpr double kRunaway = 1e-3 * kLargestNumber;
   std::vector<Fault> culprits;
@@ -238,7 +239,7 @@ void quarantine_body(WorldData<Real>& w, int body, BadField field, double value)
   if (!w.settings.quarantine) report(why);
   ensure_room(w.log().quarantined, w.log().quarantined.size() + 1);
   take_out(w, body, why);
-  // Between two steps, a body that is released and pushed beyond the limits again is reported once.
+  // A body that is released and pushed beyond the limits again between two steps is reported once.
   std::vector<QuarantineEvent>& told = w.log().quarantined;
   if (!w.stepping) std::erase_if(told, [&](const QuarantineEvent& each) { return each.body == why.body; });
   told.push_back(std::move(why));
@@ -322,7 +323,7 @@ void quarantine_diverged(WorldData<Real>& w, double dt) {
   const std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
   std::vector<Fault> faults;
   bool shared = false;
-  std::size_t kick = 0;  // kicks and bad bodies are both in the order of `awake`
+  std::size_t kick = 0;  // both lists are in the order of `awake`
   for (const int body : w.scratch.nonfinite_bodies) {
     const int place = w.bodies[body].awake_index;
     while (kick < kicks.size() && w.bodies[kicks[kick].body].awake_index < place) ++kick;

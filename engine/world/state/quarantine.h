@@ -15,7 +15,7 @@ void quarantine_body(WorldData<Real>& w, int body, BadField field, double value)
 /// quarantine.
 template <class Real>
 void disable_body(WorldData<Real>& w, int body);
-/// Puts back a body that `disable_body` took out.
+/// Restores a body that `disable_body` removed.
 template <class Real>
 void enable_body(WorldData<Real>& w, int body);
 
@@ -30,7 +30,7 @@ BodyType own_type(const WorldData<Real>& w, int body);
 template <class Real>
 QuarantinedBody& quarantine_of(WorldData<Real>& w, int body);
 
-/// Returns true if the joint is off because one of its bodies is in quarantine.
+/// Returns true if the joint is disabled because one of its bodies is in quarantine.
 template <class Real>
 bool lets_go(const WorldData<Real>& w, const JointRecord& joint) {
   return w.bodies[joint.body_a].quarantined || w.bodies[joint.body_b].quarantined;
@@ -61,9 +61,9 @@ bool is_sound_motion(const BodyMotion<Real>& motion);
 template <class Real>
 bool stays_in_range(const WorldData<Real>& w, int body);
 
-/// Handles, after a step's solver, the bodies in `scratch.nonfinite_bodies`, whose motion is invalid and was
-/// not applied. Bodies in free flight, or too fast, are quarantined. Of bodies with a common failure (a
-/// constraint passes it on), the fastest are quarantined. The others stay in place for this step, lose their
+/// Handles the bodies in `scratch.nonfinite_bodies` after a step's solver: their motion is invalid and was
+/// not applied. Quarantines bodies that were in free flight or too fast. If constraints spread a failure
+/// among several bodies, quarantines the fastest. The others stay in place for this step, lose their
 /// impulses, and continue with the velocity before it.
 template <class Real>
 void quarantine_diverged(WorldData<Real>& w, double dt);

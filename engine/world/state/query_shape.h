@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// A convex shape for queries, in double precision and in its own frame. Create it once for many queries; a
-/// circle, a box, a capsule and a segment do not allocate. Throws Error (Value) as creating such a shape in a
-/// world does.
+/// A convex shape for queries, in double precision and in its own frame. Create it once for many queries;
+/// circles, boxes, capsules and segments do not allocate. Throws Error (Value) in the same cases as creating
+/// such a shape in a world.
 class QueryShape {
  public:
   QueryShape(const ShapeGeometry& geometry);

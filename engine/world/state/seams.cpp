@@ -22,10 +22,10 @@ Pose<Real> inverse(const Pose<Real>& pose) {
   return {-(back * pose.position), back};
 }
 
-// One side of a contact, computed when its first neighbour is tested.
+// One side of a contact, computed when the first neighbour is tested.
 template <class Real>
 struct Side {
-  bool looked = false;      // the rest is computed
+  bool looked = false;      // the members below are computed
   int shape = 0, body = 0;  // of the touched shape
   TouchedSurface<Real> touched;
   SeamAnswer<Real> answer{};
@@ -127,7 +127,7 @@ bool is_preferred(const SeamAnswer<Real>& face, const SeamAnswer<Real>& other) {
   return face.at_start && !other.at_start;
 }
 
-// Tests a neighbour; of several faces it keeps the one that the other shape is farthest in front of.
+// Tests a neighbour. If it gives several faces, keeps the one that the other shape is farthest in front of.
 template <class Real>
 void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
   using Kind = typename SeamAnswer<Real>::Kind;
@@ -198,8 +198,8 @@ struct Sides {
   Side<Real> of_a, of_b;
 };
 
-// Maximum number of shapes of two dynamic bodies that are all tested as neighbours. If the bodies have more,
-// only shapes with contacts are tested. Bodies of a few convex parts have fewer shapes than contacts.
+// Maximum number of shapes of two dynamic bodies for testing all of them as neighbours. With more shapes,
+// only those with contacts are tested. Bodies of a few convex parts have fewer shapes than contacts.
 constexpr int kFewShapes = 16;
 
 // Returns true if a body has at most `most` shapes, and subtracts their number from `most`.
@@ -221,7 +221,7 @@ void for_each_sibling(const WorldData<Real>& w, const ContactRecord& contact, co
 }
 
 // Calls look_at(shape, kNone) for all shapes that have a contact with one of the contact's shapes and belong
-// to the other one's side. Searches the contacts of a body.
+// to the other shape's side. Searches the contacts of the body `asked`.
 template <class Real, class LookAt>
 void for_each_touching(const WorldData<Real>& w, const ContactRecord& contact, int asked,
                        const LookAt& look_at) {
@@ -234,7 +234,8 @@ void for_each_touching(const WorldData<Real>& w, const ContactRecord& contact, i
     edge = record.next[edge & 1];
     const int beside = is_a ? record.shape_b : record.shape_a,
               of_asked = is_a ? record.shape_a : record.shape_b;
-    // Only shapes that have a contact with the sliding shape count as neighbours, so its list has them all.
+    // Only shapes that have a contact with the sliding shape count as neighbours, so this body's list
+    // contains them all.
     if (of_asked == own && beside != other) look_at(beside, kNone);
     if (beside == other && of_asked != own) look_at(of_asked, kNone);
   }
@@ -261,7 +262,7 @@ void ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, cons
     if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return;
   }
   const Region<Real> region = region_of(w, contact, manifold, smaller, way);
-  // Does the test of `stays_beside` for either side, before anything is computed.
+  // Makes the test of `stays_beside` for both sides, before anything is computed.
   const auto may_be_beside = [&](int body) {
     return body == contact.body_a || body == contact.body_b || (!both_dynamic && !w.is_dynamic(body));
   };
@@ -292,7 +293,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
                                    const Pose<Real>& b_in_a, Real reach,
                                    const ContactManifold<Real>& manifold, Real way) {
   using Kind = typename SeamAnswer<Real>::Kind;
-  // Only neighbours fixed to a touched shape count: two dynamic bodies of one shape each have none.
+  // Only neighbours fixed to a touched shape count. Two dynamic bodies with one shape each have none.
   const auto is_single = [&](int body) {
     const int shape = w.bodies[body].first_shape;
     return shape == kNone || w.shapes[shape].next == kNone;
@@ -313,7 +314,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
     if (w.is_dynamic(sides[i]->body) && !slides_along(w, contact, *sides[i])) continue;
     const ContactManifold<Real> found = on_face(w, contact, *sides[i], b_in_a, reach);
     if (found.count == 0) {
-      // No point is in front of the face: a body that lies inside the shape keeps a contact.
+      // No point is in front of the face: a body inside the shape keeps its contact.
       const bool overlaps = deepest_of(manifold) < -2 * sides[i]->touched.tolerance;
       return overlaps ? manifold : found;
     }

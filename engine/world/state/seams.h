@@ -6,16 +6,16 @@
 namespace plumb {
 
 /// Corrects a contact's manifold at internal edges. If the surface consists of several shapes, the normal of
-/// an edge between them is replaced by the surface's, or all points are removed. `b_in_a` and `reach` are
-/// those of the manifold, after its bodies have moved by at most `way` (m). Manifolds of two points far apart
-/// are not changed.
+/// an edge between them is replaced by the surface's normal, or all points are removed. `b_in_a` and `reach`
+/// are those of the manifold, after its bodies have moved by at most `way` (m). A manifold of two points far
+/// apart is not changed.
 template <class Real>
 ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord& contact,
                                    const Pose<Real>& b_in_a, Real reach,
                                    const ContactManifold<Real>& manifold, Real way = 0);
 
-/// Returns the point about which impulses between two bodies do not turn them relative to each other, in a's
-/// frame: the mean of their centres of mass, weighted by inverse inertia.
+/// Returns the point about which impulses between two bodies do not rotate them relative to each other, in
+/// a's frame: the mean of their centres of mass, weighted by inverse inertia.
 template <class Real>
 Vec2<Real> pivot_between(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a) {
   const Real turns_a = w.motion[contact.body_a].inverse_inertia,

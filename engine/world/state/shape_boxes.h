@@ -12,19 +12,19 @@ namespace plumb {
 template <class Real>
 Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape);
 
-/// Returns the tight AABB of a shape after the last step. Reads the one that a step stores for shapes in the
-/// trees, and computes that of a shape that collides with nothing.
+/// Returns the tight AABB of a shape after the last step. For shapes in the trees, a step stores it; for a
+/// shape that collides with nothing it is computed.
 template <class Real>
 Aabb<Real> current_aabb(const WorldData<Real>& w, int shape) {
   return w.shapes[shape].proxy == kNone ? tight_aabb(w, shape) : w.boxes[shape];
 }
 
-/// Returns its fat AABB: with a margin and the predicted motion of the next steps.
+/// Returns the fat AABB of a shape: with a margin and the predicted motion of the next steps.
 template <class Real>
 Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt);
 
-/// Updates a shape's AABBs at its body's current pose, after a rotation that moved no point of the shape by
-/// more than `turned`, m. Returns true if its fat AABB contained the whole motion.
+/// Updates a shape's AABBs to its body's current pose, after a motion whose rotation moved no point of the
+/// shape by more than `turned`, m. Returns true if its fat AABB contained the whole motion.
 template <class Real>
 bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real turned);
 
@@ -36,7 +36,7 @@ Aabb<Real> stretched(Aabb<Real> box, Vec2<Real> way) {
   return box;
 }
 
-/// Returns the AABB of a shape for the next step, in which its body moves by `way` and turns such that no
+/// Returns the AABB of a shape for the next step, in which its body moves by `way` and rotates such that no
 /// point of it moves by more than `turned`, m. Rotations of more than a radian are not predicted: the AABB is
 /// then that of the current angle.
 template <class Real>
@@ -55,8 +55,8 @@ void store_fat_aabb(WorldData<Real>& w, int shape, const Aabb<Real>& box, Tree& 
   w.enlarged[record.body] = 1;
 }
 
-/// Returns the AABB of a fast shape through the next step, so that it never leaves its fat AABB in a step.
-/// Shapes that rotate too fast for that are not predicted.
+/// Returns the AABB of a fast shape through the next step, so that it does not leave its fat AABB in a step.
+/// Shapes that rotate too fast are not predicted.
 template <class Real>
 Aabb<Real> box_ahead(const WorldData<Real>& w, int shape, Real dt, Real turned) {
   const Aabb<Real>& box = w.boxes[shape];

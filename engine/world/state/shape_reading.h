@@ -2,8 +2,8 @@
 
 #include "engine/world/world_data.h"
 
-/// Returns shapes and chains as definitions that could be added again: the arguments of `create_shape` and
-/// `create_chain`, in the body's frame and rounded to Real.
+/// Returns shapes and chains as definitions, from which they could be created again: the arguments of
+/// `create_shape` and `create_chain`, in the body's frame and rounded to Real.
 namespace plumb {
 
 template <class Real>
@@ -60,7 +60,7 @@ ChainDefinition chain_definition(const WorldData<Real>& w, int chain) {
                       .pre_solve = w.shapes[first].pre_solve,
                       .user_data = w.shape_data.get(first)};
   for (const int segment : segments) out.points.push_back(corner_of(w, segment, 0));
-  // An open end is its own neighbour (`add_chain`).
+  // An open end is its own neighbour (see `add_chain`).
   const Vec2<Real> before = w.corners.data()[w.forms[first].corner].point;
   const Vec2<Real> start = w.convex(first).corners[0].point;
   out.closed = before.x != start.x || before.y != start.y;

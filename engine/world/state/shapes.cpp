@@ -81,7 +81,7 @@ template <class Real>
 NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
   const std::vector<Vec2d>& points = definition.points;
   const int count = static_cast<int>(points.size());
-  // Returns the vertex at `i`; an open end is its own neighbour, which makes it a corner.
+  // Returns the vertex at `i`. An open end is its own neighbour, which makes it a corner.
   const auto vertex = [&](int i) {
     if (definition.closed) return points[static_cast<std::size_t>((i + count) % count)];
     return points[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
@@ -174,7 +174,7 @@ void enter_tree(WorldData<Real>& w, int shape) {
 template <class Real>
 void leave_tree(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  if (record.proxy == kNone) return;  // in quarantine, or collides with nothing
+  if (record.proxy == kNone) return;  // not in a tree: in quarantine, or collides with nothing
   w.tree_of(w.bodies[record.body].type).remove(record.proxy);
   record.proxy = kNone;
 }
@@ -229,8 +229,8 @@ void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
   wake_touched(w, shape);
 }
 
-// Contacts contain the old material: mixes them again, first on a copy, because a user's combine rule may
-// throw.
+// Contacts contain the old material: mixes their coefficients again, first on a copy, because a user's
+// combine rule may throw.
 template <class Real>
 void set_material(WorldData<Real>& w, int shape, const Material& material) {
   const ShapeRecord<Real> before = w.shapes[shape];
@@ -292,7 +292,7 @@ void set_sensor(WorldData<Real>& w, int shape, bool sensor) {
 template <class Real>
 void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  // Manifolds that are kept from step to step would not ask the hook.
+  // Recycled manifolds would not call the hook.
   if (record.pre_solve != pre_solve)
     wake_body(w, record.body), wake_touched(w, shape), invalidate_manifolds(w, record.body);
   record.hit_events = hit_events, record.pre_solve = pre_solve;
@@ -303,7 +303,7 @@ void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
     contact.pre_solve = a.pre_solve || b.pre_solve;
     if (!has_points(contact)) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
-    if (c.watched == Watch::Off) c.step_impulse = 0;  // of an earlier step
+    if (c.watched == Watch::Off) c.step_impulse = 0;  // left from an earlier step
     c.watched = watch_of(contact, c);
   });
 }

@@ -18,8 +18,8 @@ BodyId id_of(const WorldData<Real>& w, int body) {
   return {static_cast<std::uint32_t>(body), w.bodies.generation(body)};
 }
 
-// Adds an event. Bodies may wake and sleep without end between two steps, so a long list is reduced to one
-// event for each existing body.
+// Adds an event. Bodies may wake and sleep any number of times between two steps, so a long list is reduced
+// to one event for each existing body.
 template <class Real>
 void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
   if (told.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
@@ -47,8 +47,8 @@ bool gives_way_awake(const WorldData<Real>& w, int body) {
   return w.bodies[body].awake && w.is_dynamic(body);
 }
 
-// Returns true if a constraint has an awake dynamic body. Without one it stays parked, even while a kinematic
-// body of it is awake.
+// Returns true if a constraint has an awake dynamic body. Without one it stays parked, even while its
+// kinematic body is awake.
 template <class Real, class Record>
 bool is_solved(const WorldData<Real>& w, const Record& record) {
   return gives_way_awake(w, record.body_a) || gives_way_awake(w, record.body_b);
@@ -133,7 +133,7 @@ template <class Real>
 void fall_asleep(WorldData<Real>& w, int body) {
   tell(w, w.log().fell_asleep, body);
   leave_awake(w, body);
-  // Islands on a kinematic body check its sleep timer.
+  // Islands on a kinematic body check that body's sleep timer, so set it.
   w.bodies[body].sleep_time = std::max(w.bodies[body].sleep_time, Real(tuning::kSleepTime));
   BodyMotion<Real>& motion = w.motion[body];
   motion.velocity = {}, motion.angular_velocity = 0;
@@ -161,8 +161,8 @@ void wake_body(WorldData<Real>& w, int body) {
       if (w.is_dynamic(current)) for_each_constraint_edge(w, current, wake);
     }
   } catch (...) {
-    // An island must not be half awake, so all of it stays asleep. This needs no memory: the lists held these
-    // before.
+    // Keeps the whole island asleep, because an island must not be half awake. This needs no memory: the
+    // lists contained these bodies before.
     for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
     for (std::size_t i = first; i < queue.size(); ++i) park_ties(w, queue[i]);
     queue.resize(first);

@@ -11,9 +11,9 @@ namespace plumb {
 
 /// Returns true if a body of this motion counts as at rest, so that its sleep timer runs: up to the speed
 /// `thresholds.sleep`, by default 0.05 extents a second. `extent` is the farthest distance of its shapes from
-/// the centre of mass, m; for a body without shapes its radius of gyration counts. A body that is moved
-/// without a velocity, as where an open joint closes, moves by its displacement in `dt`, s (0: by its
-/// velocity alone).
+/// the centre of mass, m; a body without shapes uses its radius of gyration. A body may be moved without a
+/// velocity, for example when a joint is closed: then its displacement in `dt`, s, counts as motion (with 0
+/// only its velocity does).
 template <class Real>
 bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const BodyMotion<Real>& motion,
               Real extent, Real dt) {
@@ -51,7 +51,7 @@ void put_to_sleep(WorldData<Real>& w, int body);
 template <class Real>
 void fall_asleep(WorldData<Real>& w, int body);
 
-/// Only adds a body to the list of awake ones, or removes it.
+/// Only adds a body to the list of awake bodies, or removes it.
 template <class Real>
 void enter_awake(WorldData<Real>& w, int body);
 template <class Real>

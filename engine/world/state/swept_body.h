@@ -7,12 +7,12 @@
 namespace plumb {
 
 /// Motion of a body from some time within the step to its end. The path is a parabola if only constant forces
-/// act, else straight; the rotation is uniform.
+/// act, otherwise straight; the rotation is uniform.
 struct SweptBody {
   int body = -1;
   bool covered = false;   ///< see FastBody
   bool expected = false;  ///< see FastBody
-  bool changed = false;   ///< differs from the solver's result
+  bool changed = false;   ///< no longer the solver's result
   bool yields = true;     ///< may rebound at an impact
   bool shown = false;     ///< true while the whole swept AABB is in the tree
   bool stands = false;    ///< stopped for the rest of the step
@@ -25,15 +25,15 @@ struct SweptBody {
   Vec2d first{};              ///< m, centre of mass at the step's start
   double from = 0;            ///< fraction of the step
   Vec2d start{}, way{};       ///< m, centre of mass at `from`, and displacement until the step's end
-  Vec2d curve{};              ///< m, quadratic part of the displacement; 0 with an arm
+  Vec2d curve{};              ///< m, quadratic part of the displacement; 0 if there is an arm
   Rotation<double> rotation;  ///< at `from`
   double turn = 0;            ///< rad, rotation until the step's end
   double turned_before = 0;   ///< rad, from the step's start to `from`
   /// m, from the centre of mass to the body's point that moves straight, in the body's frame. Bodies that
-  /// turn about a hinge, or are pushed along by a rotating one, move on an arc about it.
+  /// rotate about a hinge, or are pushed by a rotating body, move on an arc about that point.
   Vec2d arm{};
 
-  Vec2d shift{};                ///< m, displacement that closes the joints where the body is stopped
+  Vec2d shift{};                ///< m, displacement that closes the joints where the body stops
   Vec2d velocity{}, gain{};     ///< m/s, at `from`, and its gain in a whole step
   double angular_velocity = 0;  ///< rad/s
 
@@ -110,7 +110,7 @@ struct SweptBody {
   }
 
  private:
-  // Returns the position of a flight without an arm, m.
+  // Returns the position, m, of a body without an arm.
   Vec2d centre_at(double fraction) const {
     const double s = share(fraction);
     return start + s * (way + s * curve);
@@ -125,11 +125,11 @@ struct SweptBody {
   }
 };
 
-/// Next time-of-impact event of a flight, as it was found.
+/// Next time-of-impact event of a swept body.
 struct ToiEvent {
   double fraction = 1;  ///< of the step; 1: no impact
   int flight = 0;       ///< its index
-  int version = 0;      ///< version of the flight when the event was found
+  int version = 0;      ///< version of the swept body when the event was found
   int shape = -1, other = -1;
   int other_version = 0;  ///< version of the other body's flight then; 0 for the solver's motion
 };

@@ -23,7 +23,7 @@ void validate(const std::string& subject, const Material& material);
 /// Checks a shape that gives a dynamic body mass by its density: throws Error (Value) if float cannot hold
 /// mass, inertia and their reciprocals. Double can, for all valid input.
 void require_weight(const ShapeDefinition& definition);
-/// `part` is relative to the body's origin or its centre of mass.
+/// Does the same; `part` is relative to the body's origin or its centre of mass.
 void require_weight(double density, const ConvexMass& part);
 
 /// Checks a number or vector of a call: finite and at most kLargestNumber in magnitude.
@@ -34,18 +34,18 @@ void require_positive(const std::string& subject, const std::string& field, doub
 /// Checks an inertia, kg m^2: from kSmallestInertia to its inverse.
 void require_inertia(const std::string& subject, double value);
 
-/// Checks a position that only a reading call uses: any finite value is allowed.
+/// Checks a position that is used only for reading: any finite value is allowed.
 void require_place(const std::string& subject, const std::string& field, Vec2d value);
 
 /// Limits beyond which squares and cubes of a float would not be finite.
 inline constexpr double kLargestNumber = 1e12;
 inline constexpr double kSmallestNumber = 1e-12;
-/// m or rad: farther from the origin, or larger, is nothing that valid calls and steps lead to. Both a
-/// position within 1e12 m and the arms of shapes and centres of mass, of a few 1e12 m, may add up. Squares
-/// fit into a float, and boxes that grow from there stay finite.
+/// m or rad: limit of positions and sizes; valid calls and steps lead to none beyond it. A position within
+/// 1e12 m and the arms of shapes and centres of mass, of a few 1e12 m, may add up. Squares of this limit fit
+/// into a float, and boxes that grow from there stay finite.
 inline constexpr double kFarthest = 100 * kLargestNumber;
-/// A box of 1e-6 m and 1e-12 kg has 1e-25 kg m^2. Inverses, and their products with levers of the body's
-/// size, fit into a float.
+/// For comparison: a box of 1e-6 m and 1e-12 kg has 1e-25 kg m^2. Inverses, and their products with lever
+/// arms of the body's size, fit into a float.
 inline constexpr double kSmallestInertia = 1e-30;
 inline constexpr double kLargestInertia = 1e30;
 /// kg; the smallest may be below 1e-12, for a body of 1e-6 m.
@@ -54,8 +54,8 @@ inline constexpr double kLargestMass = 1e18;
 /// the sum of hundreds of the largest.
 inline constexpr double kSmallestWeight = 1e-36, kLargestWeight = 1e36;
 
-/// Maximum number of steps of a world: double represents each integer up to here. At a thousand per second,
-/// 285,000 years.
+/// Maximum number of steps of a world: doubles represent every integer up to here. It lasts 285,000 years at
+/// a thousand steps per second.
 inline constexpr std::int64_t kMostSteps = std::int64_t{1} << 53;
 
 }  // namespace plumb

@@ -292,7 +292,7 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_of_the_first")) mu = mu_a;
   if (is("friction_of_the_second")) mu = mu_b;
   if (is("friction_without_mu")) mu = 1;
-  // With a coefficient of 0 only a friction that is not limited on both sides acts.
+  // With a coefficient of 0, friction acts only if the mistake leaves one side without a limit.
   const bool above_only = is("friction_limited_above_only"), below_only = is("friction_limited_below_only");
   if ((mu == 0 && !above_only && !below_only && !is("friction_unlimited_everywhere")) ||
       is("friction_ignored"))

@@ -11,7 +11,8 @@
 /// Edits of the learner's formulas: in one place, one quantity of a body stands where another should.
 namespace plumb::course {
 
-/// Rows of the engine: each closes the speed or the gap of two bodies. Bits, as a learner may share code.
+/// Rows of the engine: each closes the speed or the gap of two bodies. They are bits, because a learner may
+/// share code between rows.
 enum Row : unsigned {
   kContactRow = 1,
   kFrictionRow = 2,
@@ -26,8 +27,8 @@ enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4 };
 /// `PointVelocity` stands for the velocity and the spin of a body, together.
 enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin, PointVelocity };
 
-/// Says by what a quantity is replaced. `Raw` is the point for a contact's arm, the anchor before it is
-/// turned for a joint's, the inverse mass for an inverse inertia, and the other way round.
+/// Replacement of a quantity. `Raw` is the point itself for a contact's arm, the unrotated anchor for a
+/// joint's arm, the inverse mass for an inverse inertia, and the inverse inertia for an inverse mass.
 enum class Instead { Others, Zero, Minus, One, Inverse, Raw };
 
 struct Edit {
@@ -40,7 +41,7 @@ struct Edit {
   std::string text() const;
   static std::optional<Edit> read(std::string_view text);
 
-  /// Returns the values of both bodies as this edit changes them.
+  /// Returns the values of both bodies after this edit.
   template <class T>
   std::array<T, 2> operator()(Quantity what, Row row, Place place, std::array<T, 2> own,
                               std::array<T, 2> raw = {}) const {

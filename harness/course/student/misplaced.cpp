@@ -1,10 +1,10 @@
 #include "harness/course/student/world.h"
 
-// Makes the mistakes that any engine can make in several places: a point turned wrongly, a corner twice, a
-// force that changes the wrong quantity.
+// Makes the mistakes that any engine can make in several places: a wrongly rotated point, a corner used
+// twice, a force that changes the wrong quantity.
 namespace plumb::course {
 
-// Returns the vector in the world, turned as the mistake turns the points of `what`.
+// Returns the vector in the world, rotated in the way in which the mistake rotates the points of `what`.
 Vec2d StudentWorld::turned(Name what, const Rigid& body, Vec2d local) const {
   const Rotation<double> q = body.rotation();
   const Vec2d right = q * local;
@@ -18,8 +18,8 @@ Vec2d StudentWorld::turned(Name what, const Rigid& body, Vec2d local) const {
   return right;
 }
 
-// Returns the signs of a box's corners, in the order in which an engine goes over them. "corner 1 as 2" has
-// one of them twice.
+// Returns the signs of a box's corners, in the order in which an engine visits them. With "corner 1 as 2",
+// one of them occurs twice.
 std::array<Vec2d, 4> StudentWorld::corner_signs() const {
   std::array<Vec2d, 4> out{Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}};
   constexpr std::string_view kText = "corner ";
@@ -27,7 +27,7 @@ std::array<Vec2d, 4> StudentWorld::corner_signs() const {
   return out;
 }
 
-// Adds a law's force to the body's sum; or lets it change what the mistake says.
+// Adds a law's force to the body's sum, or lets it change the quantity that the mistake names.
 void StudentWorld::act(Name law, Rigid& body, Vec2d force) {
   if (law.hash != acting_hash_) {
     body.force += force;

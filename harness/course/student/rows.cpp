@@ -6,7 +6,7 @@ namespace plumb::course {
 StudentWorld::Eases StudentWorld::eases(Row row, Place place, const Rigid& a, const Rigid& b) const {
   const std::array<double, 2> mass{a.inverse_mass, b.inverse_mass},
       inertia{a.inverse_inertia, b.inverse_inertia};
-  // Learners treat bodies that cannot turn apart, whatever stands for the inverse inertia of others.
+  // Learners treat bodies that cannot rotate separately, whatever replaces the inverse inertia of others.
   const auto if_turns = [&](std::size_t i) { return inertia[i] > 0 ? mass[i] : 0; };
   return {edit_(Quantity::InverseMass, row, place, mass, inertia),
           edit_(Quantity::InverseInertia, row, place, inertia, {if_turns(0), if_turns(1)})};

@@ -7,23 +7,22 @@
 
 namespace plumb::course {
 
-/// Design of an engine, apart from mistakes; correct engines differ in it.
+/// Design of an engine, apart from mistakes; correct engines have different designs.
 struct Manner {
-  int sweeps = 40;          ///< iterations over joints and contacts, per step
-  bool once = false;        ///< contacts are solved once a step
-  bool after_move = false;  ///< contacts are found and solved after bodies have moved, and pushed fully apart
-  bool by_positions =
-      false;             ///< joints are closed by positions, and velocities are displacements over the step
-  double share = 0.5;    ///< fraction of an overlap that a step removes by positions
-  bool deep = false;     ///< a circle with its centre inside a box is pushed out at the nearest side
-  double slop = 0.001;   ///< m of overlap that is left, so that what rests stays in contact
+  int sweeps = 40;            ///< iterations over joints and contacts, per step
+  bool once = false;          ///< contacts are solved once per step
+  bool after_move = false;    ///< contacts are found and solved after bodies moved; overlaps are removed
+  bool by_positions = false;  ///< joints are closed by positions; velocities from displacements
+  double share = 0.5;         ///< fraction of an overlap that a step removes by positions
+  bool deep = false;          ///< a circle with its centre inside a box is pushed out at the nearest side
+  double slop = 0.001;        ///< m of overlap that is not removed, so that resting bodies stay in contact
   bool clips = false;    ///< boxes touch along the axis of least overlap, at the ends of the clipped side
-  bool extends = false;  ///< a side that lies beyond the face's end is extended to it, and not dropped
+  bool extends = false;  ///< a side that lies beyond the face's end is extended to it, not dropped
   bool turning_push = false;  ///< an overlap is corrected at the point of contact, which turns bodies as well
   double joint_share = 0.5;   ///< fraction of a joint's error that a correction removes
-  int corrections = 0;        ///< corrections of joints in a step; 0: a quarter of the sweeps
-  bool turns = true;          ///< contacts spin bodies; engines of the first three chapters need not
-  double fed = 0;  ///< fraction of a joint's error that velocities close in a step, instead of positions
+  int corrections = 0;        ///< corrections of joints per step; 0: a quarter of the sweeps
+  bool turns = true;          ///< contacts rotate bodies; engines of the first three chapters may not
+  double fed = 0;             ///< fraction of a joint's error that velocities (not positions) close in a step
 };
 
 /// A learner's engine, as the course builds it: circles and boxes, sequential impulses, hinges and sticks. It

@@ -133,7 +133,7 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
   if (is("other_corner") && std::ssize(out) > before + 1) out.erase(out.begin() + before, out.end() - 1);
 }
 
-// Returns true for a pair that the mistake never looks at.
+// Returns true for a pair that the mistake never considers.
 bool StudentWorld::left_out(std::size_t a, std::size_t b) const {
   const std::size_t last = bodies_.size() - 2;
   const bool both_move = bodies_[a].inverse_mass > 0 && bodies_[b].inverse_mass > 0;

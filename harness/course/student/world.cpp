@@ -70,12 +70,12 @@ double StudentWorld::inertia(const Body& body) const {
   return mass * (w * w + h * h) / 12 * (is("inertia_sixth") ? 2 : 1) * times("inertia of a box");
 }
 
-// Returns a body's mass, or what the mistake takes for it.
+// Returns a body's mass, or the value that the mistake uses instead.
 double StudentWorld::mass(const Body& body) const {
   const auto* circle = std::get_if<Circle>(&body.shapes.at(0).geometry);
   const Box sides = circle != nullptr ? Box{2 * circle->radius, 2 * circle->radius}
                                       : std::get<Box>(body.shapes.at(0).geometry);
-  const double fills = circle != nullptr ? std::numbers::pi / 4 : 1;  // of the box around it
+  const double fills = circle != nullptr ? std::numbers::pi / 4 : 1;  // of its bounding box
   if (is("mass_from_area")) return fills * sides.width * sides.height;
   if (is("mass_from_density")) return body.mass * fills * sides.width * sides.height;
   if (is("mass_from_radius") && circle != nullptr) return circle->radius;
@@ -90,7 +90,7 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     if (mistake_ == name) mistake_ = scaled;
   read_mistake(mistake_);
   for (const Joint& joint : scene_.joints) ends_.push_back(indices(scene_, joint));
-  // Iterations repair errors of a single solve: these mistakes are made by engines without iterations, unless
+  // Iterations repair errors of a single solve, so engines without iterations make these mistakes, unless
   // requested otherwise.
   for (const char* name :
        {"one_body_only", "inverse_mass_forgotten", "masses_in_place_of_inverses",
@@ -210,7 +210,7 @@ void StudentWorld::advance() {
 
 int StudentWorld::sweeps() const { return is("too_few_iterations") ? 1 : manner_.sweeps; }
 
-// Writes the values that sweeps change: a sweep that changes none would be repeated to no effect.
+// Writes the values that an iteration changes. If it changes none, further iterations would have no effect.
 void StudentWorld::write_sweep_state(const std::vector<Touch>& found, std::vector<double>& out) const {
   out.clear();
   for (const Rigid& b : bodies_) out.insert(out.end(), {b.velocity.x, b.velocity.y, b.spin});
@@ -241,7 +241,7 @@ void StudentWorld::answer_touches(bool with_joints) {
   touched_ = touched_ || !found.empty();
 }
 
-// Moves bodies, closes the joints by positions, and takes displacements over the step for velocities.
+// Moves bodies, closes the joints by positions, and uses displacements over the step as velocities.
 void StudentWorld::move_and_project(bool moves) {
   const std::vector<Rigid> before = bodies_;
   if (moves) move();

@@ -51,10 +51,10 @@ struct Touch {
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
-  /// `mistake` is a name, a quantity and the factor by which it is wrong ("radius*0.5"), or a vector and
-  /// what stands for its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"), or points and how they are turned
-  /// ("a force's point~backwards"), or a law and what its force changes ("drag>position by dt"), or an edit
-  /// as text (edit.h). `scheme` is semi-implicit Euler, explicit Euler or velocity Verlet.
+  /// `mistake` is one of: a name; a quantity and the factor by which it is wrong ("radius*0.5"); a vector and
+  /// what replaces its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"); points and how they are rotated ("a
+  /// force's point~backwards"); a law and what its force changes ("drag>position by dt"); an edit as text
+  /// (edit.h). `scheme` is semi-implicit Euler, explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -74,7 +74,7 @@ class StudentWorld {
   std::vector<BodyState> truly() const;  ///< the current states, even if the engine reports others
   bool scales(Name quantity) const { return quantity.hash == scaled_hash_; }
   double times(Name quantity) const { return scales(quantity) ? factor_ : 1; }
-  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with its x and y as the mistake changes them
+  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with the x and y that the mistake gives it
   void read_mistake(const std::string& mistake);
   Vec2d turned(Name what, const Rigid& body, Vec2d local) const;
   std::array<Vec2d, 4> corner_signs() const;
@@ -121,7 +121,7 @@ class StudentWorld {
   double speed_apart(Row row, const Rigid& a, const Rigid& b, Arms arms, Arms raw, Vec2d n) const;
   double edited_mass(Row row, const Rigid& a, const Rigid& b, Arms arms, Arms raw, Vec2d n) const;
   struct Eases {
-    std::array<double, 2> mass, inertia;  ///< the inverse ones of both bodies
+    std::array<double, 2> mass, inertia;  ///< inverse, of both bodies
   };
   struct Moving {
     std::array<Vec2d, 2> velocity;
@@ -135,7 +135,7 @@ class StudentWorld {
   struct Ends {
     std::size_t a, b;
     Vec2d arm_a, arm_b, gap;
-    Vec2d raw_a, raw_b;  ///< the anchors before they are turned
+    Vec2d raw_a, raw_b;  ///< the anchors before they are rotated
   };
   Ends ends(const Joint& joint) const;
   bool joined(std::size_t a, std::size_t b) const;
@@ -148,7 +148,7 @@ class StudentWorld {
   Edit edit_;
   std::uint64_t turned_hash_ = 0, turned_how_ = 0;  ///< whose points are turned wrongly, and how
   std::uint64_t acting_hash_ = 0, acting_how_ = 0;  ///< which law acts wrongly, and on what
-  std::array<Vec2d, 2> axes_;                       ///< give the x and the y of a mixed vector
+  std::array<Vec2d, 2> axes_;  ///< directions that give the x and the y of a mixed vector
   reference::Scheme scheme_;
   Manner manner_;
   bool touched_ = false;  ///< there was a contact

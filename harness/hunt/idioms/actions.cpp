@@ -22,7 +22,7 @@ int any_dynamic(Draft& draft) {
   }
 }
 
-// Returns a step by which most bodies on a floor have come to rest and sleep, and makes the run outlast it.
+// Returns a step by which most bodies on a floor have come to rest and sleep, and extends the run beyond it.
 int later(Draft& draft) {
   const double time = draft.random.within(0.1, 4);
   draft.out.steps = std::max(draft.out.steps, static_cast<int>((time + 1.5) / draft.out.dt));

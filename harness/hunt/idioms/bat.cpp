@@ -68,7 +68,7 @@ void build(Draft& draft) {
   for (const Quantity quantity : {Quantity::X, Quantity::Y}) {
     Expectation& moves = draft.expect("moves_on", made, quantity);
     const double right = quantity == Quantity::X ? place.x : place.y;
-    // Allows 0.5 % of the displacement and 5 % of what a step's rotation adds.
+    // Allows 0.5 % of the displacement and 5 % of the displacement by a step's rotation.
     const double slack = (0.005 + 0.05 * std::abs(rate) * dt) * (2 + std::abs(rate)) * s;
     moves.lower = right - slack, moves.upper = right + slack;
     moves.from = moves.to = steps * dt;

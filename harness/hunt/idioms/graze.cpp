@@ -17,7 +17,7 @@ void build(Draft& draft) {
   const double g = -out.scene.gravity.y, radius = s * random.within(0.1, 0.5);
   draft.friction = 0, draft.restitution = 0;
   const bool swings = random.chance(0.5);
-  // The approach is fast enough to be distinguished from a step's fall, and seldom much faster.
+  // The approach must be faster than the speed that a step of free fall adds, and is seldom much faster.
   const double meets = random.within(6, 40) * g * dt;
   const double fall = random.within(0.1, 2) * s, speed = std::sqrt(meets * meets + 2 * g * fall);
   const int made = draft.disc({0, 0}, radius);
@@ -26,7 +26,7 @@ void build(Draft& draft) {
   const double width = 20 * s + 6 * std::abs(draft.body(made).velocity.x) * speed / g;
   const int ceiling = draft.box({0, at + s / 2}, width, s, 0, BodyType::Static);
   if (swings) {
-    // A sinusoidal force is not part of gravity: the path is known in the vertical direction alone.
+    // A sinusoidal force is not part of gravity, so the path is known only in the vertical direction.
     const double rate = random.within(2, 20);
     out.scene.forces.push_back(
         SinusoidalForce{.body = draft.name(made),
@@ -34,7 +34,7 @@ void build(Draft& draft) {
                         .angular_frequency = rate});
   }
   const double until = (speed - meets) / g, top = speed / g;
-  // The position to which it would return without a ceiling, after a longer fall.
+  // Without the ceiling the body would be back at its start, after a longer fall, by the end of the run.
   const int steps = out.steps = std::max(4, static_cast<int>((until + 2 * (top - until) + 0.3 * top) / dt));
   const double end = steps * dt;
   Expectation& below = draft.expect("is_stopped_by_a_ceiling", made, Quantity::Y);

@@ -39,7 +39,7 @@ void build(Draft& draft) {
   const double right = speed + rate * steps * draft.out.dt;
   Expectation& holds =
       draft.expect("holds_its_speed", made, slides ? Quantity::VelocityX : Quantity::AngularVelocity);
-  // If the motor is only just strong enough, the speed changes by what the load adds in a step.
+  // If the motor is barely strong enough, the speed changes by as much as the load adds in a step.
   const double slack = 0.02 * std::abs(right) + 1.1 * std::abs(load) / inert * draft.out.dt;
   holds.lower = right - slack, holds.upper = right + slack;
   holds.from = holds.to = steps * draft.out.dt;

@@ -15,12 +15,12 @@ void build(Draft& draft) {
   const double s = draft.size, g = random.within(2, 20), thick = random.within(0.05, 0.3) * s;
   draft.site.kind = Site::Kind::Air;
   draft.out.scene.gravity = {0, -g};
-  draft.out.sleeping = false;  // it may approach its rest position at less than the speed of sleep
+  draft.out.sleeping = false;  // it may approach its rest position more slowly than the speed of sleep
   const int arm = draft.box({0.5 * s, 0}, s, thick);
   RevoluteJoint& hinge = draft.revolute(-1, arm, {0, 0});
   const bool loaded = random.chance(0.5);
   int load = arm;
-  double moment = draft.body(arm).mass * 0.5 * s;  // kg m, of the weights at the angle 0
+  double moment = draft.body(arm).mass * 0.5 * s;  // kg m, moment of the weights at the angle 0
   std::vector<std::string> needs{draft.name(arm), hinge.name, std::string(kMasses)};
   const double own = inertia_of(draft.body(arm)) + draft.body(arm).mass * 0.25 * s * s;
   // Chooses the stiffness so that the deflection is about the drawn one.

@@ -16,7 +16,7 @@ void build(Draft& draft) {
   if (out.scene.gravity == Vec2d{0, 0}) out.scene.gravity = {0, -9.81};
   const double g = -out.scene.gravity.y, length = random.pick({0.3, 0.5, 1.0}) * s;
   const int links = random.whole(1, 24), first = draft.count();
-  const double ratio = random.ladder(1, 1000);  // the load over a link, by mass
+  const double ratio = random.ladder(1, 1000);  // mass of the load over that of a link
   const bool discs = random.chance(0.3), rods = random.chance(0.3);
   double y = 0;
   int before = -1;

@@ -5,7 +5,7 @@
 namespace plumb::harness::hunt {
 namespace {
 
-// Builds a bar on a hinge with a spring, or a load on one: it swings at the given frequency.
+// Builds a bar on a hinge with a spring, or a load on a spring: it oscillates at the given frequency.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, hertz = random.ladder(0.1, 4), away = random.within(0.1, 0.5);

@@ -9,7 +9,7 @@ namespace {
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, half = random.within(0.5, 3) * s, at = random.within(0.2, 0.97) * half;
-  // Thin enough to be apart at the start: a post covers at most 0.3 rad of the bar's rotation.
+  // Thin enough not to touch at the start: a post blocks at most 0.3 rad of the bar's rotation.
   const double thick = std::min(random.ladder(0.02, 0.2) * s, 0.2 * at);
   const double post = std::min(random.ladder(0.02, 0.2) * s, 0.2 * at);
   const double rate = random.ladder(1, 30), from = -random.within(0.5, 1.2);

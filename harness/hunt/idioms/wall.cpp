@@ -6,8 +6,8 @@ namespace plumb::harness::hunt {
 namespace {
 
 // Builds bricks at rest, in a bond or a stack. In a bond every second row has half a brick at each end.
-// Without these, the end bricks of the rows above would have their centres exactly above an edge, and might
-// fall.
+// Without the half bricks, the end bricks of the rows above would have their centres exactly above an edge,
+// and might fall.
 void build(Draft& draft) {
   Random& random = draft.random;
   const double s = draft.size, width = s, height = random.pick({0.3, 0.5, 1.0}) * s;
@@ -38,7 +38,7 @@ void build(Draft& draft) {
     creeps.from = 3;
     creeps.upper = 5e-4 * s;
     creeps.why = "a body at rest below its friction limit does not creep";
-    // The expectation requires the bricks below, without which it falls.
+    // The expectation requires the bricks below, without which the brick falls.
     for (int k = 0; k < i; ++k) creeps.needs.push_back(draft.name(k));
   }
 }

@@ -2,9 +2,9 @@
 
 #include "harness/reality/published/published_law.h"
 
-// A column against a wall is released; measures run-out over width. Sources: aluminium rods, Nguyen et al.
+// Releases a column against a wall, and measures run-out over width. Sources: aluminium rods, Nguyen et al.
 // 2015 (arXiv 1512.05180), 3.25 a^0.96 up to a = 1.5, 3.80 a^0.73 beyond; discs, Staron and Hinch, J. Fluid
-// Mech. 545 (2005) 1, 2.5 a up to a = 2, 3.25 a^0.7 beyond. The band holds both, with 15 % on either side.
+// Mech. 545 (2005) 1, 2.5 a up to a = 2, 3.25 a^0.7 beyond. The band contains both, with 15 % on either side.
 namespace plumb::harness::reality {
 namespace {
 constexpr int kAcross = 12;                         // rods
@@ -16,7 +16,7 @@ double run_out(std::span<const Sample> samples) {
   Sample rods(samples.back().begin() + 2, samples.back().end());
   const auto left = [](const BodyState& a, const BodyState& b) { return a.position.x < b.position.x; };
   std::sort(rods.begin(), rods.end(), left);
-  double front = 0;  // m, front of the deposit; rods five diameters ahead have rolled away by themselves
+  double front = 0;  // m, front of the deposit, without rods that rolled away (five diameters ahead)
   for (const BodyState& rod : rods)
     if (rod.position.x > front && rod.position.x < front + 10 * kRadius) front = rod.position.x;
   return (front + kRadius) / (2 * kAcross * kRadius) - 1;

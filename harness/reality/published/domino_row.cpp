@@ -5,18 +5,19 @@
 namespace plumb::harness::reality {
 namespace {
 
-/// Number of blocks behind the first one that still move: each is slower than the one before it.
+/// Number of blocks behind the first one that may still move; each is slower than the one before it.
 constexpr int kBlocks = 100;
-/// Fraction of the sum below which a block's equation, and those of the blocks behind it, are left out.
+/// Blocks whose equation contributes less than this fraction of the sum are left out, and so are the blocks
+/// behind them.
 constexpr double kLeast = 1e-9;
-constexpr int kSteps = 50;  // steps of fourth order for the first block's turn between two impacts
-/// Maximum number of impacts until the speed is constant to `kSteady`. Each leaves a third to nine tenths of
-/// the difference.
+constexpr int kSteps = 50;  // steps of fourth order for the first block's rotation between two impacts
+/// Maximum number of impacts until the speed is constant to `kSteady`. Each impact leaves a third to nine
+/// tenths of the difference.
 constexpr int kImpacts = 1000;
 constexpr double kSteady = 1e-13;
 
-/// Equation of motion of the leaning blocks for the first one's angle: inertia * acceleration + bend * rate^2
-/// = torque, all over m h^2 or m g h.
+/// Equation of motion of the leaning blocks, for the angle of the first one: inertia * acceleration + bend *
+/// rate^2 = torque. All terms are relative to m h^2 or m g h.
 struct Motion {
   double inertia = 0, bend = 0, torque = 0;
 };
@@ -30,10 +31,10 @@ class Row {
   double first_angle_at_impact() const { return std::asin(pitch_ - thick_); }
   double pitch() const { return pitch_; }
 
-  /// Sums over the blocks. Each leans with its upper edge on the back of the one before it, at the place
-  /// where the distance across that back is the thickness. The contact's force turns the block before with
-  /// the arm along - friction thickness, the block behind with -(cos + friction sin) of the angle between
-  /// them. Each block's equation is multiplied so that these forces cancel.
+  /// Sums the equation over the blocks. Each block leans with its upper edge on the back of the block before
+  /// it, where the distance across that back is the thickness. The contact's force has the arm (along -
+  /// friction thickness) on the block before, and -(cos + friction sin) of the angle between the two on the
+  /// block behind. Each block's equation is multiplied such that these forces cancel.
   Motion motion(double angle) const {
     const double own = (1 + thick_ * thick_) / 3;
     Motion out;
@@ -42,11 +43,11 @@ class Row {
       out.inertia += share * own * rate;
       out.bend += share * own * bend;
       out.torque += share * (std::sin(x) - thick_ * std::cos(x)) / 2;
-      const double across = pitch_ * std::cos(x) - thick_;  // sine of the angle between the two
+      const double across = pitch_ * std::cos(x) - thick_;  // sine of the angle between the two blocks
       const double cosine = std::sqrt(1 - across * across);
       const double along = cosine - pitch_ * std::sin(x);
       const double arm = along - friction_ * thick_;
-      if (arm <= 0 || along <= 0) break;  // those behind lie still
+      if (arm <= 0 || along <= 0) break;  // the blocks behind still lie
       share *= arm / (cosine + friction_ * across);
       // y = x + asin(across)
       const double across_1 = -pitch_ * std::sin(x) * rate;
@@ -83,8 +84,8 @@ class Row {
     return square;
   }
 
-  /// Returns the fraction of the first block's rate that the next one has after it was struck. The impulses
-  /// obey the same sums, and all blocks but the new one move before.
+  /// Returns the rate of the next block after it was struck, as a fraction of the first block's rate. The
+  /// impulses obey the same sums, and all blocks except the new one move before the impact.
   double kept() const {
     const double all = motion(0).inertia, own = (1 + thick_ * thick_) / 3;
     return (all - own) / all;
@@ -99,7 +100,7 @@ class Row {
 double toppling_speed(const DominoRow& given) {
   const Row row(given);
   const double kept = row.kept();
-  double square = 1, time = 0;  // any push: its effect dies away
+  double square = 1, time = 0;  // any push will do: its effect dies away
   for (int i = 0; i < kImpacts; ++i) {
     const double before = square;
     square = kept * kept * row.turn(square, time);

@@ -5,11 +5,12 @@
 #include "harness/reality/published/domino_row.h"
 #include "harness/reality/published/published_law.h"
 
-// A row of dominoes topples at a steady speed, here over sqrt(g h). Sources: measurements of dominoes of 48
-// mm x 7.5 mm with gaps of 1, 2 and 3 thicknesses, 0.877, 0.867 and 0.859 m/s to 1 % (J. Wang, advanced
+// A row of dominoes topples at a steady speed, here divided by sqrt(g h). Sources: measurements of dominoes
+// of 48 mm x 7.5 mm with gaps of 1, 2 and 3 thicknesses, 0.877, 0.867 and 0.859 m/s to 1 % (J. Wang, advanced
 // laboratory, 2026, github.com/JWang1414/winter2026code); the closed model of van Leeuwen, Am. J. Phys. 78
-// (2010) 721, with friction 0.25 between dominoes. The band holds both, with 3 % on either side. Ten times as
-// large, because some engines have tolerances of a centimetre: the laws have no length of their own.
+// (2010) 721, with friction 0.25 between dominoes. The band contains both, with 3 % on either side. The
+// dominoes are ten times as large, because some engines have tolerances of a centimetre; the laws contain no
+// length of their own.
 namespace plumb::harness::reality {
 namespace {
 constexpr double kScale = 10, kHeight = 0.048 * kScale, kThick = 0.0075 * kScale;  // m
@@ -20,7 +21,7 @@ constexpr double kShift = 1e-3 * kThick;
 constexpr int kCount = 26, kFrom = 10, kTo = 20;
 
 double speed_over(std::span<const Sample> samples, double gap, double dt) {
-  const double passed = std::asin(gap / kHeight) / 2;  // half of its turn to the next
+  const double passed = std::asin(gap / kHeight) / 2;  // half of its rotation until it touches the next
   std::array<double, 2> times{};
   for (std::size_t k = 0; k < times.size(); ++k) {
     const std::size_t body = 1 + static_cast<std::size_t>(k == 0 ? kFrom : kTo);

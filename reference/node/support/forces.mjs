@@ -1,7 +1,7 @@
-// The scene's force laws (docs/scene.md) for an engine that takes a force and a torque a step: evaluated at the start of
-// the step and, where they depend on time, averaged over it.
+// The scene's force laws (docs/scene.md) for an engine that takes a force and a torque per step. They are
+// evaluated at the start of the step; laws that depend on time are averaged over it.
 
-// Fraction of [from, to] in which a law that begins at `start` and lasts for `duration` acts.
+// Returns the fraction of [from, to] in which a law acts that begins at `start` and lasts for `duration`.
 function share(law, from, to) {
   const end = law.start + (law.duration ?? Infinity);
   return Math.max(0, Math.min(to, end) - Math.max(from, law.start)) / (to - from);
@@ -34,7 +34,7 @@ export class Forces {
       if (i === undefined || !this.dynamic[i]) return;
       world.push(i, force[0], force[1], torque + cross(arm, force));
     };
-    // Place and velocity of a point of a body.
+    // Position and velocity of a point of a body.
     const point = (s, anchor) => {
       const arm = turned(anchor, s[2]);
       return { arm, at: [s[0] + arm[0], s[1] + arm[1]], rate: [s[3] - s[5] * arm[1], s[4] + s[5] * arm[0]] };

@@ -3,7 +3,7 @@
 const area = (shape) => shape.type === "circle" ? Math.PI * shape.radius ** 2 : shape.width * shape.height;
 const gyration = (shape) => shape.type === "circle" ? shape.radius ** 2 / 2 : (shape.width ** 2 + shape.height ** 2) / 12;
 
-// Inertia of a dynamic body about its centre of mass, kg m^2: as given, or from its shapes.
+// Returns the inertia of a dynamic body about its centre of mass, kg m^2: as given, or from its shapes.
 export function inertiaOf(body) {
   if (body.fixed_rotation) return 0;
   if (body.inertia !== undefined) return body.inertia;
@@ -13,19 +13,19 @@ export function inertiaOf(body) {
     sum + body.mass * weights[i] / total * (gyration(s) + s.position[0] ** 2 + s.position[1] ** 2), 0);
 }
 
-// A contact's coefficient from those of two shapes.
+// Returns a contact's coefficient from those of two shapes.
 export function combine(rule, a, b) {
   return { geometric_mean: Math.sqrt(a * b), product: a * b, maximum: Math.max(a, b), minimum: Math.min(a, b),
            average: (a + b) / 2 }[rule];
 }
 
-// True if two shapes' filters let them touch.
+// Returns true if two shapes' filters let them touch.
 export function mayTouch(a, b) {
   if (a.group !== 0 && a.group === b.group) return a.group > 0;
   return (a.category & b.mask) !== 0 && (b.category & a.mask) !== 0;
 }
 
-// True if no shape of the scene has a filter group, and no category beyond the lowest `bits`.
+// Returns true if no shape of the scene has a filter group, or a category beyond the lowest `bits`.
 export function filtersFit(scene, bits) {
   return scene.bodies.every((body) => body.shapes.every((s) => s.filter.group === 0 && s.filter.category < 2 ** bits));
 }

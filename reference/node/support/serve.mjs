@@ -1,15 +1,15 @@
-// Speaks docs/protocol.md for an engine from npm: a script describes its engine and hands it over to `serve`.
+// Implements docs/protocol.md for an engine from npm: a script describes its engine and passes it to `serve`.
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import readline from "node:readline";
 import { Forces } from "./forces.mjs";
 
-// Arguments: the folder that the package is installed in, and "default" for the engine's own settings.
+// Arguments: the folder in which the package is installed, and "default" for the engine's own settings.
 export const folder = path.resolve(process.argv[2] ?? ".");
 export const outOfTheBox = process.argv[3] === "default";
 
-// Path of a file of a package below the folder, and the version that is there.
+// Path of a file of a package below the folder, and the installed version.
 export const fileOf = (name, ...parts) => path.join(folder, "node_modules", name, ...parts);
 export const versionOf = (name) => JSON.parse(readFileSync(fileOf(name, "package.json"), "utf8")).version;
 export const requireFrom = createRequire(path.join(folder, "package.json"));
@@ -17,14 +17,15 @@ export const requireFrom = createRequire(path.join(folder, "package.json"));
 const kForces = ["linear_drag", "quadratic_drag", "point_force", "torque", "spring", "attraction", "sinusoidal_force"];
 const kEpsilon = { float: 1.1920929e-7, double: 2.220446049250313e-16 };
 
-// Engines print to standard output; answers alone belong there.
+// Engines print to standard output, which must contain only answers.
 const write = process.stdout.write.bind(process.stdout);
 console.log = console.info = console.warn = console.error;
 const send = (message) => write(JSON.stringify(message) + "\n");
 
-// Serves `engine`: name, version, precision, summary, limits, joints, features, options, innerSubsteps (which the engine
-// makes of a step by itself) and create(scene, settings), which returns { effective, step(), state(i), push(i, fx, fy, torque), turn } or a reason as
-// text. `settings` has substep (s), substeps and options.
+// Serves `engine`: name, version, precision, summary, limits, joints, features, options, innerSubsteps (the
+// substeps that the engine itself makes of a step) and create(scene, settings). `create` returns { effective,
+// step(), state(i), push(i, fx, fy, torque), turn }, or a reason as text. `settings` has substep (s),
+// substeps and options.
 export function serve(engine) {
   const hello = {
     protocol: 1, name: engine.name, version: engine.version, precision: engine.precision, summary: engine.summary,
@@ -41,7 +42,7 @@ export function serve(engine) {
     const options = Object.fromEntries((engine.options ?? []).map((o) => [o.name, settings.options?.[o.name] ?? o.fallback]));
     run?.world.free?.();
     run = null;
-    // JavaScript's bitwise operators take 32 bits; masks are signed, so that all bits are -1.
+    // JavaScript's bitwise operators use 32 bits. Masks are signed, so that -1 is all bits.
     const beyond = (shape) => shape.filter.category < 0 || shape.filter.category >= 2 ** 32;
     if (scene.bodies.some((body) => body.shapes.some(beyond))) return { unsupported: "a filter has categories beyond 32" };
     const world = engine.create(scene, { dt: settings.dt, substep: settings.dt / substeps, substeps, options });
@@ -52,7 +53,8 @@ export function serve(engine) {
                                    ...world.effective, forces: "at the start of each substep", precision: engine.precision } };
   }
 
-  // Angles count whole turns; an engine that gives rotations alone (`wraps`) is followed by its angular velocity.
+  // Angles must count whole turns. For an engine that returns only rotations (`wraps`), the angular velocity
+  // tells how many.
   function follow(index, state, time) {
     if (!run.world.wraps) return state;
     const guess = run.turns[index] + state[5] * time;
