@@ -175,6 +175,12 @@ plumb_joint_reading plumb_joint_read(const plumb_world* world, plumb_joint joint
                                r.angle, r.translation, r.length};
   });
 }
+plumb_joint_constants plumb_joint_stiffness(const plumb_world* world, plumb_joint joint) {
+  return read_or(plumb_joint_constants{}, world, [&](const auto& w) {
+    const plumb::JointStiffness s = w.stiffness(in(joint));
+    return plumb_joint_constants{s.linear, s.angular, s.linear_damping, s.angular_damping};
+  });
+}
 uint64_t plumb_joint_user_data(const plumb_world* world, plumb_joint joint) {
   return read_or<uint64_t>(0, world, [&](const auto& w) { return w.user_data(in(joint)); });
 }

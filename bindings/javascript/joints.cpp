@@ -86,6 +86,10 @@ PLUMB_EXPORT("joint_set_load_events")
 void js_joint_set_load_events(PLUMB_HANDLE, double force, double torque) {
   plumb_joint_set_load_events(w, {index, generation}, force, torque);
 }
+PLUMB_EXPORT("joint_stiffness") double* js_joint_stiffness(PLUMB_HANDLE) {
+  const plumb_joint_constants s = plumb_joint_stiffness(w, {index, generation});
+  return Writer().add(s.linear).add(s.angular).add(s.linear_damping).add(s.angular_damping).done();
+}
 PLUMB_EXPORT("joint_read") double* js_joint_read(PLUMB_HANDLE) {
   const plumb_joint_reading r = plumb_joint_read(w, {index, generation});
   return Writer()

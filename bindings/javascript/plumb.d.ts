@@ -208,6 +208,12 @@ export interface JointReading {
   translation: number;
   length: number;
 }
+export interface JointStiffness {
+  linear: number;
+  angular: number;
+  linearDamping: number;
+  angularDamping: number;
+}
 export class Joint extends Handle {
   readonly valid: boolean;
   readonly bodies: Body[];
@@ -217,6 +223,8 @@ export class Joint extends Handle {
   set userData(data: bigint | number);
   change(kind: JointKind, definition?: JointDefinition): void;
   read(): JointReading;
+  /** N/m, N m/rad, N s/m and N m s/rad; throws for a joint without springs */
+  stiffness(): JointStiffness;
   /** N and N m, beyond which its load is in `events.loaded`; 0: never */
   setLoadEvents(loads: {force?: number; torque?: number}): void;
   destroy(): void;

@@ -293,6 +293,11 @@ export class Joint extends Handle {
     const [force, torque, linearError, angularError, angle, translation, length] = result(this._call("joint_read"));
     return {force, torque, linearError, angularError, angle, translation, length};
   }
+  /// The constants of its springs: stiffness in N/m and N m/rad, damping in N s/m and N m s/rad.
+  stiffness() {
+    const [linear, angular, linearDamping, angularDamping] = result(this._call("joint_stiffness"));
+    return {linear, angular, linearDamping, angularDamping};
+  }
   setLoadEvents({force = 0, torque = 0}) { this._call("joint_set_load_events", force, torque); }
   destroy() { this._call("joint_destroy"); }
 }

@@ -33,6 +33,17 @@ void bind_joints(py::module_& module) {
           },
           "Measurements: force (N), torque (N m), errors (m, rad), angle (rad), translation and length (m).")
       .def(
+          "stiffness",
+          [](const HeldJoint& h) {
+            const JointStiffness s = h.world->visit([&](auto& w) { return w.stiffness(h.id); });
+            return py::dict(arg("linear") = s.linear, arg("angular") = s.angular,
+                            arg("linear_damping") = s.linear_damping,
+                            arg("angular_damping") = s.angular_damping);
+          },
+          "Constants of its springs: stiffness (N/m, N m/rad) and damping (N s/m, N m s/rad), of the "
+          "effective "
+          "mass at the pose in which it was created. Raises plumb.Error for a joint without springs.")
+      .def(
           "set_load_events",
           [](const HeldJoint& h, double force, double torque) {
             h.world->visit([&](auto& w) { w.set_load_events(h.id, force, torque); });

@@ -4,14 +4,16 @@
 #include "engine/math/vec2.h"
 
 /// The mobility (1 / effective mass) along the coordinate of a joint's spring while the joint's rigid rows
-/// hold. `hertz` and `damping_ratio` refer to it, in the world and in Precise. A bar on a hinge turns about
-/// the hinge, not about its centre. All sums are of non-negative terms, so that nothing cancels.
+/// hold. A bar on a hinge turns about the hinge, not about its centre. `hertz` and `damping_ratio` refer to
+/// its value at the joint's reference (spring_stiffness.h). All sums are of non-negative terms, so that
+/// nothing cancels.
 namespace plumb {
 
 /// Inverse masses, 1/kg, and inverse moments of inertia, 1/(kg m^2), of the two bodies of a joint.
 template <class Number>
 struct PairMobility {
   Number m_a{}, i_a{}, m_b{}, i_b{};
+  friend bool operator==(const PairMobility&, const PairMobility&) = default;
 };
 
 /// Returns the mobility of the angle between two bodies that turn about a common point, 1/(kg m^2); `arm_a`

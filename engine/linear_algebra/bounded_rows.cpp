@@ -153,7 +153,6 @@ void BoundedRows::assemble() {
     };
     couple_with(row.block);
     for (const int other : order_.neighbours(row.block)) couple_with(other);
-    if (row.coupled_compliance != 0) all_.at(place, place - 1) += row.coupled_compliance;
     all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * row.softening);
   }
   assembled_ = true, factorised_ = shares_ = false;
@@ -210,10 +209,7 @@ void BoundedRows::gather_free(int from) {
 // Returns the residual of a row at the present velocities.
 double BoundedRows::residual(int i) const {
   const BoundedRow& row = rows[i];
-  double missing = row.wanted - along(row) - row.compliance * row.impulse;
-  if (row.coupled_compliance != 0) missing -= row.coupled_compliance * rows[i - 1].impulse;
-  if (i + 1 < static_cast<int>(rows.size()) && rows[i + 1].coupled_compliance != 0)
-    missing -= rows[i + 1].coupled_compliance * rows[i + 1].impulse;
+  const double missing = row.wanted - along(row) - row.compliance * row.impulse;
   return missing - row.softening * mobility_[i] * row.impulse;
 }
 

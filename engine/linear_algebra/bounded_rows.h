@@ -30,12 +30,11 @@ struct BoundedRow {
   int a = 0, b = 0;              ///< bodies of the system
   Vec2d linear_a{}, linear_b{};  ///< J
   double angular_a = 0, angular_b = 0;
-  double wanted = 0;              ///< m/s, target velocity
-  double compliance = 0;          ///< 1/kg
-  double coupled_compliance = 0;  ///< 1/kg: compliance that couples this row to the row before it
-  double lower = 0, upper = 0;    ///< N s
-  double softening = 0;           ///< fraction of its own mobility that is added to the compliance
-  double gap = 0;                 ///< m or rad: closed by `correct`
+  double wanted = 0;            ///< m/s, target velocity
+  double compliance = 0;        ///< 1/kg
+  double lower = 0, upper = 0;  ///< N s
+  double softening = 0;         ///< fraction of its own mobility that is added to the compliance
+  double gap = 0;               ///< m or rad: closed by `correct`
   /// N s. Before solving, a guess: if redundant rows leave several solutions, the one nearest to the guess is
   /// found (for 0, the one that shares loads evenly). After solving, the solution.
   double impulse = 0;

@@ -52,7 +52,6 @@ bool BoundedRows::solve_small() {
       double* const to = all.value[i];
       all.first[i] = first;
       for (int j = from; j < i; ++j) to[j] = coupling(bodies, row, rows[j]);
-      if (row.coupled_compliance != 0) to[i - 1] += row.coupled_compliance;
       to[i] = mobility_[i] * (1 + row.softening) + row.compliance;
     }
   }

@@ -11,6 +11,7 @@
 #include "engine/core/owned_pointer.h"
 #include "engine/core/task_system.h"
 #include "engine/geometry/aabb.h"
+#include "engine/joints/joint_stiffness.h"
 #include "engine/scene/error.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
@@ -242,6 +243,11 @@ class BasicWorld {
   const JointKind& kind(JointId joint) const;
   void change(JointId joint, const JointKind& kind);  ///< new speeds, limits, targets; wakes the bodies
   JointReading read(JointId joint) const;
+  /// Returns the constants of the joint's springs: k = m (2 pi hertz)^2 in N/m or N m/rad, and the damping,
+  /// of the effective mass m at the pose in which the joint was created, for the present masses of its
+  /// bodies. Throws Error (Unsupported) for a joint without springs. Source:
+  /// docs/decisions/constant-springs.md.
+  JointStiffness stiffness(JointId joint) const;
   JointDefinition definition(JointId joint) const;  ///< the present one
   /// Sets the loads, N and N m, above which `events().loaded` reports the joint; 0: never. Throws Error
   /// (Value) for a negative number or one that is not finite.

@@ -231,6 +231,10 @@ JointReading BasicWorld<Real>::read(JointId joint) const {
   return reading;
 }
 template <class Real>
+JointStiffness BasicWorld<Real>::stiffness(JointId joint) const {
+  return stiffness_of(*data_, place(joint));
+}
+template <class Real>
 std::pair<BodyId, BodyId> BasicWorld<Real>::bodies(JointId joint) const {
   const JointRecord& record = data_->joints[place(joint)];
   const auto id = [&](int body) {

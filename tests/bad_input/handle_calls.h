@@ -137,6 +137,7 @@ HandleCalls<Real, JointId> joint_calls() {
       {"kind", [](T& t, JointId id) { t.world.kind(id); }},
       {"change", [](T& t, JointId id) { t.world.change(id, RevoluteDefinition{}); }},
       {"read", [](T& t, JointId id) { t.world.read(id); }},
+      {"stiffness", [](T& t, JointId id) { t.world.stiffness(id); }},
       {"definition", [](T& t, JointId id) { t.world.definition(id); }},
       {"user_data", [](T& t, JointId id) { t.world.user_data(id); }},
       {"set_user_data", [](T& t, JointId id) { t.world.set_user_data(id, 5); }},

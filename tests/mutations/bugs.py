@@ -154,6 +154,8 @@ MUTATIONS = [
     Mutation("joints that are born whole turns off", "engine/joints/joint_angle.h",
              "const double near = nearest_turn(angle, 0);", "const double near = angle;", "world",
              ("world/joint_angle",)),
+    Mutation("springs keep the stiffness of masses that have changed", "engine/world/joint_solver/joint_springs.h",
+             "(known && bodies == now)", "known", "world", ("world/constant_springs",)),
     Mutation("springs of hinges that leave the point out", "engine/joints/spring_mobility.h",
              "p.i_a * length_squared(arm_a) + p.i_b * length_squared(arm_b)", "p.i_b * length_squared(arm_a)", "world",
              ("world/springs",)),

@@ -1,11 +1,8 @@
 #include "engine/precise/dynamics/joints.h"
 
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
-#include "engine/joints/joint_angle.h"
-#include "engine/joints/spring_mobility.h"
 #include "engine/precise/dynamics/joint_coordinates.h"
 
 namespace plumb::precise {
@@ -52,30 +49,6 @@ GeneralJoints::Ends GeneralJoints::ends_of(const Entry& e, const BodiesNow& now,
   return ends;
 }
 
-/// Returns the mobility of a scalar coordinate's spring: see engine/joints/spring_mobility.h.
-Dual GeneralJoints::mobility_of_spring(const Entry& e, const Ends& ends, const JointRow<Dual>& j) {
-  const PairMobility<Dual> pair{e.mass_a, e.inertia_a, e.mass_b, e.inertia_b};
-  const bool point_holds = e.rules.point.role == RowRole::Rigid &&
-                           e.rules.point.max_force == std::numeric_limits<double>::infinity();
-  return std::visit(
-      [&](const auto& kind) {
-        using Rows = std::remove_cvref_t<decltype(kind)>;
-        JointRows<Dual> rows;
-        kind.evaluate(ends.pose, rows);
-        if constexpr (Rows::kPoint && Rows::kTurn) {
-          if (point_holds) return turning_mobility(pair, rows.point.arm_a, rows.point.arm_b);
-        } else if constexpr (Rows::kAxial > 1) {
-          return line_mobility(pair, rows.axial[0].angular_a, rows.axial[0].angular_b,
-                               rows.axial[1].angular_a, rows.axial[1].angular_b);
-        } else if constexpr (Rows::kBlock > 0 && Rows::kAxial > 0) {
-          return sliding_mobility(pair, ends.pose.offset, rows.axial[0].linear_b);
-        }
-        return e.mass_a * dot(j.linear_a, j.linear_a) + e.inertia_a * j.angular_a * j.angular_a +
-               e.mass_b * dot(j.linear_b, j.linear_b) + e.inertia_b * j.angular_b * j.angular_b;
-      },
-      e.kind);
-}
-
 GeneralJoints::Pull GeneralJoints::pull_of_springs(const Entry& e, const Ends& ends) {
   struct Visitor {
     const Entry& e;
@@ -84,12 +57,12 @@ GeneralJoints::Pull GeneralJoints::pull_of_springs(const Entry& e, const Ends& e
 
     void row(const JointRow<Dual>& j, const RowRule& rule) const {
       if (rule.role != RowRole::Spring) return;
+      // A spring in the angle moves no centre of mass.
+      const bool turns = !(length_squared(j.linear_b) > 0);
+      const SpringConstants of = spring_constants(rule.spring, turns ? e.springs.turn : e.springs.axial);
       const Dual rate = dot(j.linear_a, ends.velocity_a) + j.angular_a * ends.spin_a +
                         dot(j.linear_b, ends.velocity_b) + j.angular_b * ends.spin_b;
-      const Dual response = mobility_of_spring(e, ends, j);
-      if (!(response > 0)) return;
-      const double w = kWholeTurn * rule.spring.hertz;
-      Dual force = -(w * w * j.residual + 2 * rule.spring.damping_ratio * w * rate) / response;
+      Dual force = -(of.stiffness * j.residual + of.damping * rate);
       if (force > rule.max_force) force = rule.max_force;
       if (force < -rule.max_force) force = -rule.max_force;
       pull.add(j, force);
@@ -97,30 +70,14 @@ GeneralJoints::Pull GeneralJoints::pull_of_springs(const Entry& e, const Ends& e
 
     void point(const AnchorPoint<Dual>& at, const RowRule& rule) const {
       if (rule.role != RowRole::Spring) return;
-      const JointRow<Dual> x = at.plain_row({1, 0}), y = at.plain_row({0, 1});
+      const SpringConstants of = spring_constants(rule.spring, e.springs.point);
       const Vec2<Dual> rate =
           (ends.velocity_b + cross(ends.spin_b, at.arm_b)) - (ends.velocity_a + cross(ends.spin_a, at.arm_a));
-      const PairMobility<Dual> pair{e.mass_a, e.inertia_a, e.mass_b, e.inertia_b};
-      Dual xx = pair.m_a + pair.m_b, yy = xx, xy = 0;
-      if (e.rules.turn.has(RowRole::Rigid)) {
-        const Vec2<Dual> p = perpendicular(at.arm_b - at.arm_a);
-        const Dual turn = common_turning(pair);
-        xx += turn * p.x * p.x, yy += turn * p.y * p.y, xy = turn * p.x * p.y;
-      } else {
-        xx += e.inertia_a * x.angular_a * x.angular_a + e.inertia_b * x.angular_b * x.angular_b;
-        yy += e.inertia_a * y.angular_a * y.angular_a + e.inertia_b * y.angular_b * y.angular_b;
-        xy = e.inertia_a * x.angular_a * y.angular_a + e.inertia_b * x.angular_b * y.angular_b;
-      }
-      const Dual determinant = xx * yy - xy * xy;
-      if (!(determinant > 0)) return;
-      const double w = kWholeTurn * rule.spring.hertz;
-      const Vec2<Dual> wanted = Dual(w * w) * at.gap + Dual(2 * rule.spring.damping_ratio * w) * rate;
-      Vec2<Dual> force =
-          (Dual(-1) / determinant) * Vec2<Dual>{yy * wanted.x - xy * wanted.y, xx * wanted.y - xy * wanted.x};
+      Vec2<Dual> force = Dual(-of.stiffness) * at.gap + Dual(-of.damping) * rate;
       const Dual size = sqrt(length_squared(force));
       if (size > rule.max_force) force *= Dual(rule.max_force) / size;
-      pull.add(x, force.x);
-      pull.add(y, force.y);
+      pull.add(at.plain_row({1, 0}), force.x);
+      pull.add(at.plain_row({0, 1}), force.y);
     }
   };
   Pull pull;

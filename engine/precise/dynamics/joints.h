@@ -20,6 +20,7 @@
 #include "engine/joints/ratchet_joint.h"
 #include "engine/joints/revolute_joint.h"
 #include "engine/joints/row.h"
+#include "engine/joints/spring_stiffness.h"
 #include "engine/joints/weld_joint.h"
 #include "engine/joints/wheel_joint.h"
 #include "engine/math/dual.h"
@@ -74,10 +75,10 @@ class GeneralJoints {
   /// Computes the rows of C; `out` has an element for each stop.
   void stop_rows(const BodiesNow& now, std::span<Row<double>> out) const;
 
-  /// Adds the forces of springs, N and N m. With J the row of a coordinate C and m the bodies' effective mass
-  /// there while the joint's rigid rows hold (engine/joints/spring_mobility.h),
-  ///   lambda = -m (w^2 C + 2 zeta w J v),   w = 2 pi hertz,
-  /// bounded if the joint has a bound; for a point the same with the 2 x 2 matrix m.
+  /// Adds the forces of springs, N and N m. With J the row of a coordinate C,
+  ///   lambda = -(k C + c J v),
+  /// bounded if the joint has a bound; for a point the same along the gap. k and c are constants of the
+  /// scene's initial poses (engine/joints/spring_stiffness.h).
   void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
 
   /// Calls `take(joint, force, torque)` for each joint with such forces: force and torque on body b, about
@@ -104,6 +105,7 @@ class GeneralJoints {
     double ratio = 1, angle_offset = 0;  // the joint's angle: angle_b - ratio angle_a + offset, rad
     bool rigid_elsewhere = false;        // its rigid rows are among `Joints`
     bool has_springs = false;
+    SpringMobility springs{};
     std::size_t first_row = 0, rows = 0;
     std::size_t first_stop = 0, stops = 0;
     std::string name{};
@@ -117,7 +119,6 @@ class GeneralJoints {
   static Ends ends_of(const Entry& entry, const BodiesNow& now, const Directions& along);
   template <class Visit>
   static void each_coordinate(const Entry& entry, const Ends& ends, const Visit& visit);
-  static Dual mobility_of_spring(const Entry& entry, const Ends& ends, const JointRow<Dual>& row);
   static Pull pull_of_springs(const Entry& entry, const Ends& ends);
   static Pull pull_of_rows(const Entry& entry, const Ends& ends, std::span<const double> multipliers);
   template <class Evaluate>

@@ -75,6 +75,13 @@ void GeneralJoints::add(const Scene& scene, const Joint& joint, std::vector<Entr
   take_body(name_a, e.a, e.mass_a, e.inertia_a);
   take_body(name_b, e.b, e.mass_b, e.inertia_b);
   e.name = std::visit([](const auto& j) { return j.name; }, joint);
+  const auto pose_of = [&scene](int body) -> Pose<double> {
+    if (body == kFixedFrame) return {};
+    const BodyState state = initial_state(scene.bodies[static_cast<std::size_t>(body)]);
+    return {state.position, rotation_of(state.angle)};
+  };
+  e.springs = spring_mobility(kind_of(joint), reference_of(pose_of(e.a), {}, pose_of(e.b), {}), {}, {},
+                              {e.mass_a, e.inertia_a, e.mass_b, e.inertia_b});
   if (std::holds_alternative<MouseRows<Dual>>(e.kind)) e.a = kFixedFrame, e.mass_a = e.inertia_a = 0;
   entries.push_back(std::move(e));
 }

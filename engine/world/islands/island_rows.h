@@ -85,7 +85,7 @@ class RowMaker {
     row.state = holds ? BoundedRow::kFree : BoundedRow::kLower;
     if (pressed) row.gap = std::min(row.gap, 0.0);
     row.upper = upper;
-    row.compliance = row.coupled_compliance = 0;
+    row.compliance = 0;
     island_.system.rows.push_back(row);
     island_.ties.push_back(tie);
   }
@@ -121,7 +121,7 @@ class RowMaker {
           row.gap = gap;
           break;
         case RowRole::Spring:
-          row.compliance = from.compliance, row.coupled_compliance = from.coupled_compliance;
+          row.compliance = from.compliance;
           row.wanted = -double(from.rate) * (hold_ ? start : start - h_ * moved_along(row));
           break;
         case RowRole::Limit:
@@ -135,12 +135,6 @@ class RowMaker {
           break;
       }
       add(row, {.impulse = from.impulse, .most = from.most, .pair = from.pair}, lower, most, *from.impulse);
-      if (!hold_ && from.coupled_compliance != 0) {
-        const std::size_t last = island_.ties.size() - 1;
-        std::pmr::vector<BoundedRow>& all = island_.system.rows;
-        all[last].wanted -= from.coupled_compliance * island_.impulses[last - 1];
-        all[last - 1].wanted -= from.coupled_compliance * island_.impulses[last];
-      }
     }
   }
 

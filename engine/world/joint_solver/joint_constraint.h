@@ -9,11 +9,11 @@
 #include "engine/joints/pulley_joint.h"
 #include "engine/joints/ratchet_joint.h"
 #include "engine/joints/revolute_joint.h"
-#include "engine/joints/spring_mobility.h"
 #include "engine/world/joint_solver/joint_block.h"
 #include "engine/world/joint_solver/joint_coordinate.h"
 #include "engine/world/joint_solver/joint_point.h"
 #include "engine/world/joint_solver/joint_share.h"
+#include "engine/world/joint_solver/joint_springs.h"
 
 namespace plumb {
 
@@ -46,6 +46,10 @@ struct JointConstraint {
   static constexpr bool kHasRows = kAxial + kBlock > 0;
   static constexpr bool kSoftPoint = Rows::kPoint && Rows::kSoft;
   static constexpr bool kHasRules = Rows::kTurn || kAxial > 0 || kSoftPoint;
+  /// A joint that may have springs.
+  static constexpr bool kHasSprings = kHasRules && !kRatchet && !kPulley &&
+                                      Rows::kAngle != AngleUse::Geared &&
+                                      !std::is_same_v<Definition, FrictionDefinition>;
   template <bool kHas, class Part, int kTag>
   using If = std::conditional_t<kHas, Part, NoPart<kTag>>;
 
@@ -54,7 +58,8 @@ struct JointConstraint {
   bool alone = false;        ///< no other joint moves its bodies
   bool with_island = false;  ///< solved with its island: here it is only evaluated
   Scalar<Real> known_h = 0;  ///< s, substep length that the rules are set for
-  Vec2<Real> offset{};       ///< m, at the start of the step
+  [[no_unique_address]] If<kHasSprings && !kIsLanes<Real>, JointSprings<Scalar<Real>>, 8> springs{};
+  Vec2<Real> offset{};  ///< m, at the start of the step
   [[no_unique_address]] If<kPulley, Vec2<Real>, 5> offset_a{};
   [[no_unique_address]] If<kHasRows, Vec2<Real>, 6> arm_b{};
   [[no_unique_address]] If<kPlainHinge, bool, 7> held{};  ///< solved elsewhere
@@ -94,6 +99,7 @@ struct JointConstraint {
     }
     recall();
     known_h = 0;
+    if constexpr (kHasSprings) springs = {.any = has_springs(rules)};
   }
 
   /// Sets the rule that follows from the stored state. A sleeping joint may be read before a step sets it.
@@ -107,9 +113,11 @@ struct JointConstraint {
   /// Sets springs and bounds for substeps of h, s.
   [[gnu::noinline]] void set_substep(const Definition& definition, Real h) {
     const JointRules rules = rules_of(definition);
-    if constexpr (Rows::kTurn) turn.set_substep(rules.turn, h);
-    for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], h);
-    if constexpr (kSoftPoint) point.set_substep(rules.point, h);
+    SpringMobility mobility;
+    if constexpr (kHasSprings) mobility = springs.mobility;
+    if constexpr (Rows::kTurn) turn.set_substep(rules.turn, mobility.turn, h);
+    for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], mobility.axial, h);
+    if constexpr (kSoftPoint) point.set_substep(rules.point, mobility.point, h);
     known_h = h;
   }
 
@@ -167,7 +175,8 @@ struct JointConstraint {
                                                    JointShare<Real> part) {
     if constexpr (Rows::kTurn) {
       if (turn_beside_rigid()) {
-        turn.evaluate_beside_rigid(at.angle, v, turn_spring_mobility(v, rows), step, part);
+        const Real turns = turning_mobility(masses_of(v), rows.point.arm_a, rows.point.arm_b);
+        turn.evaluate_beside_rigid(at.angle, v, turns, step, part);
       } else {
         turn.evaluate(at.angle, v, step, part);
       }
@@ -175,7 +184,7 @@ struct JointConstraint {
     for (int i = 0; i < kAxial; ++i) axial[i].row = rows.axial[i];
     for (int i = 0; i < kAxial; ++i) {
       if (i == 0 && axial_beside_rigid()) {
-        axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, axial_spring_mobility(v, at, rows), step,
+        axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, held_axial_mobility(v, at, rows), step,
                                        part);
       } else {
         axial[i].evaluate(rows.axial[i].residual, v, step, part);
@@ -183,7 +192,8 @@ struct JointConstraint {
     }
     if constexpr (kSoftPoint)
       if (point_beside_rigid())
-        return point.evaluate_beside_rigid(rows.point, v, point_spring_mobility(v, rows), step, part);
+        return point.evaluate_beside_rigid(rows.point, v, held_response(masses_of(v), rows.point), step,
+                                           part);
     if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, part);
   }
 
@@ -194,7 +204,7 @@ struct JointConstraint {
     evaluate_coordinates(at, rows, v, step, part);
   }
 
-  // Springs beside rigid rows of the joint refer to their effective mass given these: see
+  // Springs beside rigid rows of the joint respond with their effective mass given these: see
   // engine/joints/spring_mobility.h.
   /// Returns true if the angle has a spring beside a rigid point.
   [[gnu::always_inline]] bool turn_beside_rigid() const {
@@ -212,27 +222,16 @@ struct JointConstraint {
       return !point.rigid() && point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
     return false;
   }
-  [[gnu::always_inline]] Real turn_spring_mobility(const JointVelocities<Real>& v,
-                                                   const JointRows<Real>& rows) const {
-    return turning_mobility<Real>({v.m_a, v.i_a, v.m_b, v.i_b}, rows.point.arm_a, rows.point.arm_b);
-  }
-  [[gnu::always_inline]] Real axial_spring_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
-                                                    const JointRows<Real>& rows) const {
-    const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
+  [[gnu::always_inline]] Real held_axial_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
+                                                  const JointRows<Real>& rows) const {
     const JointRow<Real>& first = rows.axial[0];
     if constexpr (kAxial > 1) {
       const JointRow<Real>& second = rows.axial[1];
-      return line_mobility(pair, first.angular_a, first.angular_b, second.angular_a, second.angular_b);
+      return line_mobility(masses_of(v), first.angular_a, first.angular_b, second.angular_a,
+                           second.angular_b);
     } else {
-      return sliding_mobility(pair, at.offset, first.linear_b);
+      return sliding_mobility(masses_of(v), at.offset, first.linear_b);
     }
-  }
-  [[gnu::always_inline]] Symmetric2<Real> point_spring_mobility(const JointVelocities<Real>& v,
-                                                                const JointRows<Real>& rows) const {
-    const PairMobility<Real> pair{v.m_a, v.i_a, v.m_b, v.i_b};
-    const Real m = v.m_a + v.m_b, turn_together = common_turning(pair);
-    const Vec2<Real> p = perpendicular(rows.point.arm_b - rows.point.arm_a);
-    return {m + turn_together * p.x * p.x, turn_together * p.x * p.y, m + turn_together * p.y * p.y};
   }
 
   /// Returns the least opening of the angle's limits, rad, each with `slack`: negative beyond one of them.

@@ -31,8 +31,8 @@ struct JointCoordinate {
     }
     count = rules.count;
   }
-  void set_substep(const RowRules& rules, double h) {
-    for (int i = 0; i < count; ++i) rule[i].set_substep(rules.rule[i], h);
+  void set_substep(const RowRules& rules, double spring_mobility, double h) {
+    for (int i = 0; i < count; ++i) rule[i].set_substep(rules.rule[i], spring_mobility, h);
   }
   void scale(Real factor) {
     for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
@@ -77,15 +77,15 @@ struct JointCoordinate {
                                        const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
     if (count == 0) return;
     inverse_mass = mobility(v);
-    evaluate(q, inverse_mass, step, part);
+    evaluate(q, step, part);
   }
-  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`. `held` is its
-  /// response if the joint is solved alone, with these rows before and after the spring.
+  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`: its response if the
+  /// joint is solved alone, with these rows before and after the spring.
   [[gnu::always_inline]] void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held,
                                                     const JointStep<Scalar<Real>>& step,
                                                     JointShare<Real> part) {
     inverse_mass = select(part.share < Real(1), mobility(v), held);
-    evaluate(q, held, step, part);
+    evaluate(q, step, part);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     if (count > 0) apply(v, impulse());
@@ -109,10 +109,8 @@ struct JointCoordinate {
   }
 
  private:
-  [[gnu::always_inline]] void evaluate(Real q, Real spring_mobility, const JointStep<Scalar<Real>>& step,
-                                       JointShare<Real> part) {
-    for (int i = 0; i < count; ++i)
-      rule[i].terms(q, inverse_mass, spring_mobility, part, step, solved[i].term);
+  [[gnu::always_inline]] void evaluate(Real q, const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
+    for (int i = 0; i < count; ++i) rule[i].terms(q, inverse_mass, part, step, solved[i].term);
   }
   [[gnu::always_inline]] Real along(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {

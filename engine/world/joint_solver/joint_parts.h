@@ -16,6 +16,7 @@ struct JointSlot {
   JointKind definition{};
   int a = -1, b = -1;  ///< bodies
   Vec2d centre_a{}, centre_b{};
+  JointReference reference{};
   bool used = false, dynamic_a = false, dynamic_b = false, active = false;
   JointForm form = kHinge;
   int colour = 0, index = 0;  ///< colour and index of its constraint
@@ -23,6 +24,13 @@ struct JointSlot {
 
   /// A mouse joint does not move body a.
   bool moves_a() const { return dynamic_a && form != kMouse; }
+  /// Returns the mobilities of its springs for bodies of these masses.
+  template <class Real>
+  SpringMobility springs(Vec2d at_a, Vec2d at_b, const PairMobility<Real>& p) const {
+    return spring_mobility(definition, reference, at_a, at_b,
+                           {static_cast<double>(p.m_a), static_cast<double>(p.i_a),
+                            static_cast<double>(p.m_b), static_cast<double>(p.i_b)});
+  }
 };
 
 /// The active joints of a dynamic body.

@@ -96,7 +96,7 @@ struct SoftPoint {
   Vec2<Real> drift{};       ///< m, see SolverRule
   AnchorPoint<Real> point{};
   Symmetric2<Real> mass{};
-  Symmetric2<Real> compliance{};  ///< of a spring: its compliance matrix
+  Real compliance = 0;  ///< 1/kg, of a spring that is not too stiff: the same in all directions
   Vec2<Real> bias[2]{};
   Real mass_scale[2]{1, 1}, impulse_scale[2]{};
 
@@ -104,7 +104,9 @@ struct SoftPoint {
     if (r.role != rule.role) impulse = drift = {};
     rule.load(r);
   }
-  void set_substep(const RowRule& r, double h) { rule.set_substep(r, h); }
+  void set_substep(const RowRule& r, double spring_mobility, double h) {
+    rule.set_substep(r, spring_mobility, h);
+  }
 
   /// Records the gap at the end of a substep; the gap at its start is that of `point`.
   [[gnu::always_inline]] void follow(Vec2<Real> gap) {
@@ -121,25 +123,24 @@ struct SoftPoint {
                                        const JointStep<Real>& step, JointShare<Real> part) {
     const PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
     point = at;
-    if (rule.role == RowRole::Spring) return evaluate_spring({k.xx, k.xy, k.yy}, k, step, part);
+    if (rule.role == RowRole::Spring) return evaluate_spring(k, step, part);
     mass = mass_of(k, Real(1));
     RowTerm<Real> term[2]{};
     rule.drift = 1;
-    rule.terms(1, 1, 1, part, step, term);
+    rule.terms(1, 1, part, step, term);
     for (int pass = 0; pass < 2; ++pass) {
       bias[pass] = term[pass].bias * (rule.role == RowRole::Motor ? drift : at.gap);
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
   }
-  /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `held`.
+  /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `held`: its
+  /// response if the joint is solved alone.
   void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
-                             const Symmetric2<Real>& held, const JointStep<Real>& step,
+                             const PointResponse<Real>& held, const JointStep<Real>& step,
                              JointShare<Real> part) {
-    PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
     point = at;
-    if (part.share == 1) k = {held.xx, held.xy, held.yy, held.xx * held.yy - held.xy * held.xy};
-    evaluate_spring(held, k, step, part);
+    evaluate_spring(part.share == 1 ? held : point_response(v, at.arm_a, at.arm_b), step, part);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     v.apply(impulse, point.arm_a, point.arm_b);
@@ -156,30 +157,31 @@ struct SoftPoint {
   }
 
  private:
-  // See SolverRule::terms. The spring refers to the mobility `held`; the point responds with `k`.
-  void evaluate_spring(const Symmetric2<Real>& held, const PointResponse<Real>& k,
-                       const JointStep<Real>& step, JointShare<Real> part) {
+  // See SolverRule::terms. The point responds with `k`, the spring has one stiffness in all directions.
+  void evaluate_spring(const PointResponse<Real>& k, const JointStep<Real>& step, JointShare<Real> part) {
     const Real share = part.share;
     const SpringTerm<Real>& spring = rule.spring;
     const Real trace = k.xx + k.yy;
-    compliance = {spring.compliance * held.xx, spring.compliance * held.xy, spring.compliance * held.yy};
+    // Stiffness counts in the direction in which the bodies are lightest.
+    const Real apart = k.xx - k.yy;
+    const Real lightest = Real(0.5) * (trace + std::sqrt(apart * apart + 4 * k.xy * k.xy));
     constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
-    const Real gives = std::max(compliance.xx + compliance.yy, trace / kFirmest);
-    if (!(trace > part.stiffest(step.stiffest) * gives)) {
-      const Real xx = k.xx + compliance.xx, xy = k.xy + compliance.xy, yy = k.yy + compliance.yy;
-      // If proportional to K, as without rigid rows beside the spring, use the form without cancellation.
-      const Real times = 1 + rule.spring.compliance;
-      const bool in_proportion = held.xx == k.xx && held.xy == k.xy && held.yy == k.yy;
-      mass =
-          mass_of({xx, xy, yy, in_proportion ? times * times * k.determinant : xx * yy - xy * xy}, Real(1));
+    compliance = std::max(spring.compliance, lightest / kFirmest);
+    if (!(lightest > part.stiffest(step.stiffest) * compliance)) {
+      // The determinant of K + compliance 1: nothing cancels.
+      const Real determinant = k.determinant + compliance * (trace + compliance);
+      mass = mass_of({k.xx + compliance, k.xy, k.yy + compliance, determinant}, Real(1));
       bias[kRelax] = bias[kSolve];
       bias[kSolve] = spring.rate * point.gap;
       mass_scale[kSolve] = mass_scale[kRelax] = 1;
       impulse_scale[kSolve] = impulse_scale[kRelax] = 0;
       return;
     }
-    const StiffSpring<Real> stiff(spring, trace / gives, share, step);
-    compliance = {};
+    // Held like a rigid point: in proportion to the effective mass, of which the average counts.
+    const bool regular = k.determinant > std::numeric_limits<Real>::epsilon() * (trace * trace);
+    const Real mean = regular ? 2 * k.determinant / trace : trace;
+    const StiffSpring<Real> stiff(spring, mean / compliance, share, step);
+    compliance = 0;
     mass = mass_of(k, share);
     bias[kSolve] = (share * stiff.rate) * point.gap;
     bias[kRelax] = {};

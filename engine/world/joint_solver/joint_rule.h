@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/joints/joint_angle.h"
 #include "engine/joints/joint_row.h"
 #include "engine/math/lanes.h"
 #include "engine/world/contact_solver/body_motion.h"
@@ -47,15 +48,19 @@ struct JointShare {
 template <class Real>
 struct SpringTerm {
   Real rate = 0;        ///< 1/s: k / (c + h k)
-  Real compliance = 0;  ///< 1 / (h (c + h k)), divided by the mobility that it refers to
+  Real compliance = 0;  ///< 1/kg or 1/(kg m^2): 1 / (h (c + h k))
 };
 
-/// Computes it with omega = 2 pi hertz, k = omega^2 / mobility and c = 2 zeta omega / mobility.
+/// Computes it with omega = 2 pi hertz, k = omega^2 / mobility and c = 2 zeta omega / mobility, which are
+/// constant: `mobility` is that at the joint's reference (spring_stiffness.h). A spring that moves nothing
+/// there yields to anything.
 template <class Real>
-SpringTerm<Real> spring_term(const Spring& spring, double h) {
-  const double omega = 2 * 3.14159265358979323846 * spring.hertz;
+SpringTerm<Real> spring_term(const Spring& spring, double mobility, double h) {
+  constexpr double kMost = std::numeric_limits<Real>::max() / 4;  // finite when added to a mobility
+  const double omega = kWholeTurn * spring.hertz;
   const double a = 2 * spring.damping_ratio + h * omega;
-  return {static_cast<Real>(omega / a), static_cast<Real>(1 / (h * omega * a))};
+  const double compliance = mobility > 0 ? std::min(mobility / (h * omega * a), kMost) : kMost;
+  return {static_cast<Real>(omega / a), static_cast<Real>(compliance)};
 }
 
 /// A spring too stiff for sequential impulses: h (c + h k) times the mobility is above `JointStep::stiffest`.
@@ -110,9 +115,9 @@ struct SolverRule {
     origin = static_cast<Real>(rule.origin);
     speed = static_cast<Real>(rule.speed);
   }
-  void set_substep(const RowRule& rule, double h) {
+  void set_substep(const RowRule& rule, double spring_mobility, double h) {
     most = static_cast<Real>(rule.max_force * h);
-    if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, h);
+    if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, spring_mobility, h);
   }
 
   /// Updates a motor's drift over a substep that ended at `q`.
@@ -125,10 +130,9 @@ struct SolverRule {
   }
 
   /// Computes both terms for a coordinate at `q` with the given mobility, at the poses after a substep:
-  /// `relax` of this substep, `solve` of the next one. `spring_mobility` is the mobility that its spring
-  /// refers to. A spring's force belongs to the pose at the start of the substep: one impulse per substep, in
-  /// both passes.
-  [[gnu::always_inline]] void terms(Real q, Real mobility, Real spring_mobility, JointShare<Real> part,
+  /// `relax` of this substep, `solve` of the next one. A spring's force belongs to the pose at the start of
+  /// the substep: one impulse per substep, in both passes.
+  [[gnu::always_inline]] void terms(Real q, Real mobility, JointShare<Real> part,
                                     const JointStep<Scalar<Real>>& step, RowTerm<Real> (&term)[2]) const {
     const Real share = part.share;
     const Real c = sign * (q - origin);
@@ -144,7 +148,7 @@ struct SolverRule {
       case RowRole::Spring: {
         using std::max;
         constexpr Scalar<Real> kFirmest = Scalar<Real>(1e12);  // beyond it a spring is rigid to rounding
-        const Real compliance = max(Real(spring.compliance * spring_mobility), Real(mobility / kFirmest));
+        const Real compliance = max(spring.compliance, Real(mobility / kFirmest));
         const Real inverse = select(moves, Real(Real(1) / (mobility + compliance)), Real(0));
         term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
         term[kSolve] = {spring.rate * c, inverse, compliance * inverse};

@@ -27,6 +27,12 @@ void check_bodies(const JointKind& definition, int body_a, int body_b, bool dyna
                       : "must not both be static or kinematic: a joint moves neither");
 }
 
+template <class Real>
+Pose<double> pose_of(const SolverBodies<Real>& bodies, int body) {
+  const Rotation<Real>& q = bodies.rotation[body];
+  return {bodies.position[body], {static_cast<double>(q.c), static_cast<double>(q.s)}};
+}
+
 /// Loads the slot's definition into the constraint.
 template <class Parts>
 void reload(Parts& parts, int joint) {
@@ -168,7 +174,8 @@ JointSet<Real>::~JointSet() = default;
 
 template <class Real>
 int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a,
-                        Vec2<Real> centre_b, bool dynamic_a, bool dynamic_b) {
+                        Vec2<Real> centre_b, bool dynamic_a, bool dynamic_b,
+                        const SolverBodies<Real>& bodies) {
   validate(definition);
   check_bodies(definition, body_a, body_b, dynamic_a, dynamic_b);
   Parts& p = *parts_;
@@ -179,11 +186,13 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
   }
   const int joint = p.free.back();
   p.free.pop_back();
+  const Vec2d arm_a = centre_a.template as<double>(), arm_b = centre_b.template as<double>();
   p.slot(joint) = {.definition = definition,
                    .a = body_a,
                    .b = body_b,
-                   .centre_a = centre_a.template as<double>(),
-                   .centre_b = centre_b.template as<double>(),
+                   .centre_a = arm_a,
+                   .centre_b = arm_b,
+                   .reference = reference_of(pose_of(bodies, body_a), arm_a, pose_of(bodies, body_b), arm_b),
                    .used = true,
                    .dynamic_a = dynamic_a,
                    .dynamic_b = dynamic_b,

@@ -8,6 +8,7 @@
 
 #include "engine/core/crew.h"
 #include "engine/joints/joint_row.h"
+#include "engine/joints/spring_stiffness.h"
 #include "engine/math/vec2.h"
 #include "engine/world/contact_solver/body_motion.h"
 
@@ -56,10 +57,9 @@ struct JointSolverRow {
   bool pair = false;  ///< `most` bounds the vector of this impulse and that of the previous row
   Real speed = 0;     ///< m/s or rad/s, of a motor
   Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, largest impulse in a substep
-  Real rate = 0;                ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
-  Real compliance = 0;          ///< in the unit of its mobility
-  Real coupled_compliance = 0;  ///< the same, with the impulse of the previous row
-  Real length = 0;              ///< m, target of its coordinate, of a rod or rope
+  Real rate = 0;        ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
+  Real compliance = 0;  ///< in the unit of its mobility
+  Real length = 0;      ///< m, target of its coordinate, of a rod or rope
   Real* impulse =
       nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
 };
@@ -93,10 +93,11 @@ class JointSet {
 
   /// Adds a joint between bodies `body_a` and `body_b`. Returns its slot, which is valid until `remove`; the
   /// slot freed last is reused first. `centre_a` and `centre_b` are the centres of mass in the bodies'
-  /// frames. Throws Error (Value) for a definition that `validate` rejects, for a body joined to itself, and
-  /// if no body is dynamic.
+  /// frames. The pose in which `bodies` are is the joint's reference, at which its springs have their
+  /// stiffness (spring_stiffness.h). Throws Error (Value) for a definition that `validate` rejects, for a
+  /// body joined to itself, and if no body is dynamic.
   int add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a, Vec2<Real> centre_b,
-          bool dynamic_a, bool dynamic_b);
+          bool dynamic_a, bool dynamic_b, const SolverBodies<Real>& bodies);
   void remove(int joint);
 
   /// Activates or deactivates a joint. An inactive joint keeps its impulses and takes no part in steps (its
@@ -196,6 +197,10 @@ class JointSet {
   /// and whole turns are counted. Revolute joints without limits, spring and motor have an angle in [-pi,
   /// pi]. Counting is correct while the bodies rotate less than pi, relative to each other, in a substep.
   Real angle(int joint, const SolverBodies<Real>& bodies) const;
+  /// Returns the constants of the joint's springs for bodies with these centres and masses. Throws Error
+  /// (Unsupported) for a joint without springs.
+  JointStiffness stiffness(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b,
+                           const PairMobility<Real>& bodies) const;
   /// Returns the coordinate of anchor b along the axis from anchor a, m: prismatic, wheel.
   Real translation(int joint, const SolverBodies<Real>& bodies) const;
   /// Returns the length, m: distance between the anchors for distance; length_a + ratio length_b for pulley.

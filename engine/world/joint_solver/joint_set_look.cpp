@@ -92,6 +92,14 @@ Real JointSet<Real>::angle(int joint, const SolverBodies<Real>& bodies) const {
 }
 
 template <class Real>
+JointStiffness JointSet<Real>::stiffness(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b,
+                                         const PairMobility<Real>& bodies) const {
+  const JointSlot& s = parts_->slot(joint);
+  return joint_stiffness(s.definition,
+                         s.springs(centre_a.template as<double>(), centre_b.template as<double>(), bodies));
+}
+
+template <class Real>
 Real JointSet<Real>::translation(int joint, const SolverBodies<Real>& bodies) const {
   const JointSlot& s = parts_->slot(joint);
   if (s.form != kPrismatic && s.form != kWheel) refuse(s.definition, "translation");
@@ -111,12 +119,16 @@ template float JointSet<float>::force(int, float) const;
 template float JointSet<float>::torque(int, float) const;
 template JointError<float> JointSet<float>::error(int, const SolverBodies<float>&) const;
 template float JointSet<float>::angle(int, const SolverBodies<float>&) const;
+template JointStiffness JointSet<float>::stiffness(int, Vec2<float>, Vec2<float>,
+                                                   const PairMobility<float>&) const;
 template float JointSet<float>::translation(int, const SolverBodies<float>&) const;
 template float JointSet<float>::length(int, const SolverBodies<float>&) const;
 template double JointSet<double>::force(int, double) const;
 template double JointSet<double>::torque(int, double) const;
 template JointError<double> JointSet<double>::error(int, const SolverBodies<double>&) const;
 template double JointSet<double>::angle(int, const SolverBodies<double>&) const;
+template JointStiffness JointSet<double>::stiffness(int, Vec2<double>, Vec2<double>,
+                                                    const PairMobility<double>&) const;
 template double JointSet<double>::translation(int, const SolverBodies<double>&) const;
 template double JointSet<double>::length(int, const SolverBodies<double>&) const;
 

@@ -9,11 +9,9 @@ namespace {
 template <class Real>
 struct RowList {
   std::vector<JointSolverRow<Real>>& rows;
-  const JointVelocities<Real>& v;
 
-  /// Appends a row. `mobility` is the one that the row's spring refers to. `length`: true if its coordinate
-  /// is a length.
-  void add(JointRow<Real> row, SolverRule<Real>& rule, Real mobility, bool length) const {
+  /// Appends a row. `length`: true if its coordinate is a length.
+  void add(JointRow<Real> row, SolverRule<Real>& rule, bool length) const {
     JointSolverRow<Real> out{.row = row, .role = rule.role, .speed = rule.speed, .most = rule.most};
     if (length) out.length = rule.origin;
     out.row.residual = rule.sign * (row.residual - rule.origin);
@@ -22,36 +20,31 @@ struct RowList {
       out.row.angular_a = -row.angular_a, out.row.angular_b = -row.angular_b;
     }
     out.impulse = &rule.impulse;
-    if (rule.role == RowRole::Spring)
-      out.rate = rule.spring.rate, out.compliance = rule.spring.compliance * mobility;
+    if (rule.role == RowRole::Spring) out.rate = rule.spring.rate, out.compliance = rule.spring.compliance;
     rows.push_back(out);
   }
 
   template <bool kAngular>
-  void add(const JointRow<Real>& row, JointCoordinate<Real, kAngular>& coordinate, Real mobility,
+  void add(const JointRow<Real>& row, JointCoordinate<Real, kAngular>& coordinate,
            bool length = false) const {
-    for (int i = 0; i < coordinate.count; ++i) add(row, coordinate.rule[i], mobility, length);
+    for (int i = 0; i < coordinate.count; ++i) add(row, coordinate.rule[i], length);
   }
 
   void add_rigid(const JointRow<Real>& row, Real* impulse) const {
     rows.push_back({.row = row, .role = RowRole::Rigid, .impulse = impulse});
   }
 
-  void add(const AnchorPoint<Real>& at, RigidPoint<Real>& point, const Symmetric2<Real>&) const {
+  void add(const AnchorPoint<Real>& at, RigidPoint<Real>& point) const {
     add_rigid(at.plain_row({1, 0}), &point.impulse.x);
     add_rigid(at.plain_row({0, 1}), &point.impulse.y);
   }
-  void add(const AnchorPoint<Real>& at, SoftPoint<Real>& point, const Symmetric2<Real>& mobility) const {
+  void add(const AnchorPoint<Real>& at, SoftPoint<Real>& point) const {
     for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}}) {
       JointSolverRow<Real> out{.row = at.plain_row(n), .role = point.rule.role, .most = point.rule.most};
       out.pair = n.y != 0;
       out.impulse = out.pair ? &point.impulse.y : &point.impulse.x;
-      if (point.rule.role == RowRole::Spring) {
-        const SpringTerm<Real>& spring = point.rule.spring;
-        out.rate = spring.rate;
-        out.compliance = spring.compliance * (out.pair ? mobility.yy : mobility.xx);
-        if (out.pair) out.coupled_compliance = spring.compliance * mobility.xy;
-      }
+      if (point.rule.role == RowRole::Spring)
+        out.rate = point.rule.spring.rate, out.compliance = point.rule.spring.compliance;
       rows.push_back(out);
     }
   }
@@ -61,28 +54,16 @@ template <class Real, template <class> class Kind>
 void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies,
               std::vector<JointSolverRow<Real>>& rows) {
   using Constraint = JointConstraint<Real, Kind>;
-  const JointVelocities<Real> v = velocities_of(bodies, joint);
   const std::size_t first = rows.size();
-  const RowList<Real> list{rows, v};
+  const RowList<Real> list{rows};
   const JointPose<Real> at = joint.pose(bodies);
   JointRows<Real> now;
   joint.kind.evaluate(at, now);
-  if constexpr (Kind<Real>::kTurn)
-    list.add({{}, {}, -1, 1, at.angle}, joint.turn,
-             joint.turn_beside_rigid() ? joint.turn_spring_mobility(v, now) : v.i_a + v.i_b);
-  for (int i = 0; i < Constraint::kAxial; ++i)
-    list.add(now.axial[i], joint.axial[i],
-             i == 0 && joint.axial_beside_rigid() ? joint.axial_spring_mobility(v, at, now)
-                                                  : v.inverse_mass(now.axial[i], now.axial[i]),
-             Kind<Real>::kLength);
+  if constexpr (Kind<Real>::kTurn) list.add(JointRow<Real>{{}, {}, -1, 1, at.angle}, joint.turn);
+  for (int i = 0; i < Constraint::kAxial; ++i) list.add(now.axial[i], joint.axial[i], Kind<Real>::kLength);
   if constexpr (Constraint::kBlock > 0)
     for (int i = 0; i < Constraint::kBlock; ++i) list.add_rigid(now.block[i], &joint.block.impulse[i]);
-  if constexpr (Kind<Real>::kPoint) {
-    const PointResponse<Real> free = point_response(v, now.point.arm_a, now.point.arm_b);
-    list.add(now.point, joint.point,
-             joint.point_beside_rigid() ? joint.point_spring_mobility(v, now)
-                                        : Symmetric2<Real>{free.xx, free.xy, free.yy});
-  }
+  if constexpr (Kind<Real>::kPoint) list.add(now.point, joint.point);
   if constexpr (Constraint::kOneBody)
     for (std::size_t i = first; i < rows.size(); ++i) rows[i].row.linear_a = {}, rows[i].row.angular_a = 0;
 }

@@ -14,8 +14,9 @@ template <>
 inline constexpr int kEnumerators<JointForm> = kForms;
 template <>
 inline constexpr int kEnumerators<TurnCount> = 3;
-PLUMB_MEMBERS(JointSlot, definition, a, b, centre_a, centre_b, used, dynamic_a, dynamic_b, active, form,
-              colour, index, carry)
+PLUMB_MEMBERS(JointReference, offset, rotation)
+PLUMB_MEMBERS(JointSlot, definition, a, b, centre_a, centre_b, reference, used, dynamic_a, dynamic_b, active,
+              form, colour, index, carry)
 PLUMB_MEMBERS(BodyJoints, colours, count)
 
 namespace {

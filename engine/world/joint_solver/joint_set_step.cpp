@@ -97,6 +97,17 @@ void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& 
 template <class Parts, class Joint, class Real>
 void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
   using Definition = typename Joint::Definition;
+  if constexpr (Joint::kHasSprings) {
+    const PairMobility<Real> masses = masses_of(velocities_of(bodies, joint));
+    if (!joint.springs.fit(masses)) {
+      const JointSlot& s = p.slot(joint.joint);
+      joint.springs = {.any = true,
+                       .known = true,
+                       .bodies = masses,
+                       .mobility = s.springs(s.centre_a, s.centre_b, masses)};
+      joint.known_h = 0;
+    }
+  }
   if (Joint::kHasRules && joint.known_h != step.h)
     joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
   joint.share = 1;

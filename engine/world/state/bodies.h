@@ -86,4 +86,9 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
 template <class Real>
 void remove_joint(WorldData<Real>& w, int joint);
 
+/// Returns the constants of the joint's springs for the present masses of its bodies. Throws Error
+/// (Unsupported) for a joint without springs.
+template <class Real>
+JointStiffness stiffness_of(const WorldData<Real>& w, int joint);
+
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #include "engine/core/room.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/mass.h"
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/sleeping.h"
 
@@ -43,8 +44,9 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   ensure_room(w.load_limits, w.load_limits.size() + (limited ? 1 : 0));
   if (!definition.collide) make_room_for_ends(w, body_a, body_b);
   w.topology_changed = true;  // before the joints' lists grow, which may fail halfway
-  const int slot = w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre,
-                                   w.bodies[body_b].centre, w.is_dynamic(body_a), w.is_dynamic(body_b));
+  const int slot =
+      w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre, w.bodies[body_b].centre,
+                      w.is_dynamic(body_a), w.is_dynamic(body_b), w.solver_bodies());
   w.joint_set.meet(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
   JointRecord record;
   record.body_a = body_a, record.body_b = body_b;
@@ -100,9 +102,31 @@ void set_load_events(WorldData<Real>& w, int joint, double force, double torque)
   record.report_force = force, record.report_torque = torque;
 }
 
+template <class Real>
+JointStiffness stiffness_of(const WorldData<Real>& w, int joint) {
+  const JointRecord& record = w.joints[joint];
+  // Masses may still be unsettled: reading changes nothing.
+  const auto centre_of = [&w](int body) { return w.bodies[body].centre + way_to_centre(w, body); };
+  const auto add = [&w](int body, Real& inverse_mass, Real& inverse_inertia) {
+    if (own_type(w, body) != BodyType::Dynamic) return;
+    const BodyRecord<Real>& of = w.bodies[body];
+    const MassProperties mass =
+        is_unsettled(w, body)
+            ? mass_now(w, body)
+            : MassProperties{static_cast<double>(of.mass), {}, static_cast<double>(of.inertia)};
+    inverse_mass = inverse_mass_of(of, mass.mass);
+    if (!of.lock_rotation && mass.inertia > 0) inverse_inertia = static_cast<Real>(1 / mass.inertia);
+  };
+  PairMobility<Real> bodies;
+  add(record.body_a, bodies.m_a, bodies.i_a);
+  add(record.body_b, bodies.m_b, bodies.i_b);
+  return w.joint_set.stiffness(record.slot, centre_of(record.body_a), centre_of(record.body_b), bodies);
+}
+
 #define PLUMB_FOR(Real)                                                       \
   template int add_joint(WorldData<Real>&, int, int, const JointDefinition&); \
   template void remove_joint(WorldData<Real>&, int);                          \
+  template JointStiffness stiffness_of(const WorldData<Real>&, int);          \
   template void set_load_events(WorldData<Real>&, int, double, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

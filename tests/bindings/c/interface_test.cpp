@@ -162,6 +162,23 @@ TEST_F(C, AMotorTurnsAndIsChanged) {
   EXPECT_NEAR(plumb_joint_read(world, joint).angle, plumb_body_angle(world, wheel), 1e-6);
 }
 
+TEST_F(C, TellsTheStiffnessOfSpringsAndRefusesJointsWithout) {
+  const plumb_body base = box(PLUMB_STATIC, {0, 0}, 1, 1), crate = box(PLUMB_DYNAMIC, {0, 3}, 1, 1);
+  plumb_joint_definition d = plumb_default_joint(PLUMB_DISTANCE);
+  const plumb_joint rod = plumb_joint_create(world, base, crate, &d);
+  plumb_clear_error();
+  EXPECT_EQ(plumb_joint_stiffness(world, rod).linear, 0);
+  EXPECT_EQ(plumb_last_error().status, PLUMB_UNSUPPORTED);
+  plumb_clear_error();
+  d.spring = {true, 2, 0.5};
+  const plumb_joint coil = plumb_joint_create(world, base, crate, &d);
+  const double w = 4 * M_PI, mass = plumb_body_mass(world, crate);
+  EXPECT_NEAR(plumb_joint_stiffness(world, coil).linear, mass * w * w, 1e-5 * mass * w * w);
+  EXPECT_NEAR(plumb_joint_stiffness(world, coil).linear_damping, mass * w, 1e-5 * mass * w);
+  EXPECT_EQ(plumb_joint_stiffness(world, coil).angular, 0);
+  EXPECT_EQ(plumb_last_error().status, PLUMB_OK);
+}
+
 TEST_F(C, ReportsEventsAndContacts) {
   const plumb_body ground = box(PLUMB_STATIC, {0, -1}, 40, 2), falls = box(PLUMB_DYNAMIC, {0, 2}, 1, 1);
   size_t hits = 0, begins = 0;

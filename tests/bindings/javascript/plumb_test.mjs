@@ -118,6 +118,11 @@ test("joints of every kind are made, read and changed", () => {
   world.step(1 / 60, 4, 60);
   near(wheel.angularVelocity, -1, 1e-4);
   near(joint.read().force, wheel.mass * kG, 1e-2);
+  assert.throws(() => joint.stiffness());
+  joint.change("revolute", {anchorA: {x: 0, y: 4}, spring: {hertz: 1, dampingRatio: 0.5}});
+  const w = 2 * Math.PI, inertia = joint.stiffness().angular / w ** 2;
+  near(joint.stiffness().angularDamping, inertia * w, 1e-6);
+  assert.equal(joint.stiffness().linear, 0);
 });
 
 test("queries, events, contacts and hooks", () => {

@@ -6,6 +6,7 @@ const ground: Body = world.createBody({type: "static", shapes: [{box: {width: 40
 const ball = world.createBody({position: {x: 0, y: 4}, shapes: [{circle: {radius: 0.5}, filter: {category: 1n << 40n}}]});
 const joint = world.createJoint(ground, ball, "revolute", {anchorA: {x: 0, y: 5}, motor: {speed: 1, maxForce: 2}});
 const reading: JointReading = joint.read();
+const stiffness: number = joint.stiffness().angular;
 joint.change(joint.kind, joint.definition);
 
 const thrust = (body: LawBody): Wrench => ({force: {x: 0, y: body.mass * 9.81}});

@@ -385,6 +385,8 @@ def test_games_set_their_own_rules():
     assert crate.contacts()[0]["step_impulse"] == pytest.approx(G / 60, rel=1e-3)
     rows = world.contacts
     assert rows["step_impulse"].max() == pytest.approx(G / 60, rel=1e-3)
+    with pytest.raises(plumb.Error, match="no spring"):
+        joint.stiffness()
     joint.set_load_events()
     world.step()
     assert world.events["loaded"] == []

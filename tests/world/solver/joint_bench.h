@@ -39,7 +39,7 @@ struct JointBench {
   }
   bool dynamic(int body) const { return motion[body].inverse_mass + motion[body].inverse_inertia > 0; }
   int join(const JointKind& kind, int a, int b) {
-    return joints.add(kind, a, b, {}, {}, dynamic(a), dynamic(b));
+    return joints.add(kind, a, b, {}, {}, dynamic(a), dynamic(b), bodies());
   }
   SolverBodies<Real> bodies() { return {motion.data(), rotation.data(), position.data()}; }
 

@@ -518,6 +518,12 @@ typedef struct plumb_joint_reading {
   double length;                      /* m (distance, pulley) */
 } plumb_joint_reading;
 
+/* Constants of a joint's springs, 0 where it has none. */
+typedef struct plumb_joint_constants {
+  double linear, angular;                 /* N/m, N m/rad */
+  double linear_damping, angular_damping; /* N s/m, N m s/rad */
+} plumb_joint_constants;
+
 PLUMB_API plumb_joint plumb_joint_create(plumb_world* world, plumb_body a, plumb_body b,
                                          const plumb_joint_definition* definition);
 PLUMB_API plumb_status plumb_joint_destroy(plumb_world* world, plumb_joint joint);
@@ -528,6 +534,9 @@ PLUMB_API plumb_joint_definition plumb_joint_get_definition(const plumb_world* w
 PLUMB_API plumb_status plumb_joint_change(plumb_world* world, plumb_joint joint,
                                           const plumb_joint_definition* definition);
 PLUMB_API plumb_joint_reading plumb_joint_read(const plumb_world* world, plumb_joint joint);
+/* Returns the stiffness and damping of the joint's springs, of the effective mass at the pose in which it was
+ * created. Fails with PLUMB_UNSUPPORTED for a joint without springs. */
+PLUMB_API plumb_joint_constants plumb_joint_stiffness(const plumb_world* world, plumb_joint joint);
 PLUMB_API uint64_t plumb_joint_user_data(const plumb_world* world, plumb_joint joint);
 PLUMB_API plumb_status plumb_joint_set_user_data(plumb_world* world, plumb_joint joint, uint64_t data);
 /* Loads beyond which the joint is in the events, N and N m; 0: never. */
