@@ -47,6 +47,16 @@ float mix_restitution(float a, auto, float b, auto) {
       combine(rules_in_force.restitution, static_cast<double>(a), static_cast<double>(b)));
 }
 
+// Reads the centre of mass in world coordinates; versions after 3.1 have renamed the call.
+template <class Id>
+auto centre_of_mass(Id body) {
+  if constexpr (requires { b2Body_GetWorldCenter(body); }) {
+    return b2Body_GetWorldCenter(body);
+  } else {
+    return b2Body_GetWorldCenterOfMass(body);
+  }
+}
+
 class V3Simulator final : public Simulator {
  public:
   V3Simulator(const Scene& scene, const V3Settings& settings)
@@ -98,7 +108,7 @@ class V3Simulator final : public Simulator {
 
  private:
   BodyState state_of(std::size_t i) const {
-    const auto place = b2Body_GetWorldCenterOfMass(bodies_[i]);
+    const auto place = centre_of_mass(bodies_[i]);
     const b2Vec2 rate = b2Body_GetLinearVelocity(bodies_[i]);
     return {.position = {static_cast<double>(place.x), static_cast<double>(place.y)},
             .angle = turns_[i].angle(),

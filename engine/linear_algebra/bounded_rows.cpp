@@ -379,6 +379,7 @@ void BoundedRows::solve_again() {
     start_from(guess_);
     descend();
     keep_energy(false);
+    if (contradicted()) release_tension();
     return;
   }
   std::copy(start_.begin(), start_.end(), bodies.begin());
@@ -390,6 +391,12 @@ void BoundedRows::solve_from_start() {
   set_fixed();
   if (solve_small()) return;
   if (!assembled_) find_largest(), assemble();
+  find_impulses();
+  if (contradicted()) release_tension();
+}
+
+// Finds the impulses by pivots or, if these do not end, by descent.
+void BoundedRows::find_impulses() {
   const bool solved = pivot();
   if (!solved) {
     descended_ = true;

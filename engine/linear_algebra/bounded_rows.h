@@ -30,7 +30,8 @@ struct BoundedRow {
   int a = 0, b = 0;              ///< bodies of the system
   Vec2d linear_a{}, linear_b{};  ///< J
   double angular_a = 0, angular_b = 0;
-  double wanted = 0;            ///< m/s, target velocity
+  double wanted = 0;            ///< m/s, target velocity; after solving, of rows that contradicted each
+                                ///< other, the one that they could have
   double compliance = 0;        ///< 1/kg
   double lower = 0, upper = 0;  ///< N s
   double softening = 0;         ///< fraction of its own mobility that is added to the compliance
@@ -129,6 +130,9 @@ class BoundedRows {
   void solve_from_start();
   void start_from(std::span<const double> impulses);
   void keep_energy(bool exact);
+  bool contradicted() const;
+  void release_tension();
+  void find_impulses();
   void descend();
   void sweep(int passes);
   void minimise_free();
