@@ -31,6 +31,7 @@ class Draw {
 struct Problem {
   BoundedRows system;
   std::vector<BoundedBody> start;
+  std::vector<double> wanted;  // of the rows: solving may change theirs
 };
 
 // A chain of bodies, up to three rows between neighbours: joints, limits, brakes and springs.
@@ -83,9 +84,15 @@ void draw(Draw& of, int bodies, double ratio, Problem& out) {
   out.system.order(blocks, sizes);
 }
 
+void note_wanted(Problem& it) {
+  it.wanted.clear();
+  for (const BoundedRow& row : it.system.rows) it.wanted.push_back(row.wanted);
+}
+
 // Chains of up to 8 bodies, a quarter of up to 30, of equal masses or up to 100 times apart.
 void draw(Draw& of, Problem& out) {
   draw(of, 1 + of.below(of.one_in(4) ? 30 : 8), of.one_in(2) ? 1 : 100, out);
+  note_wanted(out);
 }
 
 double along(const BoundedRow& row, const std::vector<BoundedBody>& bodies) {
@@ -118,19 +125,22 @@ bool is_solved(const Problem& it, double tolerance) {
     push(row.a, row.linear_a, row.angular_a), push(row.b, row.linear_b, row.angular_b);
   }
   double largest = 0;  // of the energies that rows want, as speeds of bodies of 1 kg
-  for (const BoundedRow& row : it.system.rows)
+  for (std::size_t i = 0; i < it.wanted.size(); ++i) {
+    const BoundedRow& row = it.system.rows[i];
     if (const double m = mobility(row, it.start); m > 0)
       largest =
-          std::max(largest, std::max(std::abs(along(row, it.start)), std::abs(row.wanted)) / std::sqrt(m));
+          std::max(largest, std::max(std::abs(along(row, it.start)), std::abs(it.wanted[i])) / std::sqrt(m));
+  }
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const BoundedBody& body = it.system.bodies[i];
     solved = solved && length(body.velocity - moved[i].velocity) < 1e-9 &&
              std::abs(body.spin - moved[i].spin) < 1e-9;
   }
-  for (const BoundedRow& row : it.system.rows) {
+  for (std::size_t i = 0; i < it.wanted.size(); ++i) {
+    const BoundedRow& row = it.system.rows[i];
     const double own = mobility(row, it.start);
     if (!(own > 0)) continue;
-    const double w = (along(row, moved) + row.compliance * row.impulse - row.wanted) / std::sqrt(own);
+    const double w = (along(row, moved) + row.compliance * row.impulse - it.wanted[i]) / std::sqrt(own);
     const double off = tolerance * largest, impulse_off = tolerance * largest / std::sqrt(own);
     solved = solved && row.impulse >= row.lower - impulse_off && row.impulse <= row.upper + impulse_off;
     if (row.impulse > row.lower + impulse_off) solved = solved && w <= off;
@@ -197,6 +207,7 @@ TEST(BoundedRows, SolvesHeapsOfJointedBodiesWithFriction) {
     for (BoundedRow& row : it.system.rows) row.wanted = 0;
     it.system.bodies[0].velocity = it.start[0].velocity = {}, it.system.bodies[0].spin = it.start[0].spin = 0;
     add_contacts(of, 1 + of.below(bodies + 2), it);
+    note_wanted(it);
     it.system.solve();
     ++many, unsolved += is_solved(it, 1e-5) ? 0 : 1;
   }
@@ -222,6 +233,7 @@ TEST(BoundedRows, GainNoEnergyWhateverTheMasses) {
     for (BoundedRow& row : it.system.rows) row.wanted = 0;
     it.system.bodies[0].velocity = it.start[0].velocity = {}, it.system.bodies[0].spin = it.start[0].spin = 0;
     add_contacts(of, 1 + of.below(bodies + 2), it);
+    note_wanted(it);
     it.system.solve();
     EXPECT_LE(energy(it.system.bodies), energy(it.start) * (1 + 1e-9)) << "seed " << seed;
   }
@@ -297,6 +309,39 @@ TEST(BoundedRows, SharesTheLoadOfRowsThatRepeatEachOther) {
   EXPECT_NEAR(system.rows[0].impulse, -0.5, 1e-6);
   EXPECT_NEAR(system.rows[1].impulse, -0.5, 1e-6);
   EXPECT_NEAR(system.bodies[1].velocity.x, 0, 1e-11);
+}
+
+// Three bodies of 1 kg, side by side between a wall and what moves towards them at 1 m/s: no impulses keep
+// all four gaps from closing. Least squares, weighted by the rows' mobilities of 1, 2, 2, 1 per kg, let the
+// gaps close by 1/6, 1/3, 1/3 and 1/6 m/s. Of the impulses that give the bodies these velocities, those
+// without tension press by 0 on the wall, and each next row by the momentum of the body before it more.
+// Starting from the last impulses, as steps do, must not add to them.
+TEST(BoundedRows, LetsRowsThatContradictEachOtherPressNoHarderThanTheMotionTakes) {
+  BoundedRows system;
+  const BoundedBody still{.inverse_mass = {1, 1}, .inverse_inertia = 1};
+  const BoundedBody mover{.velocity = {-1, 0}};
+  std::vector<std::pair<int, int>> blocks;
+  for (int i = 0; i < 4; ++i) blocks.emplace_back(i, i + 1);
+  const std::vector<int> sizes(4, 1);
+  system.bodies = {{}, still, still, still, mover};
+  for (int i = 0; i < 4; ++i)
+    system.rows.push_back({.a = i,
+                           .b = i + 1,
+                           .linear_a = {-1, 0},
+                           .linear_b = {1, 0},
+                           .lower = 0,
+                           .upper = kUnbounded,
+                           .block = i});
+  system.order(blocks, sizes);
+  for (int step = 0; step < 50; ++step) {
+    system.bodies = {{}, still, still, still, mover};
+    for (BoundedRow& row : system.rows) row.wanted = 0;
+    system.solve();
+    const double velocities[] = {-1.0 / 6, -1.0 / 2, -5.0 / 6}, impulses[] = {0, 1.0 / 6, 2.0 / 3, 1.5};
+    for (int i = 0; i < 3; ++i)
+      ASSERT_NEAR(system.bodies[i + 1].velocity.x, velocities[i], 1e-5) << "step " << step;
+    for (int i = 0; i < 4; ++i) ASSERT_NEAR(system.rows[i].impulse, impulses[i], 1e-5) << "step " << step;
+  }
 }
 
 }  // namespace

@@ -294,6 +294,11 @@ void JointSet<Real>::set_carry(int joint, double fraction) {
 }
 
 template <class Real>
+double JointSet<Real>::carry(int joint) const {
+  return parts_->slot(joint).carry;
+}
+
+template <class Real>
 Real JointSet<Real>::hand_over(int joint) {
   double& carry = parts_->slot(joint).carry;
   if (carry == 1) return 1;

@@ -171,6 +171,8 @@ class JointSet {
 
   /// Sets the fraction of a joint's impulses that iterations start from if they take the joint over.
   void set_carry(int joint, double fraction);
+  /// Returns that fraction: 1 if the impulses balance a load, 0 if they only stop or drive something.
+  double carry(int joint) const;
   /// Scales the impulses of a joint that iterations take over by that fraction, and returns the fraction.
   Real hand_over(int joint);
 
