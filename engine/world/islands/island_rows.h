@@ -226,14 +226,15 @@ class RowMaker {
            (at.before.x != 0 || at.before.y != 0 || at.spin_before != 0);
   }
 
-  // Makes a row yield in proportion to what its impulse exceeds the load that it carried before.
+  // Makes a row yield in proportion to what its impulse exceeds the load: the part of the last known impulse
+  // that balances forces. `last` is the impulse before the step.
   void soften(BoundedRow& row, double last) const {
     const std::size_t place = island_.ties.size();
-    const double guess = place < island_.impulses.size() ? island_.impulses[place] : last;
-    row.softening = kYielding;
-    if (!hold_) return;
+    const double known = place < island_.impulses.size() ? island_.impulses[place] : last;
+    const double load = w_.joint_set.carry(island_.joints[0]) * known, applied = hold_ ? 0 : known;
     const std::span<const BoundedBody> bodies = island_.system.bodies;
-    row.wanted += kYielding * coupling(bodies, row, row) * w_.joint_set.carry(island_.joints[0]) * guess;
+    row.softening = kYielding;
+    row.wanted += kYielding * coupling(bodies, row, row) * (load - applied);
   }
 
   // Largest coefficient of friction that is used; its angle is 89.4 degrees. The steeper the rays of a cone

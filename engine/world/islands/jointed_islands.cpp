@@ -444,6 +444,7 @@ void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
     hold(w, island, step);
     shift_all(w, island, step.h);
     if (const double drift = drift_of(w, island); drift > 1) move_in_parts(w, island, step, drift);
+    if (!island.contacts.empty()) find_carry(w, island);
     for (const JointedLink& link : island.links) put_velocity(w.motion[link.body], link.way, link.turn);
   }
 }
@@ -464,7 +465,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
     for (const JointedLink& link : island.links) put_velocity(w.motion[link.body], link.velocity, link.spin);
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->watched != Watch::Off) note_peaks(*c), c->step_impulse += normal_sum(*c);
-    if (last) find_carry(w, island);
+    if (last || !island.contacts.empty()) find_carry(w, island);
   }
 }
 
