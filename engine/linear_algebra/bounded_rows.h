@@ -30,8 +30,7 @@ struct BoundedRow {
   int a = 0, b = 0;              ///< bodies of the system
   Vec2d linear_a{}, linear_b{};  ///< J
   double angular_a = 0, angular_b = 0;
-  double wanted = 0;            ///< m/s, target velocity; after solving, of rows that contradicted each
-                                ///< other, the one that they could have
+  double wanted = 0;            ///< m/s, target velocity
   double compliance = 0;        ///< 1/kg
   double lower = 0, upper = 0;  ///< N s
   double softening = 0;         ///< fraction of its own mobility that is added to the compliance
