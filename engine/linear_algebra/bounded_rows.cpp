@@ -11,13 +11,6 @@
 namespace plumb {
 namespace {
 
-// Regularisation of rows that depend on each other: this fraction of each row's mobility is added to it, so
-// that the rows share their load. Iterative refinement removes the error that this causes in other rows. The
-// value is that of the rounding of positions in float: rows that differ only by rounding must not block the
-// motion that they allow. (A parallelogram in float that was flat in the middle of a substep lost 40 % of its
-// speed at 1e-10, and 0.4 % at 1e-7.)
-constexpr double kSharing = 1e-7;
-
 // Returns the mobility of a row, J M^-1 J^T. Returns 0 if locked axes leave only the rounding of the row's
 // direction, because the square of that rounding may be tiny.
 double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {

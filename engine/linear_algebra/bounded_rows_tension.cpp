@@ -23,15 +23,14 @@ bool BoundedRows::contradicted() const {
   return false;
 }
 
-// Solves for what the rows got, which they can have, and finds those of its impulses that are next to 0.
+// Lets rows want what they got, and relaxes the impulses that give it towards 0: along the way to those of
+// least size, which the rows between their bounds have in closed form, up to the bounds that are in the way.
 void BoundedRows::release_tension() {
-  std::pmr::vector<double> missing(rows.size(), 0, rows.get_allocator());
   for (int i = 0; i < static_cast<int>(rows.size()); ++i)
-    if (rows[i].state == BoundedRow::kFree) missing[i] = residual(i);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].wanted -= missing[i], rows[i].impulse = 0;
-  set_fixed();
-  find_impulses();
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].wanted += missing[i];
+    if (rows[i].state == BoundedRow::kFree) rows[i].wanted -= residual(i);
+  for (BoundedRow& row : rows) row.softening += kSharing;
+  minimise_free();
+  for (BoundedRow& row : rows) row.softening -= kSharing;
 }
 
 }  // namespace plumb
