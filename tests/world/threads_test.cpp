@@ -70,9 +70,9 @@ template <class Real, class Set>
 std::vector<std::uint64_t> hashes_of_room(const Set& set, const WorldDefinition& definition = {}) {
   BasicWorld<Real> world(definition);
   set(world);
-  fill_room(world, 500);
+  fill_room(world, 300);
   std::vector<std::uint64_t> hashes;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 20; ++i) {
     world.step(1.0 / 60, 4);
     if (i % 4 == 3) hashes.push_back(full_hash(world));
   }
