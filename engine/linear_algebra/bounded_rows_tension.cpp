@@ -7,10 +7,10 @@
 namespace plumb {
 namespace {
 
-// Residual of a free row beyond which it contradicts others, relative to the row with the largest energy.
-// What is less leaves impulses of at most 1e-4 / kSharing, a thousand times those of that row. At 1e-5
-// bridges of 24 and 40 planks that a heavy crate pulls taut lost pulls that they need, and opened by 1 and 6
-// % of a plank.
+// Bounds the residual of a free row that still counts as solved, relative to the row with the largest energy.
+// A row at this bound has an impulse of at most 1e-4 / kSharing = 1000 times that row's. With 1e-5, taut
+// bridges of 24 and 40 planks under heavy crates lost pulls that they need, and opened by 6 and 1 % of a
+// plank.
 constexpr double kContradiction = 1e-4;
 
 }  // namespace

@@ -53,7 +53,7 @@ class Predictions {
   const std::optional<Attempt>& of(const Planted& planted, std::size_t check);
 
   /// Does the same, but also returns nullopt if the paths are too far from the tested engine's for `near`.
-  /// Such a run ends as soon as that is certain, which for most mistakes is early in the first scene. With
+  /// Stops such a run as soon as that is certain: for most mistakes, early in the first scene. With
   /// `exactly`, also returns nullopt if they are too far for `exactly` below.
   const std::optional<Attempt>& nearby(const Planted& planted, std::size_t check, bool exactly);
 
