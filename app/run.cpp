@@ -21,7 +21,7 @@
 #include "app/source.h"
 #include "app/trajectory_writer.h"
 #include "app/usage.h"
-#include "engine/precise/dynamics/joint_starts.h"
+#include "engine/precise/dynamics/initial_joint_errors.h"
 #include "engine/scene/error.h"
 #include "engine/simulation/simulation.h"
 #include "harness/interrupt.h"
@@ -94,7 +94,7 @@ int run(const RunOptions& options, const reference::Backend& backend, const refe
       writer.write(time, now);
     };
   }
-  for (const std::string& complaint : joint_complaints(source.scene, kOpenJoint, kOpenJoint))
+  for (const std::string& complaint : describe_joint_errors(source.scene, kOpenJoint, kOpenJoint))
     notice(fmt::format("{}: {}", options.engine, complaint));
   std::vector<BodyState> states(source.scene.bodies.size());
   simulator->read(states);

@@ -25,7 +25,7 @@ namespace plumb::harness {
 ///    joint gap    P_a + r_a A_a + P_b + r_b A_b, with r the distance of each anchor from its body's centre.
 ///                 If the joint has an axis on a, d A_a is added, with d the distance between the anchors.
 ///                 For a pulley, b's part is multiplied by its ratio
-///    penetration  twice the largest P + r A over the bodies, r the radius of the circle that holds the body
+///    penetration  twice the largest P + r A over the bodies, r the radius of a circle around the body
 class Tolerances {
  public:
   Tolerances(const scenarios::Problem& problem, const TruthTable& truth, const reference::Method& method,

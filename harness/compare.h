@@ -28,7 +28,7 @@ struct Progress {
 };
 
 struct CompareEvents {
-  std::function<void(std::span<const Result>)> finished{};  ///< called once an instance, with all its results
+  std::function<void(std::span<const Result>)> finished{};  ///< called once per instance with all results
   std::function<void(const Progress&)> progress{};
 };
 

@@ -115,7 +115,7 @@ void bind_arrays(HeldWorldClass& world) {
             return h.visit([&]<class Real>(BasicWorld<Real>& w) {
               const auto& all = w.data().motion;
               return view(h, all.empty() ? static_cast<const Real*>(nullptr) : &all[0].velocity.x, all.size(),
-                          sizeof(BodyMotion<Real>), 2);
+                          sizeof(SolverBody<Real>), 2);
             });
           },
           "m/s, of the centres of mass; a view, (n, 2), in the world's precision")
@@ -125,7 +125,7 @@ void bind_arrays(HeldWorldClass& world) {
             return h.visit([&]<class Real>(BasicWorld<Real>& w) {
               const auto& all = w.data().motion;
               return view(h, all.empty() ? static_cast<const Real*>(nullptr) : &all[0].angular_velocity,
-                          all.size(), sizeof(BodyMotion<Real>), 1);
+                          all.size(), sizeof(SolverBody<Real>), 1);
             });
           },
           "rad/s; a view, (n,), in the world's precision")

@@ -15,10 +15,10 @@ class BitSet {
  public:
   static constexpr int kWordBits = 64;
 
-  explicit BitSet(int size = 0) { ensure(size); }
+  explicit BitSet(int size = 0) { reserve(size); }
 
   /// Reserves capacity for 0 .. size - 1, so that setting them allocates nothing; never shrinks.
-  void ensure(int size) {
+  void reserve(int size) {
     const std::size_t words = (static_cast<std::size_t>(size) + kWordBits - 1) / kWordBits;
     if (words > words_.size()) words_.resize(words, 0);
   }
@@ -49,7 +49,7 @@ class BitSet {
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
 
   BitSet& operator|=(const BitSet& other) {
-    ensure(other.size());
+    reserve(other.size());
     for (std::size_t i = 0; i < other.words_.size(); ++i) words_[i] |= other.words_[i];
     return *this;
   }
@@ -69,7 +69,7 @@ class BitSet {
  private:
   static std::size_t word(int i) { return static_cast<std::size_t>(i) / kWordBits; }
   static std::uint64_t bit(int i) { return std::uint64_t{1} << (static_cast<unsigned>(i) % kWordBits); }
-  void grow(int i) { ensure(std::max(i + 1, 2 * size())); }
+  void grow(int i) { reserve(std::max(i + 1, 2 * size())); }
 
   std::vector<std::uint64_t> words_;
 };

@@ -18,7 +18,8 @@ class BlockLists {
   /// Empties the lists, for a loop of `blocks` blocks.
   void begin(int blocks) {
     // Free most of the memory if an earlier step, such as the first one of a scene, was much larger.
-    if (chunks_.size() > kKept && chunks_.size() > 4 * used_) chunks_.resize(std::max(kKept, 2 * used_));
+    if (chunks_.size() > kRetainedChunks && chunks_.size() > 4 * used_)
+      chunks_.resize(std::max(kRetainedChunks, 2 * used_));
     used_ = 0;
     lists_.assign(static_cast<std::size_t>(blocks), {});
   }
@@ -26,22 +27,22 @@ class BlockLists {
   /// Appends to the list of a block; to be called by the thread that runs the block.
   void add(int block, const T& value) {
     List& list = lists_[static_cast<std::size_t>(block)];
-    if (list.last == nullptr || list.last->count == kChunk) take_chunk(list);
+    if (list.last == nullptr || list.last->count == kChunk) add_chunk(list);
     list.last->items[list.last->count++] = value;
   }
 
-  /// Keeps the values of a block for which `test(value)` is true. Calls `look(value)` `kAhead` values
+  /// Keeps the values of a block for which `test(value)` is true. Calls `prefetch(value)` `kAhead` values
   /// earlier, to prefetch the data that the test reads.
-  template <int kAhead, class Look, class Test>
-  void keep(int block, const Look& look, const Test& test) {
+  template <int kAhead, class Prefetch, class Test>
+  void filter(int block, const Prefetch& prefetch, const Test& test) {
     List& list = lists_[static_cast<std::size_t>(block)];
     if (list.first == nullptr) return;
     Chunk* to = list.first;
     int kept = 0;
     for (Chunk* from = list.first; from != nullptr; from = from->next) {
-      for (int i = 0; i < std::min(kAhead, from->count); ++i) look(from->items[i]);
+      for (int i = 0; i < std::min(kAhead, from->count); ++i) prefetch(from->items[i]);
       for (int i = 0; i < from->count; ++i) {
-        if (i + kAhead < from->count) look(from->items[i + kAhead]);
+        if (i + kAhead < from->count) prefetch(from->items[i + kAhead]);
         if (!test(from->items[i])) continue;
         if (kept == kChunk) to = to->next, kept = 0;
         to->items[kept++] = from->items[i];
@@ -68,7 +69,7 @@ class BlockLists {
 
  private:
   static constexpr int kChunk = std::max(4, static_cast<int>(2048 / sizeof(T)));
-  static constexpr std::size_t kKept = 16;
+  static constexpr std::size_t kRetainedChunks = 16;
   struct Chunk {
     int count = 0;
     Chunk* next = nullptr;
@@ -78,10 +79,10 @@ class BlockLists {
     Chunk *first = nullptr, *last = nullptr;
   };
 
-  void take_chunk(List& list) {
+  void add_chunk(List& list) {
     Chunk* chunk;
     {
-      const MutexLock lock(taking_);
+      const MutexLock lock(mutex_);
       if (used_ == chunks_.size()) chunks_.push_back(std::make_unique<Chunk>());
       chunk = chunks_[used_++].get();
     }
@@ -93,7 +94,7 @@ class BlockLists {
   std::vector<List> lists_;
   std::vector<std::unique_ptr<Chunk>> chunks_;
   std::size_t used_ = 0;
-  Mutex taking_;
+  Mutex mutex_;
 };
 
 }  // namespace plumb

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 
 namespace plumb {
 
@@ -18,15 +18,15 @@ class LazyArray {
   /// Returns the value for writing; allocates memory for all `size` values.
   T& at(int i, int size) {
     assert(i >= 0 && i < size);
-    make_room(items_, size);
+    resize_with_growth(items_, size);
     return items_[i];
   }
-  /// Allocates memory for `size` values if one is in use already, or will be (`going_to_be`).
-  void ensure(int size, bool going_to_be) {
-    if (used() || going_to_be) ensure_room(items_, static_cast<std::size_t>(size));
+  /// Allocates memory for `size` values if one is in use already, or will be (`will_be_used`).
+  void reserve(int size, bool will_be_used) {
+    if (used() || will_be_used) ensure_capacity(items_, static_cast<std::size_t>(size));
   }
   /// Resets value `i`, that of a newly created item, to T{}; there are `size` items now.
-  void renew(int i, int size) {
+  void reset(int i, int size) {
     if (used()) at(i, size) = T{};
   }
   T* data() { return items_.data(); }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 
 namespace plumb {
 
@@ -18,13 +18,13 @@ template <class T>
 class SlotMap {
  public:
   /// Reserves memory for `more` items, so that adding them, and removing any, does not allocate.
-  void make_room(std::size_t more) {
+  void reserve_more(std::size_t more) {
     const std::size_t wanted = items_.size() + more - std::min(more, free_.size());
-    ensure_room(items_, wanted), ensure_room(generations_, wanted), ensure_room(free_, wanted);
+    ensure_capacity(items_, wanted), ensure_capacity(generations_, wanted), ensure_capacity(free_, wanted);
   }
   /// Changes nothing if memory runs out.
   int add(T value) {
-    make_room(1);
+    reserve_more(1);
     int index;
     if (free_.empty()) {
       index = static_cast<int>(items_.size());

@@ -11,10 +11,10 @@ namespace plumb {
 namespace {
 
 /// Limit of the length of compared names: longer names are never typing errors of each other.
-constexpr std::size_t kLongest = 200;
+constexpr std::size_t kMaxNameLength = 200;
 
 /// Maximum number of names to list in a sentence.
-constexpr std::size_t kFew = 12;
+constexpr std::size_t kMaxListed = 12;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -40,7 +40,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 /// Returns true if at most a third of the letters are wrong, and fewer than all of the shorter name.
-bool near(std::size_t wrong, std::size_t shorter, std::size_t longer) {
+bool is_near(std::size_t wrong, std::size_t shorter, std::size_t longer) {
   return wrong < shorter && wrong <= (longer + 2) / 3;
 }
 
@@ -51,9 +51,9 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
   std::size_t fewest = 0;
   for (const std::string& candidate : candidates) {
     const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});  // by value
-    if (longer > kLongest || !near(longer - shorter, shorter, longer)) continue;
+    if (longer > kMaxNameLength || !is_near(longer - shorter, shorter, longer)) continue;
     const std::size_t wrong = distance(name, candidate);
-    if (!near(wrong, shorter, longer) || (best != nullptr && wrong >= fewest)) continue;
+    if (!is_near(wrong, shorter, longer) || (best != nullptr && wrong >= fewest)) continue;
     best = &candidate;
     fewest = wrong;
   }
@@ -63,7 +63,7 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates) {
   const std::string meant = nearest(name, candidates);
   if (!meant.empty()) return "; did you mean " + quoted(meant) + "?";
-  if (candidates.empty() || candidates.size() > kFew) return "";
+  if (candidates.empty() || candidates.size() > kMaxListed) return "";
   std::string all;
   for (const std::string& candidate : candidates) all += (all.empty() ? "" : ", ") + candidate;
   return "; there are " + all;

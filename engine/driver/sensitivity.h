@@ -16,8 +16,8 @@ enum class NoDerivative {
   Start,         ///< the parameter opens a contact that exists at the start, or makes it penetrate
   Kink,          ///< an impact or a force law has a kink here: it sticks on one side and slips on the other
   Paradox,       ///< Painleve's paradox: no force satisfies the laws, or several do
-  Singular,      ///< a linkage crossed a kinematic singularity or has redundant joints, or the derivative has
-                 ///< finite
+  Singular,      ///< a linkage crossed a kinematic singularity or has redundant joints, or the derivative is
+                 ///< not finite
 };
 std::string_view name_of(NoDerivative reason);  ///< "grazing", "simultaneous", ...
 

@@ -44,8 +44,8 @@ struct VariantTraits<std::variant<Each...>> : std::true_type {};
 /// True for types of which each byte belongs to the value, and any byte is valid: lists of them are copied
 /// whole.
 template <class T>
-inline constexpr bool kWritesItself = std::is_same_v<T, std::byte> ||
-                                      (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
+inline constexpr bool kTriviallyEncoded = std::is_same_v<T, std::byte> ||
+                                          (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
 
 /// Appends values to a buffer.
 class Encoder {
@@ -92,7 +92,7 @@ class Encoder {
   void list(const List& all) {
     using T = std::remove_cv_t<typename List::value_type>;
     put(static_cast<std::uint64_t>(all.size()));
-    if constexpr (kWritesItself<T>) {
+    if constexpr (kTriviallyEncoded<T>) {
       const std::size_t size = all.size() * sizeof(T);
       if (std::byte* to = grow(size); size > 0) std::memcpy(to, all.data(), size);
     } else if constexpr (Packed<T>) {
@@ -129,10 +129,10 @@ class Decoder {
   template <class T>
   void get(T& value, const char* field) {
     if constexpr (Packed<T>) {
-      bool sound = true;
+      bool valid = true;
       const std::byte* from = take(packed_size<T>(), field);
-      unpack(from, value, sound);
-      require(sound, field, "holds what no snapshot or recording holds");
+      unpack(from, value, valid);
+      require(valid, field, "holds what no snapshot or recording holds");
     } else if constexpr (ListTraits<T>::value) {
       list(value, field);
     } else if constexpr (OptionTraits<T>::value) {
@@ -164,12 +164,12 @@ class Decoder {
       require(count <= in_.size() / packed_size<T>(), field, "is cut off");
       const std::byte* from = take(static_cast<std::size_t>(count) * packed_size<T>(), field);
       all.resize(static_cast<std::size_t>(count));
-      if constexpr (kWritesItself<T>) {
+      if constexpr (kTriviallyEncoded<T>) {
         if (count > 0) std::memcpy(all.data(), from, all.size() * sizeof(T));
       } else {
-        bool sound = true;
-        for (T& each : all) unpack(from, each, sound);
-        require(sound, field, "holds what no snapshot or recording holds");
+        bool valid = true;
+        for (T& each : all) unpack(from, each, valid);
+        require(valid, field, "holds what no snapshot or recording holds");
       }
     } else {
       // Each element has at least one byte.
@@ -195,19 +195,19 @@ class Decoder {
 
   // Checks bits first: a bool or an enumeration with an invalid value would be undefined behaviour.
   template <class T>
-  static void unpack(const std::byte*& from, T& value, bool& sound) {
+  static void unpack(const std::byte*& from, T& value, bool& valid) {
     if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>) {
       constexpr int kValues = std::is_same_v<T, bool> ? 2 : kEnumerators<T>;
       const int bits = std::to_integer<int>(*from++);
-      sound &= bits < kValues;
+      valid &= bits < kValues;
       value = static_cast<T>(bits < kValues ? bits : 0);
     } else if constexpr (std::is_arithmetic_v<T>) {
       std::memcpy(&value, from, sizeof(T));
       from += sizeof(T);
     } else if constexpr (std::is_bounded_array_v<T>) {
-      for (auto& each : value) unpack(from, each, sound);
+      for (auto& each : value) unpack(from, each, valid);
     } else {
-      Members<T>::with(value, [&](auto&... each) { (unpack(from, each, sound), ...); });
+      Members<T>::with(value, [&](auto&... each) { (unpack(from, each, valid), ...); });
     }
   }
 

@@ -26,18 +26,18 @@ struct AttractionForceLaw {
   std::pair<Wrench<double>, Wrench<double>> wrenches(const Pose<double>& pose_a, const Twist<double>&,
                                                      const Pose<double>& pose_b, const Twist<double>&) const {
     const Vec2d arm = pose_b.rotation * centre;
-    const Vec2d way = (pose_b.position + arm) - pose_a.position;
-    const double distance = std::sqrt(length_squared(way));
+    const Vec2d offset = (pose_b.position + arm) - pose_a.position;
+    const double distance = std::sqrt(length_squared(offset));
     if (distance == 0) return {};  // no direction to pull in
     // F r^ = mu m r / r^(n + 1)
-    const Vec2d pull = (strength * whole_power(distance, -exponent - 1)) * way;
+    const Vec2d pull = (strength * whole_power(distance, -exponent - 1)) * offset;
     return {{pull, 0}, {-pull, -cross(arm, pull)}};
   }
 
   /// Returns the potential energy, J: -mu m / ((n - 1) r^(n - 1)), or mu m ln r for n = 1.
   double energy(const Pose<double>& pose_a, const Pose<double>& pose_b) const {
-    const Vec2d way = (pose_b.position + pose_b.rotation * centre) - pose_a.position;
-    const double distance = std::sqrt(length_squared(way));
+    const Vec2d offset = (pose_b.position + pose_b.rotation * centre) - pose_a.position;
+    const double distance = std::sqrt(length_squared(offset));
     if (exponent == 1) return strength * std::log(distance);
     return -strength * whole_power(distance, 1 - exponent) / (exponent - 1);
   }

@@ -26,7 +26,7 @@ class LawCompiler {
   }
 
   /// Returns the index of a body, or `kFixedFrame`.
-  int end(std::string_view name) const {
+  int body_index(std::string_view name) const {
     return name == kWorld ? kFixedFrame : static_cast<int>(index_.at(name));
   }
 
@@ -41,12 +41,12 @@ class LawCompiler {
     return {index_.at(law.body), law.torque, law.start, law.duration};
   }
   SpringForceLaw compile(const SpringForce& law) const {
-    return {end(law.body_a), end(law.body_b), law.anchor_a, law.anchor_b,
-            law.rest_length, law.stiffness,   law.damping};
+    return {body_index(law.body_a), body_index(law.body_b), law.anchor_a, law.anchor_b,
+            law.rest_length,        law.stiffness,          law.damping};
   }
   AttractionForceLaw compile(const AttractionForce& law) const {
     const double mass = scene_.bodies[index_.at(law.body)].mass;
-    return {end(law.body), end(law.centre_body), law.centre, law.strength * mass, law.exponent};
+    return {body_index(law.body), body_index(law.centre_body), law.centre, law.strength * mass, law.exponent};
   }
   SinusoidalForceLaw compile(const SinusoidalForce& law) const {
     return {index_.at(law.body), law.amplitude, law.point, law.angular_frequency, law.phase};
@@ -61,7 +61,7 @@ class LawCompiler {
             Formula(law.torque, kForceVariables)};
   }
   FormulaSpringLaw compile(const FormulaSpring& law) const {
-    return {end(law.body_a), end(law.body_b), law.anchor_a, law.anchor_b,
+    return {body_index(law.body_a), body_index(law.body_b), law.anchor_a, law.anchor_b,
             Formula(law.tension, kSpringVariables)};
   }
 

@@ -35,7 +35,7 @@ Matrix outer(Vec2d a, Vec2d b) { return {b.x * a, b.y * a}; }
 struct Coupling {
   Vec2d arms[2]{};  ///< m, of the points, from the centres of mass in the world's axes
   Vec2d force{};    ///< N, f
-  Matrix by_way{}, by_rate{};
+  Matrix by_offset{}, by_rate{};
 };
 
 void set_column(double (&block)[3][3], int column, Vec2d force, double torque) {
@@ -77,13 +77,13 @@ struct Derivative {
   void operator()(const PointForce& law) const {
     ForceBlock& b = block();
     const Rotation<double> turn = ends[0].pose.rotation;
-    const double share = active_share(law.start, law.duration, time, time);
+    const double fraction = active_fraction(law.start, law.duration, time, time);
     if (law.frame == Frame::Body) {
-      const Vec2d turned = share * perpendicular(turn * law.force);
+      const Vec2d turned = fraction * perpendicular(turn * law.force);
       b.position[0][2] = turned.x;
       b.position[1][2] = turned.y;
     } else {
-      b.position[2][2] = -share * dot(turn * law.point, law.force);
+      b.position[2][2] = -fraction * dot(turn * law.point, law.force);
     }
   }
 
@@ -95,7 +95,7 @@ struct Derivative {
   }
 
   void operator()(const SpringForce& law) const {
-    pull_along(law, [&](double length, double closing) {
+    add_axial_force(law, [&](double length, double closing) {
       return Tension{law.stiffness * (length - law.rest_length) + law.damping * closing, law.stiffness,
                      law.damping};
     });
@@ -104,13 +104,13 @@ struct Derivative {
   // f = mu m d / r^(n + 1): df/dd = mu m / r^(n + 1) (1 - (n + 1) u u^T).
   void operator()(const AttractionForce& law, double mass) const {
     Coupling c{.arms = {{}, ends[1].pose.rotation * law.centre}};
-    const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
-    const double distance = std::sqrt(length_squared(way));
+    const Vec2d offset = place(1, c.arms[1]) - place(0, c.arms[0]);
+    const double distance = std::sqrt(length_squared(offset));
     if (distance > 0) {
       const double pull = law.strength * mass * whole_power(distance, -law.exponent - 1);
-      const Vec2d u = (1 / distance) * way;
-      c.force = pull * way;
-      c.by_way = pull * (outer(perpendicular(u), perpendicular(u)) + -law.exponent * outer(u, u));
+      const Vec2d u = (1 / distance) * offset;
+      c.force = pull * offset;
+      c.by_offset = pull * (outer(perpendicular(u), perpendicular(u)) + -law.exponent * outer(u, u));
     }
     couple(c);
   }
@@ -134,7 +134,7 @@ struct Derivative {
   }
 
   void operator()(const FormulaSpringLaw& law) const {
-    pull_along(law, [&](double length, double closing) {
+    add_axial_force(law, [&](double length, double closing) {
       const Jet by_length[] = {time, {length, 1}, closing}, by_rate[] = {time, length, {closing, 1}};
       const Jet tension = law.tension.at(std::span<const Jet>(by_length));
       return Tension{tension.value, tension.first, law.tension.at(std::span<const Jet>(by_rate)).first};
@@ -149,18 +149,18 @@ struct Derivative {
   // f = T u with u = d/l, T of l and u.w, k and c its derivatives:
   // df/dd = k u u^T + T/l (1 - u u^T) + c/l u (w - (u.w) u)^T, df/dw = c u u^T.
   template <class Law, class TensionAt>
-  void pull_along(const Law& law, const TensionAt& tension_at) const {
+  void add_axial_force(const Law& law, const TensionAt& tension_at) const {
     Coupling c{.arms = {ends[0].pose.rotation * law.anchor_a, ends[1].pose.rotation * law.anchor_b}};
-    const Vec2d way = place(1, c.arms[1]) - place(0, c.arms[0]);
-    const double length = std::sqrt(length_squared(way));
+    const Vec2d offset = place(1, c.arms[1]) - place(0, c.arms[0]);
+    const double length = std::sqrt(length_squared(offset));
     if (length > 0) {
-      const Vec2d u = (1 / length) * way, rate = velocity(1, c.arms[1]) - velocity(0, c.arms[0]);
+      const Vec2d u = (1 / length) * offset, rate = velocity(1, c.arms[1]) - velocity(0, c.arms[0]);
       const double closing = dot(u, rate);
       const Tension tension = tension_at(length, closing);
       c.force = tension.value * u;
-      c.by_way = tension.by_length * outer(u, u) +
-                 (tension.value / length) * outer(perpendicular(u), perpendicular(u)) +
-                 (tension.by_rate / length) * outer(u, rate - closing * u);
+      c.by_offset = tension.by_length * outer(u, u) +
+                    (tension.value / length) * outer(perpendicular(u), perpendicular(u)) +
+                    (tension.by_rate / length) * outer(u, rate - closing * u);
       c.by_rate = tension.by_rate * outer(u, u);
     }
     couple(c);
@@ -183,9 +183,9 @@ struct Derivative {
         const auto column = [&](double(&block)[3][3], int i, Vec2d change) {
           set_column(block, i, sign * change, sign * cross(c.arms[on], change));
         };
-        column(b.position, 0, c.by_way.x);
-        column(b.position, 1, c.by_way.y);
-        column(b.position, 2, c.by_way * lever - ends[by].twist.angular_velocity * (c.by_rate * arm));
+        column(b.position, 0, c.by_offset.x);
+        column(b.position, 1, c.by_offset.y);
+        column(b.position, 2, c.by_offset * lever - ends[by].twist.angular_velocity * (c.by_rate * arm));
         column(b.velocity, 0, c.by_rate.x);
         column(b.velocity, 1, c.by_rate.y);
         column(b.velocity, 2, c.by_rate * lever);

@@ -22,10 +22,10 @@ struct FormulaSpringLaw {
                                                      const Twist<double>& twist_a, const Pose<double>& pose_b,
                                                      const Twist<double>& twist_b) const {
     const Vec2d arm_a = pose_a.rotation * anchor_a, arm_b = pose_b.rotation * anchor_b;
-    const Vec2d way = (pose_b.position + arm_b) - (pose_a.position + arm_a);
-    const double length = std::sqrt(length_squared(way));
+    const Vec2d offset = (pose_b.position + arm_b) - (pose_a.position + arm_a);
+    const double length = std::sqrt(length_squared(offset));
     if (length == 0) return {};  // no direction to pull in
-    const Vec2d axis = (1 / length) * way;
+    const Vec2d axis = (1 / length) * offset;
     const Vec2d rate = (twist_b.velocity + cross(twist_b.angular_velocity, arm_b)) -
                        (twist_a.velocity + cross(twist_a.angular_velocity, arm_a));
     const double now[] = {time, length, dot(axis, rate)};

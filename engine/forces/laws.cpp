@@ -26,7 +26,7 @@ void add_to_two(const auto& law, Wrench<double>* out,
 
 }  // namespace
 
-double active_share(double start, double duration, double t0, double t1) {
+double active_fraction(double start, double duration, double t0, double t1) {
   const double end = start + duration;
   if (t0 >= t1) return t0 >= start && t0 < end ? 1 : 0;
   if (start <= t0 && end >= t1) return 1;
@@ -38,7 +38,7 @@ Forces::Forces(const Scene& scene) : acts_on_(scene.bodies.size(), 0) {
   const LawCompiler compiler(scene);
   for (const ForceLaw& law : scene.forces) {
     for (const std::string_view name : ends_of(law)) {
-      if (const int body = compiler.end(name); body != kFixedFrame) acts_on_[body] = 1;
+      if (const int body = compiler.body_index(name); body != kFixedFrame) acts_on_[body] = 1;
     }
     std::visit(
         [&](const auto& l) {
@@ -55,7 +55,8 @@ bool Forces::empty() const {
 
 bool Forces::acts_on(std::size_t body) const { return acts_on_[body] != 0; }
 
-void Forces::add_steady(const Pose<double>* poses, const Twist<double>* twists, Wrench<double>* out) const {
+void Forces::add_time_independent(const Pose<double>* poses, const Twist<double>* twists,
+                                  Wrench<double>* out) const {
   const auto on_one = [&](const auto& laws) {
     for (const auto& law : laws) out[law.body] += law.wrench(poses[law.body], twists[law.body]);
   };
@@ -76,20 +77,20 @@ void Forces::add_switched(double t0, double t1, const Pose<double>* poses, const
                           Wrench<double>* out) const {
   const auto switched = [&](const auto& laws) {
     for (const auto& law : laws) {
-      const double share = active_share(law.start, law.duration, t0, t1);
-      if (share == 0) continue;
-      out[law.body] += share * law.wrench(poses[law.body], twists[law.body]);
+      const double fraction = active_fraction(law.start, law.duration, t0, t1);
+      if (fraction == 0) continue;
+      out[law.body] += fraction * law.wrench(poses[law.body], twists[law.body]);
     }
   };
   switched(all<PointForceLaw>());
   switched(all<TorqueLaw>());
 }
 
-void Forces::add_swinging(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
-                          Wrench<double>* out) const {
+void Forces::add_sinusoidal(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
+                            Wrench<double>* out) const {
   for (const auto& law : all<SinusoidalForceLaw>()) {
-    const double share = law.mean_sine(t0, t1);
-    out[law.body] += share * law.wrench(poses[law.body], twists[law.body]);
+    const double fraction = law.mean_sine(t0, t1);
+    out[law.body] += fraction * law.wrench(poses[law.body], twists[law.body]);
   }
 }
 
@@ -106,17 +107,17 @@ void Forces::add_formulas(double time, const Pose<double>* poses, const Twist<do
 
 void Forces::add(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
                  Wrench<double>* out) const {
-  add_steady(poses, twists, out);
+  add_time_independent(poses, twists, out);
   add_switched(t0, t1, poses, twists, out);
-  add_swinging(t0, t1, poses, twists, out);
+  add_sinusoidal(t0, t1, poses, twists, out);
   add_formulas(0.5 * (t0 + t1), poses, twists, out);
 }
 
 void Forces::add_at(double time, double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
                     Wrench<double>* out) const {
-  add_steady(poses, twists, out);
+  add_time_independent(poses, twists, out);
   add_switched(t0, t1, poses, twists, out);
-  add_swinging(time, time, poses, twists, out);
+  add_sinusoidal(time, time, poses, twists, out);
   add_formulas(time, poses, twists, out);
 }
 

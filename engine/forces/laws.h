@@ -21,7 +21,7 @@ namespace plumb {
 
 /// Returns the fraction of [t0, t1] inside [start, start + duration]: a force switched within a step still
 /// gives its exact impulse. At an instant, t0 == t1, it is 1 from `start` until before the end, else 0.
-double active_share(double start, double duration, double t0, double t1);
+double active_fraction(double start, double duration, double t0, double t1);
 
 /// A scene's force laws by body index, one array per law. Each law's formula is in a file of its own.
 class Forces {
@@ -46,11 +46,12 @@ class Forces {
               Wrench<double>* out) const;
 
  private:
-  void add_steady(const Pose<double>* poses, const Twist<double>* twists, Wrench<double>* out) const;
+  void add_time_independent(const Pose<double>* poses, const Twist<double>* twists,
+                            Wrench<double>* out) const;
   void add_switched(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
                     Wrench<double>* out) const;
-  void add_swinging(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
-                    Wrench<double>* out) const;
+  void add_sinusoidal(double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
+                      Wrench<double>* out) const;
   void add_formulas(double time, const Pose<double>* poses, const Twist<double>* twists,
                     Wrench<double>* out) const;
 

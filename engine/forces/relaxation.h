@@ -30,13 +30,13 @@ inline double mean_of_decay(double x) {
 /// `inverse_mass` in 1/kg, `coefficient` c in N s/m, >= 0.
 inline double mean_linear_drag(double velocity, double coefficient, double inverse_mass, double load,
                                double dt) {
-  const double share = mean_of_decay(coefficient * inverse_mass * dt);
-  return -(coefficient * share * velocity + (1 - share) * load);
+  const double fraction = mean_of_decay(coefficient * inverse_mass * dt);
+  return -(coefficient * fraction * velocity + (1 - fraction) * load);
 }
 inline Vec2d mean_linear_drag(Vec2d velocity, double coefficient, double inverse_mass, Vec2d load,
                               double dt) {
-  const double share = mean_of_decay(coefficient * inverse_mass * dt);
-  return -(coefficient * share * velocity + (1 - share) * load);
+  const double fraction = mean_of_decay(coefficient * inverse_mass * dt);
+  return -(coefficient * fraction * velocity + (1 - fraction) * load);
 }
 
 }  // namespace plumb

@@ -30,7 +30,7 @@ void add_line(Moments& sum, Vec2d p, Vec2d q) {
 
 // Does the same along an arc that lies entirely below. Angles are measured from straight down: x = cx + r
 // sin, y = cy - r cos.
-void add_turn(Moments& sum, Vec2d centre, double r, double from, double to) {
+void add_wet_arc(Moments& sum, Vec2d centre, double r, double from, double to) {
   const Rotation<double> a = rotation_of(from), b = rotation_of(to);
   const double sine = b.s - a.s;                                          // of cos
   const double cosine2 = 0.5 * ((to - from) + (b.s * b.c - a.s * a.c));   // of cos^2
@@ -56,7 +56,7 @@ void add_arc(Moments& sum, const OutlineArc& arc) {
   for (int turn = 0; turn < 2; ++turn) {
     const double start = std::max(from, 2 * kPi * turn - wet);
     const double end = std::min(from + sweep, 2 * kPi * turn + wet);
-    if (start < end) add_turn(sum, arc.centre, r, start, end);
+    if (start < end) add_wet_arc(sum, arc.centre, r, start, end);
   }
 }
 

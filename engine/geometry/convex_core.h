@@ -83,7 +83,7 @@ class Core {
 /// passes through nothing. It is half of the least width, and less for a shape with a sharp tip. A core of
 /// half that depth thus reaches into the tip to within kTipLoss times half the width.
 template <class Real>
-Real convex_passing_width(const Convex<Real>& shape) {
+Real convex_tunnelling_width(const Convex<Real>& shape) {
   constexpr Real kTipLoss = Real(1);
   const Real half_width = convex_half_width(shape);
   if (shape.count < 3) return half_width;

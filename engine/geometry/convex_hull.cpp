@@ -31,7 +31,7 @@ constexpr double kLargestCoordinate = 1e100;
              " corners. Leave out points, or build the outline from several shapes.");
 }
 
-double turn(Vec2d a, Vec2d b, Vec2d c) { return cross(b - a, c - b); }
+double orientation(Vec2d a, Vec2d b, Vec2d c) { return cross(b - a, c - b); }
 
 /// Computes the hull by Andrew's monotone chain (1979) over points in lexicographic order; points on an edge
 /// are left out.
@@ -40,7 +40,7 @@ std::vector<Vec2d> hull_of_sorted(const std::vector<Vec2d>& points) {
   const auto walk = [&hull](auto begin, auto end) {
     const std::size_t start = hull.size();
     for (auto point = begin; point != end; ++point) {
-      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *point) <= 0)
+      while (hull.size() >= start + 2 && orientation(hull[hull.size() - 2], hull.back(), *point) <= 0)
         hull.pop_back();
       hull.push_back(*point);
     }
@@ -58,7 +58,7 @@ double detail_at(const std::vector<Vec2d>& hull, std::size_t i) {
   const Vec2d after = hull[(i + 1) % hull.size()];
   const double to_neighbour = std::sqrt(std::min(length_squared(at - before), length_squared(after - at)));
   const double base = std::sqrt(length_squared(after - before));
-  return base > 0 ? std::min(to_neighbour, std::fabs(turn(before, at, after)) / base) : 0;
+  return base > 0 ? std::min(to_neighbour, std::fabs(orientation(before, at, after)) / base) : 0;
 }
 
 /// Drops the corner with the least detail until none is at most `size`.

@@ -13,10 +13,9 @@ namespace plumb {
 ///   y(s) - y0 = sum over k of c_k times the product over j < k of (s - n_j),   k from 1, s from 0 to 1.
 class StepPolynomial {
  public:
-  static constexpr int kMostTerms = 7;  // also the degree
+  static constexpr int kMaxTerms = 7;  // also the degree
 
-  explicit StepPolynomial(std::size_t dimension = 0)
-      : dimension_(dimension), terms_(kMostTerms * dimension) {}
+  explicit StepPolynomial(std::size_t dimension = 0) : dimension_(dimension), terms_(kMaxTerms * dimension) {}
 
   std::size_t dimension() const { return dimension_; }
   int degree() const { return degree_; }
@@ -52,8 +51,8 @@ class StepPolynomial {
 
   /// Returns y(s) - y0 of component i as Bernstein coefficients over the whole step: it lies between the
   /// least and the largest of them.
-  Bernstein<kMostTerms + 1> bernstein(std::size_t i) const {
-    Bernstein<kMostTerms + 1> c{};
+  Bernstein<kMaxTerms + 1> bernstein(std::size_t i) const {
+    Bernstein<kMaxTerms + 1> c{};
     int degree = 0;
     const auto times_factor = [&](double node) {  // c *= s - node, which raises the degree by one
       for (int j = degree + 1; j >= 0; --j) {
@@ -67,7 +66,7 @@ class StepPolynomial {
       for (int j = 0; j <= degree; ++j) c[j] += term(k)[i];
       times_factor(nodes_[k - 1]);
     }
-    for (; degree < kMostTerms; ++degree) {  // raises the degree of the same polynomial
+    for (; degree < kMaxTerms; ++degree) {  // raises the degree of the same polynomial
       for (int j = degree + 1; j > 0; --j) {
         const double weight = static_cast<double>(j) / (degree + 1);
         c[j] = weight * c[j - 1] + (1 - weight) * (j <= degree ? c[j] : 0);
@@ -79,7 +78,7 @@ class StepPolynomial {
  private:
   std::size_t dimension_;
   int degree_ = 0;
-  std::array<double, kMostTerms> nodes_{};
+  std::array<double, kMaxTerms> nodes_{};
   std::vector<double> terms_;  // term after term
 };
 

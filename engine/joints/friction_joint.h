@@ -8,7 +8,7 @@ namespace plumb {
 template <class Real>
 struct FrictionRows : JointTraits<0, 0> {
   using Definition = FrictionDefinition;
-  static constexpr bool kPoint = true, kSoft = true, kTurn = true;
+  static constexpr bool kPoint = true, kSoft = true, kAngular = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
@@ -27,7 +27,7 @@ struct FrictionRows : JointTraits<0, 0> {
 inline JointRules rules_of(const FrictionDefinition& definition) {
   JointRules rules;
   rules.point = {.role = RowRole::Motor, .max_force = definition.max_force};
-  rules.turn.add({.role = RowRole::Motor, .max_force = definition.max_torque});
+  rules.angular.add({.role = RowRole::Motor, .max_force = definition.max_torque});
   return rules;
 }
 

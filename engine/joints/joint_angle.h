@@ -8,11 +8,11 @@
 /// Angles of joints from the rotations of their bodies.
 namespace plumb {
 
-inline constexpr double kWholeTurn = 6.28318530717958647692;
+inline constexpr double kTwoPi = 6.28318530717958647692;
 
 /// Returns `angle` plus the whole turns that bring it nearest to `near`.
-inline double nearest_turn(double angle, double near) {
-  return angle + kWholeTurn * std::floor((near - angle) / kWholeTurn + 0.5);
+inline double unwrap_angle(double angle, double near) {
+  return angle + kTwoPi * std::floor((near - angle) / kTwoPi + 0.5);
 }
 
 /// Returns the angle of a rotation, rad, in [-pi, pi].
@@ -33,13 +33,12 @@ double relative_angle(Rotation<Real> a, Rotation<Real> b) {
 /// so every driver starts counting here.
 inline double angle_at_creation(double angle, double lower, double upper) {
   constexpr double kSlack = 0.01;  // rad: a joint placed at a limit may exceed it by rounding
-  const double near = nearest_turn(angle, 0);
+  const double near = unwrap_angle(angle, 0);
   if (near >= lower - kSlack && near <= upper + kSlack) return near;
   // The first turn that reaches the range, and the one on the range's other side.
   const double turns =
-      near < lower ? std::ceil((lower - near) / kWholeTurn) : std::floor((upper - near) / kWholeTurn);
-  const double beyond = near + kWholeTurn * turns,
-               before = beyond + (near < lower ? -kWholeTurn : kWholeTurn);
+      near < lower ? std::ceil((lower - near) / kTwoPi) : std::floor((upper - near) / kTwoPi);
+  const double beyond = near + kTwoPi * turns, before = beyond + (near < lower ? -kTwoPi : kTwoPi);
   const auto passed = [&](double x) { return std::fmax(std::fmax(lower - x, x - upper), 0.0); };
   return passed(beyond) <= passed(before) ? beyond : before;
 }

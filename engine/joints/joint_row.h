@@ -151,8 +151,8 @@ inline Range limits_of(const RowRules& rules) {
 
 /// The rules of one joint. A block has none: its rows are rigid.
 struct JointRules {
-  RowRule point{};  ///< of both components; max_force bounds the vector
-  RowRules turn{};  ///< of the angle
+  RowRule point{};     ///< of both components; max_force bounds the vector
+  RowRules angular{};  ///< of the angle
   RowRules axial[2]{};
 };
 
@@ -164,7 +164,7 @@ struct JointTraits {
   static constexpr bool kLength = false;     ///< axial coordinates are lengths of a rod or rope
   static constexpr bool kPoint = false;      ///< anchors that coincide
   static constexpr bool kSoft = false;       ///< ... by a rule that may yield
-  static constexpr bool kTurn = false;       ///< rules for the angle
+  static constexpr bool kAngular = false;    ///< rules for the angle
   static constexpr bool kGrounded = false;   ///< offsets are from points of the world
   static constexpr AngleUse kAngle = AngleUse::None;
 };

@@ -9,7 +9,7 @@ namespace plumb {
 template <class Real>
 struct MotorRows : JointTraits<0, 0> {
   using Definition = MotorDefinition;
-  static constexpr bool kPoint = true, kSoft = true, kTurn = true;
+  static constexpr bool kPoint = true, kSoft = true, kAngular = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
@@ -29,7 +29,8 @@ struct MotorRows : JointTraits<0, 0> {
 inline JointRules rules_of(const MotorDefinition& definition) {
   JointRules rules;
   rules.point = {.role = RowRole::Spring, .spring = definition.spring, .max_force = definition.max_force};
-  rules.turn.add({.role = RowRole::Spring, .spring = definition.spring, .max_force = definition.max_torque});
+  rules.angular.add(
+      {.role = RowRole::Spring, .spring = definition.spring, .max_force = definition.max_torque});
   return rules;
 }
 

@@ -11,11 +11,11 @@ namespace plumb {
 template <class Real>
 struct RatchetRows : JointTraits<0, 0> {
   using Definition = RatchetDefinition;
-  static constexpr bool kTurn = true;
+  static constexpr bool kAngular = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
   /// In teeth: an angle this close below a tooth counts as on it, so that rounding at the start loses no
   /// tooth.
-  static constexpr double kReach = 1e-3;
+  static constexpr double kToothTolerance = 1e-3;
 
   double tooth = 1, reference = 0;  ///< rad; the phase
 
@@ -29,12 +29,12 @@ struct RatchetRows : JointTraits<0, 0> {
   }
 
   /// Returns the last tooth at or before the angle (less the phase).
-  double tooth_at(double angle) const { return std::floor(angle / tooth + kReach); }
+  double tooth_at(double angle) const { return std::floor(angle / tooth + kToothTolerance); }
 };
 
 inline JointRules rules_of(const RatchetDefinition& definition) {
   JointRules rules;
-  rules.turn.add({.role = RowRole::Limit, .sign = definition.tooth > 0 ? 1.0 : -1.0});
+  rules.angular.add({.role = RowRole::Limit, .sign = definition.tooth > 0 ? 1.0 : -1.0});
   return rules;
 }
 

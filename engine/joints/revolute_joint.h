@@ -25,7 +25,7 @@ struct HingeRows : JointTraits<0, 0> {
 /// A common point about which the bodies turn by the angle.
 template <class Real>
 struct RevoluteRows : HingeRows<Real> {
-  static constexpr bool kTurn = true;
+  static constexpr bool kAngular = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
 
   double reference = 0;  ///< rad, of b relative to a where the joint's angle is 0
@@ -37,9 +37,9 @@ struct RevoluteRows : HingeRows<Real> {
 
 inline JointRules rules_of(const RevoluteDefinition& definition) {
   JointRules rules;
-  rules.turn.add_spring(definition.spring, definition.target_angle);
-  rules.turn.add_motor(definition.motor);
-  rules.turn.add_limits(definition.limits);
+  rules.angular.add_spring(definition.spring, definition.target_angle);
+  rules.angular.add_motor(definition.motor);
+  rules.angular.add_limits(definition.limits);
   return rules;
 }
 

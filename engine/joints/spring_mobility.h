@@ -20,7 +20,7 @@ struct PairMobility {
 /// and `arm_b` (m) lead there from their centres of mass. With M = m_a + m_b it is
 ///   (M (i_a + i_b) + i_a i_b |r_b - r_a|^2) / (M + i_a r_a^2 + i_b r_b^2 + i_a i_b (r_a x r_b)^2 / M).
 template <class Number>
-[[gnu::always_inline]] inline Number turning_mobility(const PairMobility<Number>& p, Vec2<Number> arm_a,
+[[gnu::always_inline]] inline Number angular_mobility(const PairMobility<Number>& p, Vec2<Number> arm_a,
                                                       Vec2<Number> arm_b) {
   const Number m = p.m_a + p.m_b, turn = p.i_a + p.i_b, both = p.i_a * p.i_b;
   return choose(
@@ -37,8 +37,8 @@ template <class Number>
 /// Returns the mobility along an axis of unit direction `n`, 1/kg, on which two bodies slide without relative
 /// rotation; `offset`, m, leads from a's centre of mass to b's.
 template <class Number>
-[[gnu::always_inline]] inline Number sliding_mobility(const PairMobility<Number>& p, Vec2<Number> offset,
-                                                      Vec2<Number> n) {
+[[gnu::always_inline]] inline Number slider_mobility(const PairMobility<Number>& p, Vec2<Number> offset,
+                                                     Vec2<Number> n) {
   const Number m = p.m_a + p.m_b, both = p.i_a * p.i_b;
   const Number along = dot(offset, n), turn = m * (p.i_a + p.i_b);
   const Number held = turn + both * along * along;
@@ -73,7 +73,7 @@ template <class Number>
 /// two bodies do not rotate relative to each other; p is the perpendicular of the offset between their
 /// centres of mass.
 template <class Number>
-[[gnu::always_inline]] inline Number common_turning(const PairMobility<Number>& p) {
+[[gnu::always_inline]] inline Number common_rotation_mobility(const PairMobility<Number>& p) {
   const Number turn = p.i_a + p.i_b;
   return choose(
       turn > Number(0), [&]() __attribute__((always_inline)) { return Number(p.i_a * p.i_b / turn); },

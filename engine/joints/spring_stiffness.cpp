@@ -61,7 +61,7 @@ double mean_mobility(double trace, double determinant) {
 double point_mobility(const PairMobility<double>& p, const AnchorPoint<double>& at, bool angle_holds) {
   const double m = p.m_a + p.m_b;
   if (angle_holds) {
-    const double turn = common_turning(p) * length_squared(at.arm_b - at.arm_a);
+    const double turn = common_rotation_mobility(p) * length_squared(at.arm_b - at.arm_a);
     return mean_mobility(2 * m + turn, m * (m + turn));
   }
   const double turn = p.i_a * length_squared(at.arm_a) + p.i_b * length_squared(at.arm_b);
@@ -77,17 +77,17 @@ SpringMobility mobility_of(const Rows& kind, const JointRules& rules, const Join
   kind.evaluate(at, rows);
   const bool point_holds = Rows::kPoint && rules.point.role == RowRole::Rigid &&
                            rules.point.max_force == std::numeric_limits<double>::infinity();
-  if constexpr (Rows::kTurn)
-    out.turn = point_holds ? turning_mobility(p, rows.point.arm_a, rows.point.arm_b) : p.i_a + p.i_b;
+  if constexpr (Rows::kAngular)
+    out.angular = point_holds ? angular_mobility(p, rows.point.arm_a, rows.point.arm_b) : p.i_a + p.i_b;
   if constexpr (Rows::kAxial > 1) {
     const JointRow<double>&first = rows.axial[0], &second = rows.axial[1];
     out.axial = line_mobility(p, first.angular_a, first.angular_b, second.angular_a, second.angular_b);
   } else if constexpr (Rows::kAxial > 0 && Rows::kBlock > 0) {
-    out.axial = sliding_mobility(p, at.offset, rows.axial[0].linear_b);
+    out.axial = slider_mobility(p, at.offset, rows.axial[0].linear_b);
   } else if constexpr (Rows::kAxial > 0) {
     out.axial = row_mobility(p, rows.axial[0]);
   }
-  if constexpr (Rows::kPoint) out.point = point_mobility(p, rows.point, rules.turn.has(RowRole::Rigid));
+  if constexpr (Rows::kPoint) out.point = point_mobility(p, rows.point, rules.angular.has(RowRole::Rigid));
   return out;
 }
 
@@ -116,7 +116,7 @@ SpringMobility spring_mobility(const JointKind& definition, const JointReference
 
 SpringConstants spring_constants(const Spring& spring, double mobility) {
   if (!(mobility > 0)) return {};
-  const double omega = kWholeTurn * spring.hertz;
+  const double omega = kTwoPi * spring.hertz;
   return {.stiffness = omega * omega / mobility, .damping = 2 * spring.damping_ratio * omega / mobility};
 }
 
@@ -130,8 +130,8 @@ JointStiffness joint_stiffness(const JointKind& definition, const SpringMobility
     stiffness = constants.stiffness, damping = constants.damping;
     any = true;
   };
-  for (int i = 0; i < rules.turn.count; ++i)
-    take(rules.turn.rule[i], mobility.turn, out.angular, out.angular_damping);
+  for (int i = 0; i < rules.angular.count; ++i)
+    take(rules.angular.rule[i], mobility.angular, out.angular, out.angular_damping);
   for (int i = 0; i < rules.axial[0].count; ++i)
     take(rules.axial[0].rule[i], mobility.axial, out.linear, out.linear_damping);
   take(rules.point, mobility.point, out.linear, out.linear_damping);

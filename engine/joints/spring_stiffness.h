@@ -22,9 +22,9 @@ JointReference reference_of(const Pose<double>& a, Vec2d centre_a, const Pose<do
 
 /// Mobilities (1 / effective mass) that the springs of a joint refer to; 0: the spring moves nothing.
 struct SpringMobility {
-  double turn = 0;   ///< 1/(kg m^2), of the angle
-  double axial = 0;  ///< 1/kg, of the first coordinate along an axis or a line
-  double point = 0;  ///< 1/kg, of a point: the inverse of its effective mass averaged over all directions
+  double angular = 0;  ///< 1/(kg m^2), of the angle
+  double axial = 0;    ///< 1/kg, of the first coordinate along an axis or a line
+  double point = 0;    ///< 1/kg, of a point: the inverse of its effective mass averaged over all directions
 };
 
 /// Returns them at `reference`. A spring beside rigid rows of the joint has the mobility that these leave; a

@@ -42,7 +42,7 @@ inline JointRules rules_of(const WeldDefinition& definition) {
   if (definition.linear_spring) rules.point = {.role = RowRole::Spring, .spring = *definition.linear_spring};
   RowRule turn;
   if (definition.angular_spring) turn = {.role = RowRole::Spring, .spring = *definition.angular_spring};
-  rules.turn.add(turn);
+  rules.angular.add(turn);
   return rules;
 }
 

@@ -9,7 +9,7 @@ namespace plumb {
 template <class Real>
 struct WheelRows : JointTraits<0, 2> {
   using Definition = WheelDefinition;
-  static constexpr bool kTurn = true;
+  static constexpr bool kAngular = true;
   static constexpr AngleUse kAngle = AngleUse::Counted;
 
   Vec2<Real> anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
@@ -33,7 +33,7 @@ struct WheelRows : JointTraits<0, 2> {
 
 inline JointRules rules_of(const WheelDefinition& definition) {
   JointRules rules;
-  rules.turn.add_motor(definition.motor);
+  rules.angular.add_motor(definition.motor);
   rules.axial[0].add_spring(definition.spring, 0);
   rules.axial[0].add_limits(definition.limits);
   rules.axial[1].add({});

@@ -10,11 +10,11 @@ namespace plumb {
 void BandedLu::reset(std::size_t size, std::size_t below, std::size_t above) {
   assert(size == 0 || (below < size && above < size));
   size_ = size;
-  below_ = below;
-  reach_ = below + above;
-  width_ = below_ + reach_ + 1;
+  lower_band_ = below;
+  upper_band_ = below + above;
+  width_ = lower_band_ + upper_band_ + 1;
   entries_.assign(size_ * width_, 0);
-  lower_.assign(size_ * below_, 0);
+  lower_.assign(size_ * lower_band_, 0);
   pivot_.assign(size_, 0);
 }
 
@@ -22,7 +22,7 @@ void BandedLu::clear() { std::fill(entries_.begin(), entries_.end(), 0.0); }
 
 bool BandedLu::factor() {
   for (std::size_t k = 0; k < size_; ++k) {
-    const std::size_t last_row = std::min(k + below_, size_ - 1), last = last_in(k);
+    const std::size_t last_row = std::min(k + lower_band_, size_ - 1), last = last_in(k);
     std::size_t p = k;
     for (std::size_t i = k + 1; i <= last_row; ++i) {
       if (std::abs(at(i, k)) > std::abs(at(p, k))) p = i;
@@ -35,7 +35,7 @@ bool BandedLu::factor() {
     for (std::size_t i = k + 1; i <= last_row; ++i) {
       double* row = &at(i, k);
       const double factor = row[0] * inverse;
-      lower_[k * below_ + (i - k - 1)] = factor;
+      lower_[k * lower_band_ + (i - k - 1)] = factor;
       if (factor == 0) continue;
       for (std::size_t j = 1; j <= last - k; ++j) row[j] -= factor * upper[j];
     }
@@ -47,11 +47,11 @@ void BandedLu::solve(std::span<double> x) const {
   assert(x.size() == size_);
   for (std::size_t k = 0; k < size_; ++k) {
     std::swap(x[k], x[pivot_[k]]);
-    const std::size_t last_row = std::min(k + below_, size_ - 1);
-    for (std::size_t i = k + 1; i <= last_row; ++i) x[i] -= lower_[k * below_ + (i - k - 1)] * x[k];
+    const std::size_t last_row = std::min(k + lower_band_, size_ - 1);
+    for (std::size_t i = k + 1; i <= last_row; ++i) x[i] -= lower_[k * lower_band_ + (i - k - 1)] * x[k];
   }
   for (std::size_t k = size_; k-- > 0;) {
-    const double* row = &entries_[k * width_ + below_];
+    const double* row = &entries_[k * width_ + lower_band_];
     const std::size_t last = last_in(k);
     double sum = x[k];
     for (std::size_t j = k + 1; j <= last; ++j) sum -= row[j - k] * x[j];

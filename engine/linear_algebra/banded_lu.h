@@ -16,7 +16,9 @@ class BandedLu {
 
   std::size_t size() const { return size_; }
   void clear();
-  double& at(std::size_t row, std::size_t column) { return entries_[row * width_ + column + below_ - row]; }
+  double& at(std::size_t row, std::size_t column) {
+    return entries_[row * width_ + column + lower_band_ - row];
+  }
 
   /// Returns false if the matrix is singular or not finite.
   bool factor();
@@ -25,12 +27,14 @@ class BandedLu {
   void solve(std::span<double> x) const;
 
  private:
-  std::size_t last_in(std::size_t row) const { return row + reach_ < size_ ? row + reach_ : size_ - 1; }
+  std::size_t last_in(std::size_t row) const {
+    return row + upper_band_ < size_ ? row + upper_band_ : size_ - 1;
+  }
 
-  std::size_t size_ = 0, below_ = 0, reach_ = 0,
-              width_ = 1;        // reach_: upper band width of U, which pivoting enlarges
-  std::vector<double> entries_;  // row by row, from `below_` before the diagonal
-  std::vector<double> lower_;    // multipliers, `below_` of them per column
+  std::size_t size_ = 0, lower_band_ = 0, upper_band_ = 0,
+              width_ = 1;        // upper_band_: upper band width of U, which pivoting enlarges
+  std::vector<double> entries_;  // row by row, from `lower_band_` before the diagonal
+  std::vector<double> lower_;    // multipliers, `lower_band_` of them per column
   std::vector<std::size_t> pivot_;
 };
 

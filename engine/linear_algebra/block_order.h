@@ -11,8 +11,8 @@ namespace plumb {
 /// blocks that share a body.
 class BlockOrder {
  public:
-  explicit BlockOrder(std::pmr::memory_resource* room = std::pmr::get_default_resource())
-      : ends_(room), neighbours_(room), sequence_(room), degree_(room) {}
+  explicit BlockOrder(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : ends_(memory), neighbours_(memory), sequence_(memory), degree_(memory) {}
 
   /// `ends`: body and block, for each dynamic body of each block.
   void find(int blocks, std::span<const std::pair<int, int>> ends);

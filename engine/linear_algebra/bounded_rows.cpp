@@ -28,26 +28,26 @@ double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {
 
 }  // namespace
 
-BoundedRows::BoundedRows(std::pmr::memory_resource* room)
-    : bodies(room),
-      rows(room),
-      shifts(room),
-      order_(room),
-      all_(room),
-      matrix_(room),
-      start_(room),
-      mobility_(room),
-      block_first_(room),
-      free_(room),
-      places_(room),
-      block_place_(room),
-      sequence_(room),
-      rank_(room),
-      first_(room),
-      x_(room),
-      guess_(room),
-      best_(room),
-      wrong_(room) {}
+BoundedRows::BoundedRows(std::pmr::memory_resource* memory)
+    : bodies(memory),
+      rows(memory),
+      displacements(memory),
+      order_(memory),
+      all_(memory),
+      matrix_(memory),
+      start_(memory),
+      mobility_(memory),
+      block_first_(memory),
+      free_(memory),
+      places_(memory),
+      block_place_(memory),
+      sequence_(memory),
+      rank_(memory),
+      first_(memory),
+      x_(memory),
+      guess_(memory),
+      best_(memory),
+      next_state_(memory) {}
 
 double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes) {
   assert(blocks.size() == sizes.size());
@@ -70,13 +70,13 @@ double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span
   return EnvelopeMatrix::cost(first_);
 }
 
-double BoundedRows::along(const BoundedRow& row) const {
+double BoundedRows::row_velocity(const BoundedRow& row) const {
   const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
   return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
          row.angular_b * b.spin;
 }
 
-void BoundedRows::push(const BoundedRow& row, double impulse) {
+void BoundedRows::apply_impulse(const BoundedRow& row, double impulse) {
   if (impulse == 0) return;
   const auto add = [&](BoundedBody& body, Vec2d linear, double angular) {
     body.velocity.x += body.inverse_mass.x * linear.x * impulse;
@@ -101,11 +101,12 @@ void BoundedRows::find_mobility() {
 }
 
 // Finds the largest energy v^2 / mobility of a row, or what the caller gave.
-void BoundedRows::find_largest() {
-  largest_ = least_energy_;
+void BoundedRows::find_energy_scale() {
+  energy_scale_ = min_energy_scale_;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double speed = std::max(std::abs(along(rows[i])), std::abs(rows[i].wanted));
-    if (speed * speed > largest_ * mobility_[i] && mobility_[i] > 0) largest_ = speed * speed / mobility_[i];
+    const double speed = std::max(std::abs(row_velocity(rows[i])), std::abs(rows[i].target));
+    if (speed * speed > energy_scale_ * mobility_[i] && mobility_[i] > 0)
+      energy_scale_ = speed * speed / mobility_[i];
   }
 }
 
@@ -148,7 +149,7 @@ void BoundedRows::assemble() {
     for (const int other : order_.neighbours(row.block)) couple_with(other);
     all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * row.softening);
   }
-  assembled_ = true, factorised_ = shares_ = false;
+  assembled_ = true, factorised_ = regularised_ = false;
 }
 
 // Factorises the free rows, with regularisation if they depend on each other. Rows before the first one whose
@@ -171,15 +172,15 @@ void BoundedRows::factorise() {
   free_.clear();
   for (const int place : places_) free_.push_back(sequence_[place]);
   matrix_.shape(first_);
-  if (!shares_) {
+  if (!regularised_) {
     gather_free(kept);
-    shares_ = !(matrix_.factorise(kept) > kLeastPivot);
-    if (shares_) kept = 0;
+    regularised_ = !(matrix_.factorise(kept) > kLeastPivot);
+    if (regularised_) kept = 0;
   }
-  if (shares_) {
+  if (regularised_) {
     gather_free(kept);
     for (int k = kept; k < static_cast<int>(free_.size()); ++k)
-      matrix_.at(k, k) += kSharing * mobility_[free_[k]];
+      matrix_.at(k, k) += kRegularisation * mobility_[free_[k]];
     matrix_.factorise(kept);
   }
   factorised_ = true;
@@ -202,29 +203,29 @@ void BoundedRows::gather_free(int from) {
 // Returns the residual of a row at the present velocities.
 double BoundedRows::residual(int i) const {
   const BoundedRow& row = rows[i];
-  const double missing = row.wanted - along(row) - row.compliance * row.impulse;
+  const double missing = row.target - row_velocity(row) - row.compliance * row.impulse;
   return missing - row.softening * mobility_[i] * row.impulse;
 }
 
 // Returns true if a row's speed is more than the fraction `share` of that of the row with the largest energy.
-bool BoundedRows::matters(int i, double speed, double share) const {
-  return speed * speed > share * share * largest_ * mobility_[i];
+bool BoundedRows::is_significant(int i, double speed, double fraction) const {
+  return speed * speed > fraction * fraction * energy_scale_ * mobility_[i];
 }
 
 // Sets the bodies' velocities from all present impulses.
 void BoundedRows::apply_all() {
   std::copy(start_.begin(), start_.end(), bodies.begin());
-  for (const BoundedRow& row : rows) push(row, row.impulse);
+  for (const BoundedRow& row : rows) apply_impulse(row, row.impulse);
 }
 
 // Solves for the impulses of the free rows, given those of the others. If free rows depend on each other,
 // finds the solution nearest to `guess_`, up to the error of the regularisation.
 void BoundedRows::find_free() {
-  if (shares_ && !guesses_) start_from_guess();
+  if (regularised_ && !guess_set_) prepare_guess();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BoundedRow& row = rows[i];
     if (row.state == BoundedRow::kFree) {
-      row.impulse = shares_ ? guess_[i] : 0;
+      row.impulse = regularised_ ? guess_[i] : 0;
     } else {
       row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
     }
@@ -240,45 +241,45 @@ bool BoundedRows::refine() {
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     x_[k] = residual(free_[k]);
-    exact = exact && !matters(free_[k], x_[k], kExact);
+    exact = exact && !is_significant(free_[k], x_[k], kExact);
   }
   if (exact) return false;
   matrix_.solve(x_.data());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     rows[free_[k]].impulse += x_[k];
-    push(rows[free_[k]], x_[k]);
+    apply_impulse(rows[free_[k]], x_[k]);
   }
   return true;
 }
 
 // Counts the rows that violate their bounds or inequality by more than `slack`, and notes the state that each
 // should have.
-int BoundedRows::count_wrong(double slack) {
+int BoundedRows::count_violations(double slack) {
   int count = 0;
-  wrong_.assign(rows.size(), 0);
+  next_state_.assign(rows.size(), 0);
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
     const BoundedRow& row = rows[i];
     int to = -1;
     if (row.state == BoundedRow::kFree) {
-      if (row.impulse < row.lower && matters(i, (row.lower - row.impulse) * mobility_[i], slack))
+      if (row.impulse < row.lower && is_significant(i, (row.lower - row.impulse) * mobility_[i], slack))
         to = BoundedRow::kLower;
-      if (row.impulse > row.upper && matters(i, (row.impulse - row.upper) * mobility_[i], slack))
+      if (row.impulse > row.upper && is_significant(i, (row.impulse - row.upper) * mobility_[i], slack))
         to = BoundedRow::kUpper;
     } else if (row.lower < row.upper) {
       const double missing = residual(i);
-      if (row.state == BoundedRow::kLower && missing > 0 && matters(i, missing, slack))
+      if (row.state == BoundedRow::kLower && missing > 0 && is_significant(i, missing, slack))
         to = BoundedRow::kFree;
-      if (row.state == BoundedRow::kUpper && missing < 0 && matters(i, missing, slack))
+      if (row.state == BoundedRow::kUpper && missing < 0 && is_significant(i, missing, slack))
         to = BoundedRow::kFree;
     }
     if (to < 0) continue;
-    wrong_[i] = static_cast<std::int8_t>(to + 1);
+    next_state_[i] = static_cast<std::int8_t>(to + 1);
     ++count;
   }
   return count;
 }
 
-// Returns two sums: the work x . (wanted - J v) of the impulses on the wanted velocities, and x . A x, that
+// Returns two sums: the work x . (target - J v) of the impulses on the target velocities, and x . A x, that
 // on the velocities that they cause.
 BoundedRows::Work BoundedRows::work() const {
   Work out;
@@ -288,42 +289,42 @@ BoundedRows::Work BoundedRows::work() const {
     const BoundedBody &a = start_[row.a], &b = start_[row.b];
     const double before = dot(row.linear_a, a.velocity) + row.angular_a * a.spin +
                           dot(row.linear_b, b.velocity) + row.angular_b * b.spin;
-    const double wanted = row.impulse * (row.wanted - before);
-    out.wanted += wanted;
-    out.own += wanted - row.impulse * residual(i);
+    const double target = row.impulse * (row.target - before);
+    out.target += target;
+    out.own += target - row.impulse * residual(i);
   }
   return out;
 }
 
-// Returns 1/2 x A x - x (wanted - J v), which solutions minimise.
+// Returns 1/2 x A x - x (target - J v), which solutions minimise.
 double BoundedRows::energy() const {
   const Work w = work();
-  return 0.5 * w.own - w.wanted;
+  return 0.5 * w.own - w.target;
 }
 
-// Scales all impulses by the factor that minimises the energy. Then x A x = x (wanted - J v), so they gain no
-// energy, even far from the solution: where rows contradict each other, or the factorisation is inexact.
-void BoundedRows::shrink() {
+// Scales all impulses by the factor that minimises the energy. Then x A x = x (target - J v), so they gain no
+// energy, even far from the solution: where rows are infeasible, or the factorisation is inexact.
+void BoundedRows::scale_impulses() {
   const Work w = work();
-  if (!(w.own > w.wanted + kSlack * std::abs(w.wanted))) return;
+  if (!(w.own > w.target + kTolerance * std::abs(w.target))) return;
   // x A x is never negative except by rounding; the quotient of two roundings could be any number.
-  const double share = w.own > 0 ? std::max(w.wanted / w.own, 0.0) : 0.0;
-  for (BoundedRow& row : rows) row.impulse *= share;
+  const double fraction = w.own > 0 ? std::max(w.target / w.own, 0.0) : 0.0;
+  for (BoundedRow& row : rows) row.impulse *= fraction;
   apply_all();
 }
 
 // Runs block pivots; returns true if they end in a solution.
 bool BoundedRows::pivot() {
-  guesses_ = false;
+  guess_set_ = false;
   best_.resize(rows.size());
   int least = std::numeric_limits<int>::max();
-  for (int pivots = 0; pivots < kPivots; ++pivots) {
+  for (int pivots = 0; pivots < kMaxPivots; ++pivots) {
     factorise();
     find_free();
-    int wrong = count_wrong(shares_ ? kClear : kSlack);
-    if (wrong == 0 && shares_) {
+    int wrong = count_violations(regularised_ ? kClearViolation : kTolerance);
+    if (wrong == 0 && regularised_) {
       for (int i = 0; i < kRefinements && refine(); ++i) continue;
-      wrong = count_wrong(kSlack);
+      wrong = count_violations(kTolerance);
     }
     if (wrong == 0) return true;
     if (wrong < least) {
@@ -331,18 +332,18 @@ bool BoundedRows::pivot() {
       for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
+      if (next_state_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(next_state_[i] - 1);
   }
   return false;
 }
 
 // Sets `guess_` to the fraction of the initial impulses that gains no energy.
-void BoundedRows::start_from_guess() {
-  guesses_ = true;
+void BoundedRows::prepare_guess() {
+  guess_set_ = true;
   if (std::all_of(guess_.begin(), guess_.end(), [](double impulse) { return impulse == 0; })) return;
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = guess_[i];
   apply_all();
-  shrink();
+  scale_impulses();
   for (std::size_t i = 0; i < rows.size(); ++i) guess_[i] = rows[i].impulse;
 }
 
@@ -361,7 +362,7 @@ void BoundedRows::set_fixed() {
 void BoundedRows::solve(double energy) {
   start_.assign(bodies.begin(), bodies.end());
   find_mobility();
-  largest_ = least_energy_ = energy;
+  energy_scale_ = min_energy_scale_ = energy;
   assembled_ = false;
   solve_from_start();
 }
@@ -371,8 +372,8 @@ void BoundedRows::solve_again() {
     set_fixed();
     start_from(guess_);
     descend();
-    keep_energy(false);
-    if (contradicted()) release_tension();
+    prevent_energy_gain(false);
+    if (is_infeasible()) relax_infeasible_rows();
     return;
   }
   std::copy(start_.begin(), start_.end(), bodies.begin());
@@ -383,9 +384,9 @@ void BoundedRows::solve_from_start() {
   descended_ = false;
   set_fixed();
   if (solve_small()) return;
-  if (!assembled_) find_largest(), assemble();
+  if (!assembled_) find_energy_scale(), assemble();
   find_impulses();
-  if (contradicted()) release_tension();
+  if (is_infeasible()) relax_infeasible_rows();
 }
 
 // Finds the impulses by pivots or, if these do not end, by descent.
@@ -394,10 +395,10 @@ void BoundedRows::find_impulses() {
   if (!solved) {
     descended_ = true;
     start_from(best_);
-    shrink();
+    scale_impulses();
     descend();
   }
-  keep_energy(solved);
+  prevent_energy_gain(solved);
 }
 
 // Sets the impulses, within their bounds.
@@ -409,21 +410,21 @@ void BoundedRows::start_from(std::span<const double> impulses) {
 
 // Makes sure that no energy is gained. If all rows are free, none is. A row at its bound may gain its impulse
 // times the tolerated violation, and impulses of wedged parts have no limit.
-void BoundedRows::keep_energy(bool exact) {
+void BoundedRows::prevent_energy_gain(bool exact) {
   const auto held = [](const BoundedRow& row) { return row.state != BoundedRow::kFree && row.impulse != 0; };
-  if (!exact || shares_ || std::any_of(rows.begin(), rows.end(), held)) shrink();
+  if (!exact || regularised_ || std::any_of(rows.begin(), rows.end(), held)) scale_impulses();
 }
 
-double BoundedRows::share_of_load(std::span<const double> impulses) {
+double BoundedRows::best_load_fraction(std::span<const double> impulses) {
   assert(impulses.size() == rows.size());
   const auto work = [&] {
     double sum = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) sum += impulses[i] * along(rows[i]);
+    for (std::size_t i = 0; i < rows.size(); ++i) sum += impulses[i] * row_velocity(rows[i]);
     return sum;
   };
   const double on_load = work();
   for (BoundedBody& body : bodies) body.velocity = {}, body.spin = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) push(rows[i], impulses[i]);
+  for (std::size_t i = 0; i < rows.size(); ++i) apply_impulse(rows[i], impulses[i]);
   const double own = work();
   return own > 0 ? std::clamp(-on_load / own, 0.0, 1.0) : 1;
 }
@@ -438,13 +439,13 @@ void BoundedRows::correct(double softening) {
   bool overrun = true;
   for (int round = 0; overrun && round < kRounds; ++round) {
     factorise();
-    find_shifts();
+    find_displacements();
     overrun = false;
     for (BoundedRow& row : rows) {
       if (row.state == BoundedRow::kFree || !(row.upper > 0)) continue;
-      const Shift &a = shifts[row.a], &b = shifts[row.b];
-      const double moved = dot(row.linear_a, a.way) + row.angular_a * a.turn + dot(row.linear_b, b.way) +
-                           row.angular_b * b.turn;
+      const Displacement &a = displacements[row.a], &b = displacements[row.b];
+      const double moved = dot(row.linear_a, a.translation) + row.angular_a * a.rotation +
+                           dot(row.linear_b, b.translation) + row.angular_b * b.rotation;
       if (!(row.gap + moved < 0)) continue;
       row.state = BoundedRow::kFree;
       overrun = true;
@@ -452,9 +453,9 @@ void BoundedRows::correct(double softening) {
   }
 }
 
-// Finds the shifts that close the gaps of the free rows.
-void BoundedRows::find_shifts() {
-  shifts.assign(bodies.size(), {});
+// Finds the displacements that close the gaps of the free rows.
+void BoundedRows::find_displacements() {
+  displacements.assign(bodies.size(), {});
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;
   matrix_.solve(x_.data());
@@ -462,9 +463,9 @@ void BoundedRows::find_shifts() {
     const BoundedRow& row = rows[free_[k]];
     const auto add = [&](int body, Vec2d linear, double angular) {
       const BoundedBody& b = bodies[body];
-      shifts[body].way.x += b.inverse_mass.x * linear.x * x_[k];
-      shifts[body].way.y += b.inverse_mass.y * linear.y * x_[k];
-      shifts[body].turn += b.inverse_inertia * angular * x_[k];
+      displacements[body].translation.x += b.inverse_mass.x * linear.x * x_[k];
+      displacements[body].translation.y += b.inverse_mass.y * linear.y * x_[k];
+      displacements[body].rotation += b.inverse_inertia * angular * x_[k];
     };
     add(row.a, row.linear_a, row.angular_a);
     add(row.b, row.linear_b, row.angular_b);

@@ -22,7 +22,7 @@ struct BoundedBody {
   bool is_dynamic() const { return inverse_mass.x + inverse_mass.y + inverse_inertia > 0; }
 };
 
-/// One scalar constraint with a bounded impulse x. J v + compliance x is `wanted` while x is between its
+/// One scalar constraint with a bounded impulse x. J v + compliance x is `target` while x is between its
 /// bounds, at least that at the lower bound, and at most that at the upper one.
 struct BoundedRow {
   enum State : std::int8_t { kFree, kLower, kUpper };
@@ -30,8 +30,8 @@ struct BoundedRow {
   int a = 0, b = 0;              ///< bodies of the system
   Vec2d linear_a{}, linear_b{};  ///< J
   double angular_a = 0, angular_b = 0;
-  /// m/s, target velocity; after solving, of rows that contradicted each other, the one that they got
-  double wanted = 0;
+  /// m/s, target velocity; after solving, of infeasible rows, the one that they reached
+  double target = 0;
   double compliance = 0;        ///< 1/kg
   double lower = 0, upper = 0;  ///< N s
   double softening = 0;         ///< fraction of its own mobility that is added to the compliance
@@ -45,8 +45,8 @@ struct BoundedRow {
 
 /// The rows of all constraints of a mechanism (joints, limits, motors, springs, contacts and friction) as one
 /// linear complementarity problem with bounds,
-///     w = J (v + M^-1 J^T x) + C x - wanted,   lower <= x <= upper,   w = 0 between,
-/// which states the minimum of the kinetic energy relative to the wanted velocities. Solved first by block
+///     w = J (v + M^-1 J^T x) + C x - target,   lower <= x <= upper,   w = 0 between,
+/// which states the minimum of the kinetic energy relative to the target velocities. Solved first by block
 /// principal pivoting (Judice and Pires, Computers and Operations Research 21, 1994): all rows on the wrong
 /// side change sides at once. If a few pivots do not suffice, by gradient projection with subspace
 /// minimisation (More and Toraldo, SIAM Journal on Optimization 1, 1991). Each step lowers the energy.
@@ -55,7 +55,7 @@ struct BoundedRow {
 /// other, so that redundant rows share their load.
 class BoundedRows {
  public:
-  explicit BoundedRows(std::pmr::memory_resource* room = std::pmr::get_default_resource());
+  explicit BoundedRows(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
   std::pmr::vector<BoundedBody> bodies;  ///< filled by the caller
   /// Filled by the caller. Rows of one block (constraints between the same two bodies) are contiguous, and
@@ -71,39 +71,39 @@ class BoundedRows {
   void solve(double energy = 0);
 
   /// Returns the energy to which errors of the last solution are relative, J.
-  double largest_energy() const { return largest_; }
+  double energy_scale() const { return energy_scale_; }
 
   /// Solves again for the velocities that `solve` was given, after bounds have changed and nothing else.
   void solve_again();
 
-  /// Returns true if a speed along a row is more than the fraction `share` of the speed of the row with the
-  /// largest energy.
-  bool is_felt(int row, double speed, double share) const { return matters(row, speed, share); }
+  /// Returns true if a speed along a row is more than the fraction `fraction` of the speed of the row with
+  /// the largest energy.
+  bool is_significant(int row, double speed, double fraction) const;
 
   /// Returns the fraction, 0 to 1, by which to scale these impulses so that they leave the bodies the least
   /// energy, given their velocities. Changes the velocities.
-  double share_of_load(std::span<const double> impulses);
+  double best_load_fraction(std::span<const double> impulses);
 
-  /// Finds impulses that move bodies by `shifts`, instead of changing their velocities, such that the gaps of
-  /// the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt). Bodies
-  /// move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that could be closed only by wide motions
-  /// stay open. A row that is not free and has a positive upper bound is open by its gap; if the shifts would
-  /// close more than that gap, it becomes free.
+  /// Finds impulses that move bodies by `displacements`, instead of changing their velocities, such that the
+  /// gaps of the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt).
+  /// Bodies move by at most 1 / (2 sqrt(softening)) of the gaps, so gaps that could be closed only by wide
+  /// motions stay open. A row that is not free and has a positive upper bound is open by its gap; if the
+  /// displacements would close more than that gap, it becomes free.
   void correct(double softening);
-  struct Shift {
-    Vec2d way{};      ///< m
-    double turn = 0;  ///< rad
+  struct Displacement {
+    Vec2d translation{};  ///< m
+    double rotation = 0;  ///< rad
   };
-  std::pmr::vector<Shift> shifts;  ///< by body, set by `correct`
+  std::pmr::vector<Displacement> displacements;  ///< by body, set by `correct`
 
  private:
   // Maximum number of block pivots. Of the systems that pivoting solves, nine in ten need no more.
-  static constexpr int kPivots = 4;
+  static constexpr int kMaxPivots = 4;
   // Tolerated violation of a row's inequality, relative to the row with the largest energy v^2 / mobility
-  // (speeds of linear and of angular rows have different units). A violation beyond kClear, a hundred times
-  // the regularisation, counts before iterative refinement too: it would be in vain to refine rows that
-  // change sides anyway.
-  static constexpr double kSlack = 1e-9, kClear = 1e-5;
+  // (speeds of linear and of angular rows have different units). A violation beyond kClearViolation, a
+  // hundred times the regularisation, counts before iterative refinement too: it would be in vain to refine
+  // rows that change sides anyway.
+  static constexpr double kTolerance = 1e-9, kClearViolation = 1e-5;
   // Residual, on the same scale, below which a row is not refined.
   static constexpr double kExact = 1e-11;
   // Regularisation of rows that depend on each other: this fraction of each row's mobility is added to it, so
@@ -111,47 +111,46 @@ class BoundedRows {
   // The value is that of the rounding of positions in float: rows that differ only by rounding must not block
   // the motion that they allow. (A parallelogram in float that was flat in the middle of a substep lost 40 %
   // of its speed at 1e-10, and 0.4 % at 1e-7.)
-  static constexpr double kSharing = 1e-7;
+  static constexpr double kRegularisation = 1e-7;
   // Steps of iterative refinement, which remove the error of the regularisation.
   static constexpr int kRefinements = 2;
 
-  double along(const BoundedRow& row) const;
-  void push(const BoundedRow& row, double impulse);
+  double row_velocity(const BoundedRow& row) const;
+  void apply_impulse(const BoundedRow& row, double impulse);
   void find_mobility();
-  void find_largest();
+  void find_energy_scale();
   void find_blocks();
   void assemble();
   void factorise();
   void gather_free(int from);
   void find_free();
-  void find_shifts();
+  void find_displacements();
   bool refine();
   void apply_all();
   double residual(int row) const;
-  bool matters(int row, double speed, double share) const;
-  int count_wrong(double slack);
+  int count_violations(double slack);
   bool pivot();
   void set_fixed();
   bool solve_small();
   void solve_from_start();
   void start_from(std::span<const double> impulses);
-  void keep_energy(bool exact);
-  bool contradicted() const;
-  void release_tension();
+  void prevent_energy_gain(bool exact);
+  bool is_infeasible() const;
+  void relax_infeasible_rows();
   void find_impulses();
   void descend();
   void sweep(int passes);
   void minimise_free();
-  void advance(double share);
-  double share_within_bounds() const;
+  void advance(double fraction);
+  double max_step_fraction() const;
   bool minimise_on_face();
   struct Work {
-    double wanted = 0, own = 0;  // J
+    double target = 0, own = 0;  // J
   };
   Work work() const;
   double energy() const;
-  void shrink();
-  void start_from_guess();
+  void scale_impulses();
+  void prepare_guess();
 
   BlockOrder order_;
   EnvelopeMatrix all_, matrix_;          // of all rows in elimination order; of the free ones
@@ -165,14 +164,14 @@ class BoundedRows {
   std::pmr::vector<int> rank_;           // by place in that order: number of free rows before it
   std::pmr::vector<int> first_;
   std::pmr::vector<double> x_, guess_, best_;
-  std::pmr::vector<std::int8_t> wrong_;  // 0, or 1 + the state to change to
-  double largest_ = 0;                   // J, the largest v^2 / mobility of a row, or what the caller gave:
-  double least_energy_ = 0;              // J
-  bool assembled_ = false;               // all_ holds the present rows
-  bool factorised_ = false;              // matrix_ holds the factors of the rows in free_
-  bool shares_ = false;                  // free rows depend on each other: they are regularised
-  bool guesses_ = false;                 // guess_ is set (`start_from_guess`)
-  bool descended_ = false;               // the last solution was found by descent
+  std::pmr::vector<std::int8_t> next_state_;  // 0, or 1 + the state to change to
+  double energy_scale_ = 0;      // J, the largest v^2 / mobility of a row, or what the caller gave:
+  double min_energy_scale_ = 0;  // J
+  bool assembled_ = false;       // all_ holds the present rows
+  bool factorised_ = false;      // matrix_ holds the factors of the rows in free_
+  bool regularised_ = false;     // free rows depend on each other: they are regularised
+  bool guess_set_ = false;       // guess_ is set (`prepare_guess`)
+  bool descended_ = false;       // the last solution was found by descent
 };
 
 }  // namespace plumb

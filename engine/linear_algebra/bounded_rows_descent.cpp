@@ -23,31 +23,31 @@ void BoundedRows::sweep(int passes) {
       const double own = mobility_[i] * (1 + row.softening) + row.compliance;
       if (!(own > 0)) continue;
       const double now = std::min(std::max(row.impulse + residual(i) / own, row.lower), row.upper);
-      push(row, now - row.impulse);
+      apply_impulse(row, now - row.impulse);
       row.impulse = now;
     }
   }
 }
 
 // Adds a fraction of the step x_ to the free rows.
-void BoundedRows::advance(double share) {
+void BoundedRows::advance(double fraction) {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     BoundedRow& row = rows[free_[k]];
-    const double now = std::min(std::max(row.impulse + share * x_[k], row.lower), row.upper);
-    push(row, now - row.impulse);
+    const double now = std::min(std::max(row.impulse + fraction * x_[k], row.lower), row.upper);
+    apply_impulse(row, now - row.impulse);
     row.impulse = now;
   }
 }
 
 // Returns the largest fraction of the step x_, up to 1, that keeps the free rows within their bounds.
-double BoundedRows::share_within_bounds() const {
-  double share = 1;
+double BoundedRows::max_step_fraction() const {
+  double fraction = 1;
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const BoundedRow& row = rows[free_[k]];
-    if (row.impulse + x_[k] < row.lower) share = std::min(share, (row.lower - row.impulse) / x_[k]);
-    if (row.impulse + x_[k] > row.upper) share = std::min(share, (row.upper - row.impulse) / x_[k]);
+    if (row.impulse + x_[k] < row.lower) fraction = std::min(fraction, (row.lower - row.impulse) / x_[k]);
+    if (row.impulse + x_[k] > row.upper) fraction = std::min(fraction, (row.upper - row.impulse) / x_[k]);
   }
-  return share;
+  return fraction;
 }
 
 // Steps to the minimum over the rows that are between their bounds, or towards it for as long as the energy
@@ -63,18 +63,18 @@ bool BoundedRows::minimise_on_face() {
     bool exact = true;
     for (std::size_t k = 0; k < free_.size(); ++k) {
       x_[k] = residual(free_[k]);
-      exact = exact && !matters(free_[k], x_[k], kExact);
+      exact = exact && !is_significant(free_[k], x_[k], kExact);
     }
     if (exact) return true;
     matrix_.solve(x_.data());
-    const double share = share_within_bounds();
-    if (share == 1) {
+    const double fraction = max_step_fraction();
+    if (fraction == 1) {
       advance(1);
       continue;
     }
     // Try the whole step, clamped at the bounds; keep it if it is better than the step to the first bound.
     for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
-    advance(share);
+    advance(fraction);
     const double near = energy();
     for (std::size_t i = 0; i < rows.size(); ++i) std::swap(best_[i], rows[i].impulse);
     apply_all();
@@ -98,7 +98,7 @@ void BoundedRows::descend() {
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) sweep(kSweeps);
     minimise_free();
-    if (count_wrong(kSolved) == 0) return;
+    if (count_violations(kSolved) == 0) return;
   }
   sweep(kLastSweeps);
 }

@@ -17,8 +17,8 @@ bool BoundedRows::solve_small() {
   if (count == 1 && rows[0].lower == -std::numeric_limits<double>::infinity() &&
       rows[0].upper == std::numeric_limits<double>::infinity()) {
     BoundedRow& row = rows[0];
-    row.impulse = (row.wanted - along(row)) / (mobility_[0] * (1 + row.softening) + row.compliance);
-    push(row, row.impulse);
+    row.impulse = (row.target - row_velocity(row)) / (mobility_[0] * (1 + row.softening) + row.compliance);
+    apply_impulse(row, row.impulse);
     return true;
   }
   SmallMatrix all, part;
@@ -55,10 +55,10 @@ bool BoundedRows::solve_small() {
       to[i] = mobility_[i] * (1 + row.softening) + row.compliance;
     }
   }
-  if (bounded) find_largest();
+  if (bounded) find_energy_scale();
   int which[kSmallRows];
   double x[kSmallRows];
-  for (int pivots = 0; pivots < kPivots; ++pivots) {
+  for (int pivots = 0; pivots < kMaxPivots; ++pivots) {
     int size = 0;
     bool held = false;
     for (int i = 0; i < count; ++i) {
@@ -79,15 +79,15 @@ bool BoundedRows::solve_small() {
       free.solve(size, x);
       for (int k = 0; k < size; ++k) {
         rows[which[k]].impulse = x[k];
-        push(rows[which[k]], x[k]);
+        apply_impulse(rows[which[k]], x[k]);
       }
       if (!bounded) return true;
-      if (count_wrong(kSlack) == 0) {
-        if (held) shrink();
+      if (count_violations(kTolerance) == 0) {
+        if (held) scale_impulses();
         return true;
       }
       for (int i = 0; i < count; ++i)
-        if (wrong_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(wrong_[i] - 1);
+        if (next_state_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(next_state_[i] - 1);
     }
     std::copy(start_.begin(), start_.end(), bodies.begin());
     if (!well) return false;

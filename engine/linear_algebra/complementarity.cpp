@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/linear_algebra/dense_system.h"
-#include "engine/linear_algebra/matrix_parts.h"
+#include "engine/linear_algebra/matrix_components.h"
 
 namespace plumb {
 namespace {
@@ -40,7 +40,7 @@ class Tableau {
 
   /// Returns the lexicographically least row [q, w columns] in the present tableau, relative to the covering
   /// vector.
-  std::size_t least_row() const {
+  std::size_t first_leaving() const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < n_; ++i) {
       if (precedes(i, -at(i, cover()), best, -at(best, cover()))) best = i;
@@ -124,15 +124,15 @@ void polish(std::span<const double> matrix, std::span<const double> q, Complemen
   for (std::size_t i = 0; i < in.size(); ++i) solution.z[in[i]] = std::max(z[i], 0.0);
 }
 
-ComplementaritySolution follow(std::span<const double> matrix, std::span<const double> q,
-                               std::span<const double> covering, double least_pivot) {
+ComplementaritySolution run_lemke(std::span<const double> matrix, std::span<const double> q,
+                                  std::span<const double> covering, double least_pivot) {
   using Status = ComplementaritySolution::Status;
   const std::size_t n = q.size();
   ComplementaritySolution solution;
   solution.z.assign(n, 0.0);
   solution.basic.assign(n, 0);
   Tableau tableau(matrix, q, covering, least_pivot);
-  std::size_t row = tableau.least_row(), entering = tableau.cover();
+  std::size_t row = tableau.first_leaving(), entering = tableau.cover();
   const int most = 50 * static_cast<int>(n) + 50;
   for (;;) {
     const std::size_t left = tableau.basis(row);
@@ -161,8 +161,8 @@ ComplementaritySolution follow(std::span<const double> matrix, std::span<const d
 }
 
 /// Returns true if w >= 0 up to rounding, and w = 0 for basic z.
-bool holds(std::span<const double> matrix, std::span<const double> q,
-           const ComplementaritySolution& solution) {
+bool is_solution(std::span<const double> matrix, std::span<const double> q,
+                 const ComplementaritySolution& solution) {
   constexpr double kRounding = 1e-9;
   const std::size_t n = q.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -176,7 +176,7 @@ bool holds(std::span<const double> matrix, std::span<const double> q,
   return true;
 }
 
-ComplementaritySolution solve_part(std::span<const double> matrix, std::span<const double> q) {
+ComplementaritySolution solve_component(std::span<const double> matrix, std::span<const double> q) {
   using Status = ComplementaritySolution::Status;
   const std::size_t n = q.size();
   ComplementaritySolution solution;
@@ -186,16 +186,17 @@ ComplementaritySolution solve_part(std::span<const double> matrix, std::span<con
   // After a failure by rounding or on a ray, tries another covering vector, which takes another path. A
   // slightly enlarged diagonal avoids pivots that consist of rounding error.
   constexpr double kLeastPivot[] = {1e-11, 1e-13, 1e-9, 1e-12, 1e-12, 1e-12};
-  constexpr double kEnlarged[] = {0, 0, 0, 0, 1e-10, 1e-8};
+  constexpr double kDiagonalShift[] = {0, 0, 0, 0, 1e-10, 1e-8};
   std::vector<double> enlarged(matrix.begin(), matrix.end());
   std::vector<double> covering(n, 1.0);
   int pivots = 0;
   for (std::size_t attempt = 0; attempt < std::size(kLeastPivot); ++attempt) {
-    for (std::size_t i = 0; i < n; ++i) enlarged[i * n + i] = matrix[i * n + i] + kEnlarged[attempt];
-    solution = follow(enlarged, q, covering, kLeastPivot[attempt]);
+    for (std::size_t i = 0; i < n; ++i) enlarged[i * n + i] = matrix[i * n + i] + kDiagonalShift[attempt];
+    solution = run_lemke(enlarged, q, covering, kLeastPivot[attempt]);
     if (solution.status == Status::Solved) polish(matrix, q, solution);
     pivots += solution.pivots;
-    if (solution.status == Status::Solved && !holds(matrix, q, solution)) solution.status = Status::Limit;
+    if (solution.status == Status::Solved && !is_solution(matrix, q, solution))
+      solution.status = Status::Limit;
     if (solution.status == Status::Solved) break;
     for (std::size_t i = 0; i < n; ++i) covering[i] = 1 + static_cast<double>((i * (attempt + 3)) % 7) / 7;
   }
@@ -206,9 +207,9 @@ ComplementaritySolution solve_part(std::span<const double> matrix, std::span<con
 }  // namespace
 
 ComplementaritySolution solve_complementarity(std::span<const double> matrix, std::span<const double> q) {
-  MatrixParts parts;
+  MatrixComponents parts;
   parts.find(q.size(), matrix);
-  if (parts.count() == 1) return solve_part(matrix, q);
+  if (parts.count() == 1) return solve_component(matrix, q);
   ComplementaritySolution solution;
   solution.z.assign(q.size(), 0.0);
   solution.basic.assign(q.size(), 0);
@@ -218,7 +219,7 @@ ComplementaritySolution solve_complementarity(std::span<const double> matrix, st
     parts.take(p, matrix, own_matrix);
     own_q.clear();
     for (const std::size_t i : rows) own_q.push_back(q[i]);
-    const ComplementaritySolution own = solve_part(own_matrix, own_q);
+    const ComplementaritySolution own = solve_component(own_matrix, own_q);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       solution.z[rows[i]] = own.z[i];
       solution.basic[rows[i]] = own.basic[i];

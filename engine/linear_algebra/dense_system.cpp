@@ -8,11 +8,11 @@
 namespace plumb {
 namespace {
 
-// Systems up to kCompletely unknowns use complete pivoting. In larger ones a pivot may be smaller than the
-// largest remaining entry by the factor kEnough. Growth stays small, and the rank is that of complete
-// pivoting unless entries are within this factor of rounding.
-constexpr std::size_t kCompletely = 64;
-constexpr double kEnough = 0.1;
+// Systems up to kCompletePivotingSize unknowns use complete pivoting. In larger ones a pivot may be smaller
+// than the largest remaining entry by the factor kPivotThreshold. Growth stays small, and the rank is that of
+// complete pivoting unless entries are within this factor of rounding.
+constexpr std::size_t kCompletePivotingSize = 64;
+constexpr double kPivotThreshold = 0.1;
 
 }  // namespace
 
@@ -21,16 +21,16 @@ std::size_t DenseSystem::factor(std::size_t size, std::span<const double> matrix
   size_ = size;
   original_.assign(matrix.begin(), matrix.end());
   work_.resize(size);
-  division_.find(size, matrix);
-  if (parts_.size() < division_.count()) parts_.resize(division_.count());
+  components_.find(size, matrix);
+  if (parts_.size() < components_.count()) parts_.resize(components_.count());
   double largest = 0;
   for (const double x : original_) largest = std::max(largest, std::abs(x));
   rank_ = 0;
-  for (std::size_t p = 0; p < division_.count(); ++p) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
     Part& part = parts_[p];
-    const std::span<const std::size_t> rows = division_.part(p);
+    const std::span<const std::size_t> rows = components_.part(p);
     part.size = rows.size();
-    division_.take(p, original_, part.lu);
+    components_.take(p, original_, part.lu);
     part.factor(dependent * largest);
     for (std::size_t i = 0; i < part.size; ++i)
       part.row[i] = rows[part.row[i]], part.column[i] = rows[part.column[i]];
@@ -64,7 +64,7 @@ void DenseSystem::Part::factor(double least) {
   for (; rank < size; ++rank) {
     const auto most = std::max_element(largest.begin() + static_cast<std::ptrdiff_t>(rank), largest.end());
     if (!(*most > least)) break;
-    bring_pivot(static_cast<std::size_t>(most - largest.begin()));
+    move_pivot(static_cast<std::size_t>(most - largest.begin()));
     eliminate();
   }
   // So far, only `column` records how columns were exchanged: now move them.
@@ -81,9 +81,9 @@ void DenseSystem::Part::factor(double least) {
 /// much smaller than that: the diagonal, if that is large enough, otherwise the row's largest entry. This
 /// preserves zeros (H. M. Markowitz, Management Science 3, 1957; with a threshold as in I. S. Duff, A. M.
 /// Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 1986, ch. 7).
-void DenseSystem::Part::bring_pivot(std::size_t from_row) {
-  const bool lean = size > kCompletely;
-  const double enough = kEnough * largest[from_row];
+void DenseSystem::Part::move_pivot(std::size_t from_row) {
+  const bool lean = size > kCompletePivotingSize;
+  const double enough = kPivotThreshold * largest[from_row];
   for (std::size_t i = rank; lean && i < size; ++i) {
     if (largest[i] >= enough && entries[i].size() < entries[from_row].size()) from_row = i;
   }
@@ -143,7 +143,7 @@ void DenseSystem::Part::solve(std::span<double> b, std::span<double> work) const
 
 void DenseSystem::solve(std::span<double> b) const {
   assert(b.size() == size_);
-  for (std::size_t p = 0; p < division_.count(); ++p) parts_[p].solve(b, work_);
+  for (std::size_t p = 0; p < components_.count(); ++p) parts_[p].solve(b, work_);
 }
 
 void DenseSystem::solve_refined(std::span<double> b) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/linear_algebra/matrix_parts.h"
+#include "engine/linear_algebra/matrix_components.h"
 
 namespace plumb {
 
@@ -38,14 +38,14 @@ class DenseSystem {
     std::vector<std::size_t> place;
     void begin();
     void factor(double least);
-    void bring_pivot(std::size_t from_row);
+    void move_pivot(std::size_t from_row);
     void eliminate();
     void solve(std::span<double> b, std::span<double> work) const;
   };
 
   std::size_t size_ = 0, rank_ = 0;
   std::vector<double> original_;
-  MatrixParts division_;
+  MatrixComponents components_;
   std::vector<Part> parts_;  // as many as there are; unused ones keep their memory
   mutable std::vector<double> work_;
   std::vector<double> residual_;

@@ -47,7 +47,7 @@ void EnvelopeMatrix::shape(std::span<const int> first) {
 
 double EnvelopeMatrix::factorise(int from) {
   // Pivots below this fraction of the diagonal count as zero: the row depends on others, up to rounding.
-  constexpr double kNothing = 1e-12;
+  constexpr double kDependentPivot = 1e-12;
   double least = 1;
   for (int i = from; i < size(); ++i) {
     double* row = &values_[start_[i]] - first_[i];
@@ -65,7 +65,7 @@ double EnvelopeMatrix::factorise(int from) {
       pivot -= l * row[j];
       row[j] = l;
     }
-    const bool independent = pivot > kNothing * diagonal;
+    const bool independent = pivot > kDependentPivot * diagonal;
     pivots_[i] = independent ? pivot : 0;
     inverse_pivots_[i] = independent ? 1 / pivot : 0;
     if (!independent) {

@@ -11,8 +11,8 @@ namespace plumb {
 /// Positive Definite Systems, 1981, ch. 4). For chains and towers the cost is linear.
 class EnvelopeMatrix {
  public:
-  explicit EnvelopeMatrix(std::pmr::memory_resource* room = std::pmr::get_default_resource())
-      : first_(room), start_(room), values_(room), inverse_pivots_(room), pivots_(room) {}
+  explicit EnvelopeMatrix(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : first_(memory), start_(memory), values_(memory), inverse_pivots_(memory), pivots_(memory) {}
 
   /// Sets up rows 0 .. first.size() - 1, row i from column first[i] <= i, with zeros. Allocates only when it
   /// grows.

@@ -142,8 +142,8 @@ void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
 template <class Real>
 int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   assert(rows.size() == row_count());
-  weakest_ = 1;
-  weakest_place_ = order_.size();
+  min_pivot_ratio_ = 1;
+  min_pivot_place_ = order_.size();
   if (!hinges_.empty()) return factor_hinges(rows);
   int dependent = 0;
   take_jacobian(rows);
@@ -178,25 +178,25 @@ bool JointSystem<Real>::take_pivot(Real pivot, Real own, std::size_t place) {
   // A pivot that has lost all but a few digits is the rounding error of a dependent row.
   constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
   const bool independent =
-      pivot > std::max(kDependent, least_share_) * own && (kept_.empty() || kept_[place] == 0);
+      pivot > std::max(kDependent, pivot_threshold_) * own && (frozen_.empty() || frozen_[place] == 0);
   inverse_diagonal_[place] = independent ? 1 / pivot : 0;
-  if (independent && pivot < weakest_ * own) weakest_ = pivot / own, weakest_place_ = place;
+  if (independent && pivot < min_pivot_ratio_ * own) min_pivot_ratio_ = pivot / own, min_pivot_place_ = place;
   return independent;
 }
 
 template <class Real>
-void JointSystem<Real>::set_least_share(Real share) {
+void JointSystem<Real>::set_pivot_threshold(Real share) {
   assert(share >= 0 && share < 1);
-  least_share_ = share;
+  pivot_threshold_ = share;
 }
 
 template <class Real>
-void JointSystem<Real>::keep_dependent() {
-  kept_.assign(order_.size(), 0);
-  kept_count_ = 0;
+void JointSystem<Real>::freeze_dependent() {
+  frozen_.assign(order_.size(), 0);
+  frozen_count_ = 0;
   for (std::size_t k = 0; k < order_.size(); ++k) {
-    kept_[k] = inverse_diagonal_[k] == 0;
-    kept_count_ += kept_[k];
+    frozen_[k] = inverse_diagonal_[k] == 0;
+    frozen_count_ += frozen_[k];
   }
 }
 
@@ -237,14 +237,14 @@ void JointSystem<Real>::refine(std::span<const Row<Real>> rows, std::span<const 
                                std::span<Real> x) const {
   assert(rows.size() == row_count() && right_side.size() == rows.size() && x.size() == rows.size());
   std::fill(response_.begin(), response_.end(), Twist<Real>{});
-  const auto pull = [&](int body, Vec2<Real> linear, Real angular, Real multiplier) {
+  const auto add_impulse = [&](int body, Vec2<Real> linear, Real angular, Real multiplier) {
     if (body == kFixedFrame) return;
     response_[body].velocity += multiplier * linear;
     response_[body].angular_velocity += multiplier * angular;
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    pull(rows[i].a, rows[i].linear_a, rows[i].angular_a, x[i]);
-    pull(rows[i].b, rows[i].linear_b, rows[i].angular_b, x[i]);
+    add_impulse(rows[i].a, rows[i].linear_a, rows[i].angular_a, x[i]);
+    add_impulse(rows[i].b, rows[i].linear_b, rows[i].angular_b, x[i]);
   }
   for (std::size_t body = 0; body < response_.size(); ++body) {
     response_[body].velocity *= inverse_mass_[body];

@@ -32,12 +32,12 @@ class JointSystem {
 
   /// Sets the independent fraction of a row below which it counts as dependent from now on. 0: only rounding
   /// counts.
-  void set_least_share(Real share);
+  void set_pivot_threshold(Real share);
   /// Keeps the dependent rows of the last factorisation dependent in all later ones, for any rounding of
   /// their pivots, until `release_dependent`.
-  void keep_dependent();
-  void release_dependent() { kept_.clear(), kept_count_ = 0; }
-  int kept() const { return kept_count_; }  ///< number of these rows
+  void freeze_dependent();
+  void release_dependent() { frozen_.clear(), frozen_count_ = 0; }
+  int frozen_count() const { return frozen_count_; }  ///< number of these rows
 
   /// Solves A x = right_side in place, with the last factorisation.
   void solve(std::span<Real> right_side) const;
@@ -49,10 +49,11 @@ class JointSystem {
 
   /// Returns the least independent fraction of a row in the last factorisation, except dependent rows. It
   /// goes to zero as the mechanism becomes singular.
-  Real weakest() const { return weakest_; }
-  /// Returns the row of `weakest`; `row_count` if all rows are as independent as they would be alone.
-  std::size_t weakest_row() const {
-    return weakest_place_ < order_.size() ? static_cast<std::size_t>(order_[weakest_place_]) : order_.size();
+  Real min_pivot_ratio() const { return min_pivot_ratio_; }
+  /// Returns the row of `min_pivot_ratio`; `row_count` if all rows are as independent as they would be alone.
+  std::size_t min_pivot_row() const {
+    return min_pivot_place_ < order_.size() ? static_cast<std::size_t>(order_[min_pivot_place_])
+                                            : order_.size();
   }
   /// Returns, by row, 1 if it was dependent in the last factorisation, else 0.
   std::vector<char> dependent() const;
@@ -113,10 +114,10 @@ class JointSystem {
   std::vector<Real> jacobian_, weighted_;
 
   std::vector<Real> inverse_diagonal_;  // of D; zero for a dependent row
-  Real weakest_ = 1, least_share_ = 0;
-  std::size_t weakest_place_ = 0;
-  int kept_count_ = 0;
-  std::vector<char> kept_;     // by place: dependent rows that stay so; empty: none
+  Real min_pivot_ratio_ = 1, pivot_threshold_ = 0;
+  std::size_t min_pivot_place_ = 0;
+  int frozen_count_ = 0;
+  std::vector<char> frozen_;   // by place: dependent rows that stay so; empty: none
   std::vector<Hinge> hinges_;  // in elimination order; empty unless all rows are of hinges in lines
   std::vector<HingeBlock> hinge_blocks_;
   std::vector<std::size_t> filled_;  // while factorising: end of the known part of a column

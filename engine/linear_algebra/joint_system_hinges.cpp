@@ -76,12 +76,14 @@ typename JointSystem<Real>::HingeBlock JointSystem<Real>::hinge_block(const Row<
     const Side<Real> one = side_of(first, side), two = side_of(second, side);
     if (one.body == kFixedFrame) continue;
     const Real mass = inverse_mass_[one.body], inertia = inverse_inertia_[one.body];
-    const Vec2<Real> pull = mass * two.linear;
-    const Real turn = inertia * two.angular;
+    const Vec2<Real> weighted_linear = mass * two.linear;
+    const Real weighted_angular = inertia * two.angular;
     block.rest[0] += mass * one.linear.x * one.linear.x + mass * one.linear.y * one.linear.y +
                      inertia * one.angular * one.angular;
-    block.rest[1] += pull.x * one.linear.x + pull.y * one.linear.y + turn * one.angular;
-    block.rest[2] += pull.x * two.linear.x + pull.y * two.linear.y + turn * two.angular;
+    block.rest[1] +=
+        weighted_linear.x * one.linear.x + weighted_linear.y * one.linear.y + weighted_angular * one.angular;
+    block.rest[2] +=
+        weighted_linear.x * two.linear.x + weighted_linear.y * two.linear.y + weighted_angular * two.angular;
   }
   block.own[0] = block.rest[0], block.own[1] = block.rest[2];
   return block;
@@ -112,10 +114,12 @@ int JointSystem<Real>::factor_hinges(std::span<const Row<Real>> rows) {
     Real y[2][2], l[2][2];
     for (int i = 0; i < 2; ++i) {
       const Side<Real> row = side_of(rows[next.row + i], hinge.next_side);
-      const Vec2<Real> pull = mass * row.linear;
-      const Real turn = inertia * row.angular;
-      y[i][0] = pull.x * left1.linear.x + pull.y * left1.linear.y + turn * left1.angular;
-      y[i][1] = pull.x * left2.linear.x + pull.y * left2.linear.y + turn * left2.angular - within * y[i][0];
+      const Vec2<Real> weighted_linear = mass * row.linear;
+      const Real weighted_angular = inertia * row.angular;
+      y[i][0] = weighted_linear.x * left1.linear.x + weighted_linear.y * left1.linear.y +
+                weighted_angular * left1.angular;
+      y[i][1] = weighted_linear.x * left2.linear.x + weighted_linear.y * left2.linear.y +
+                weighted_angular * left2.angular - within * y[i][0];
       l[i][0] = y[i][0] * inverse1;
       l[i][1] = y[i][1] * inverse2;
     }

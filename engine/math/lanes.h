@@ -23,8 +23,8 @@ namespace plumb {
 template <class Real, int kBytes>
 struct Register {
   typedef Real Part __attribute__((vector_size(kBytes)));
-  using Mask = decltype(Part{} < Part{});         // all bits of a lane are ones or zeros
-  struct [[gnu::packed, gnu::may_alias]] Loose {  // numbers in memory, which may alias others
+  using Mask = decltype(Part{} < Part{});             // all bits of a lane are ones or zeros
+  struct [[gnu::packed, gnu::may_alias]] Unaligned {  // numbers in memory, which may alias others
     Part part;
   };
   typedef long long Words __attribute__((vector_size(kBytes)));
@@ -34,7 +34,7 @@ template <class Real, int kBytes>
 struct Register {
   using Part = Real;
   using Mask = bool;
-  struct Loose {
+  struct Unaligned {
     Part part;
   };
 };
@@ -77,7 +77,7 @@ struct Lanes {
   }
   [[gnu::always_inline]] static Lanes load(const Real* from) {
     Lanes out;
-    const auto* parts = reinterpret_cast<const typename Registers::Loose*>(from);
+    const auto* parts = reinterpret_cast<const typename Registers::Unaligned*>(from);
     for (int k = 0; k < kParts; ++k) out.part[k] = parts[k].part;
     return out;
   }
@@ -87,7 +87,7 @@ struct Lanes {
     return collect(number, std::make_integer_sequence<int, kCount / kParts>());
   }
   [[gnu::always_inline]] void store(Real* to) const {
-    auto* parts = reinterpret_cast<typename Registers::Loose*>(to);
+    auto* parts = reinterpret_cast<typename Registers::Unaligned*>(to);
     for (int k = 0; k < kParts; ++k) parts[k].part = part[k];
   }
   /// Address must be a multiple of 16 bytes.

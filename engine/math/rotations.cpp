@@ -41,7 +41,7 @@ constexpr std::size_t kLanes = 4;
 
 /// Computes cosine and sine of angle = n pi + r, |r| <= pi/2, by Taylor's series; the first terms left out
 /// are below 1e-17.
-void near_turn(const double* angle, double* cosine, double* sine) {
+void four_rotations(const double* angle, double* cosine, double* sine) {
   using Four = Four<double>;
   const auto all = [](double x) { return Four(x); };
   const Four to_integer = all(0x1.8p52),
@@ -71,11 +71,11 @@ void rotations_of(std::span<const double> angles, std::span<double> cosines, std
     }
     return;
   }
-  for (std::size_t i = 0; i < whole; i += kLanes) near_turn(&angles[i], &cosines[i], &sines[i]);
+  for (std::size_t i = 0; i < whole; i += kLanes) four_rotations(&angles[i], &cosines[i], &sines[i]);
   if (whole == count) return;
   double rest[kLanes] = {}, c[kLanes], s[kLanes];
   for (std::size_t i = whole; i < count; ++i) rest[i - whole] = angles[i];
-  near_turn(rest, c, s);
+  four_rotations(rest, c, s);
   for (std::size_t i = whole; i < count; ++i) cosines[i] = c[i - whole], sines[i] = s[i - whole];
 }
 

@@ -4,26 +4,26 @@
 #include <cstdint>
 #include <limits>
 
-#include "engine/math/two_doubles.h"
+#include "engine/math/double_double.h"
 
 namespace plumb {
 namespace {
 
 /// angle = quadrant pi/2 + rest, |rest| <= pi/4 (up to a rounding).
 struct Reduced {
-  TwoDoubles rest;
+  DoubleDouble rest;
   unsigned quadrant = 0;
 };
 
 /// Returns a + b without error (Knuth).
-TwoDoubles exact_sum(double a, double b) {
+DoubleDouble exact_sum(double a, double b) {
   const double sum = a + b;
   const double b_seen = sum - a;
   return {sum, (a - (sum - b_seen)) + (b - b_seen)};
 }
 
 /// Returns a b without error, from halves of 26 bits (Veltkamp, Dekker).
-TwoDoubles exact_product(double a, double b) {
+DoubleDouble exact_product(double a, double b) {
   constexpr double kSplit = 0x1p27 + 1;
   const double a_high = kSplit * a - (kSplit * a - a), a_low = a - a_high;
   const double b_high = kSplit * b - (kSplit * b - b), b_low = b - b_high;
@@ -42,8 +42,8 @@ Reduced reduce_by_parts(double angle) {
   constexpr double kToInteger = 0x1.8p52;  // adding it rounds to the nearest integer
   const double quadrants = (angle * kTwoOverPi + kToInteger) - kToInteger;
   const double first = angle - quadrants * kHalfPiParts[0];
-  const TwoDoubles second = exact_sum(first, -quadrants * kHalfPiParts[1]);
-  const TwoDoubles third = exact_sum(second.value, -quadrants * kHalfPiParts[2]);
+  const DoubleDouble second = exact_sum(first, -quadrants * kHalfPiParts[1]);
+  const DoubleDouble third = exact_sum(second.value, -quadrants * kHalfPiParts[2]);
   const double tail = (second.tail + third.tail) - quadrants * kHalfPiRest;
   return {exact_sum(third.value, tail), static_cast<unsigned>(static_cast<std::int64_t>(quadrants)) & 3u};
 }
@@ -99,15 +99,15 @@ Reduced reduce_by_bits(double angle) {
     product[kLimbs - 1] &= 0x3FFFFFFFu;
   }
 
-  TwoDoubles fraction;
+  DoubleDouble fraction;
   double weight = 0x1p-30;
   for (int i = kLimbs - 1; i >= 0; --i, weight *= 0x1p-32) {
-    const TwoDoubles sum = exact_sum(fraction.value, product[i] * weight);
+    const DoubleDouble sum = exact_sum(fraction.value, product[i] * weight);
     fraction = exact_sum(sum.value, sum.tail + fraction.tail);
   }
-  constexpr TwoDoubles kQuarterTurn = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-  const TwoDoubles main = exact_product(fraction.value, kQuarterTurn.value);
-  const TwoDoubles rest = exact_sum(
+  constexpr DoubleDouble kQuarterTurn = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+  const DoubleDouble main = exact_product(fraction.value, kQuarterTurn.value);
+  const DoubleDouble rest = exact_sum(
       main.value, main.tail + (fraction.value * kQuarterTurn.tail + fraction.tail * kQuarterTurn.value));
   const double sign = above_half ? -1 : 1;
   if (angle < 0) return {{-sign * rest.value, -sign * rest.tail}, (0u - quadrant) & 3u};

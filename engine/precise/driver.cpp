@@ -13,18 +13,18 @@
 namespace plumb::precise {
 
 void PreciseDriver::read(std::span<BodyState> out) const {
-  for (const std::size_t body : parts_.flying) out[body] = flight_.at(body, time_).state;
-  if (sampled_ != time_) smooth_.at(time_, true, sample_);
+  for (const std::size_t body : partition_.ballistic) out[body] = ballistic_.at(body, time_).state;
+  if (sampled_ != time_) integrator_.at(time_, true, sample_);
   sampled_ = time_;
-  for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-    out[parts_.integrated[slot]] = EquationsOfMotion::state(sample_.value(), slot);
+  for (std::size_t slot = 0; slot < partition_.integrated.size(); ++slot) {
+    out[partition_.integrated[slot]] = EquationsOfMotion::state(sample_.value(), slot);
   }
 }
 
 Reactions PreciseDriver::reactions() {
-  if (parts_.integrated.empty()) return {};
-  if (!joints_closed_) return reactions_after_next_decision();
-  if (sampled_ != time_) smooth_.at(time_, true, sample_);
+  if (partition_.integrated.empty()) return {};
+  if (!joints_closed_) return reactions_of_next_step();
+  if (sampled_ != time_) integrator_.at(time_, true, sample_);
   sampled_ = time_;
   return equations_.reactions(time_, sample_.value());
 }
@@ -32,19 +32,19 @@ Reactions PreciseDriver::reactions() {
 /// Computes the forces with which the next step begins. Before the first step, and after bodies were changed
 /// from outside, no step has yet closed the joints and decided about contacts, limits and motors, so this
 /// does both. It restores the motion afterwards: a request for forces changes no bits.
-Reactions PreciseDriver::reactions_after_next_decision() {
+Reactions PreciseDriver::reactions_of_next_step() {
   const std::vector<std::byte> before = save();
   const bool written = written_;
   const auto put_back = [&] {
-    take(before);
+    load(before);
     written_ = written;
   };
   Reactions out;
   try {
     close_joints();
-    decide();
+    prepare_step();
     equations_.set_window(time_, time_);
-    out = equations_.reactions(time_, smooth_.state().value());
+    out = equations_.reactions(time_, integrator_.state().value());
   } catch (...) {
     put_back();
     throw;
@@ -55,17 +55,17 @@ Reactions PreciseDriver::reactions_after_next_decision() {
 
 void PreciseDriver::write(std::size_t body, const BodyState& state) {
   BodyState allowed = state;
-  if (at_rest_[body]) allowed.velocity = {};
-  if (at_rest_[body] || locked_[body]) allowed.angular_velocity = 0;
-  smooth_.rewind(time_);
-  follow();
-  contacts_.let_go();
-  const auto slot = flight_.holds(body) ? std::nullopt : std::optional(slot_of(body));
+  if (is_static_[body]) allowed.velocity = {};
+  if (is_static_[body] || locked_[body]) allowed.angular_velocity = 0;
+  integrator_.rewind(time_);
+  advance_sensitivities();
+  contacts_.release();
+  const auto slot = ballistic_.contains(body) ? std::nullopt : std::optional(slot_of(body));
   if (sensitivities_) sensitivities_->write(body, slot, time_, allowed);
-  if (flight_.holds(body)) {
-    flight_.restart(body, time_, allowed);
+  if (ballistic_.contains(body)) {
+    ballistic_.restart(body, time_, allowed);
   } else {
-    EquationsOfMotion::set_state(smooth_.change(), slot_of(body), allowed);
+    EquationsOfMotion::set_state(integrator_.mutable_state(), slot_of(body), allowed);
   }
   joints_closed_ = false;
   written_ = true;
@@ -75,21 +75,22 @@ void PreciseDriver::write(std::size_t body, const BodyState& state) {
 std::vector<BodyState> PreciseDriver::sensitivities(std::size_t parameter) {
   if (!sensitivities_ || parameter >= sensitivities_->size()) return Driver::sensitivities(parameter);
   // The last step may have crossed a singularity, which `follow` notices only before the next step.
-  if (leapt()) sensitivities_->refuse(parameter, NoDerivative::Singular, smooth_.start());
+  if (has_new_singularity())
+    sensitivities_->throw_not_differentiable(parameter, NoDerivative::Singular, integrator_.start());
   return sensitivities_->at(parameter, time_, names_.size());
 }
 
 /// Advances the sensitivities to the end of the last step.
-void PreciseDriver::follow() {
+void PreciseDriver::advance_sensitivities() {
   if (!sensitivities_) return;
-  if (leapt()) sensitivities_->fail_all(NoDerivative::Singular, smooth_.start());
-  leaps_seen_ = smooth_.leaps();
-  sensitivities_->advance(smooth_.time(), smooth_.state());
+  if (has_new_singularity()) sensitivities_->fail_all(NoDerivative::Singular, integrator_.start());
+  handled_singularities_ = integrator_.singularity_steps();
+  sensitivities_->advance(integrator_.time(), integrator_.state());
 }
 
 void PreciseDriver::profile(bool on) {
   profiling_ = equations_.cost.on = on;
-  equations_.cost.forces = equations_.cost.joints = smooth_.projection_nanoseconds = 0;
+  equations_.cost.forces = equations_.cost.joints = integrator_.projection_nanoseconds = 0;
   for (Stage& stage : plan_.stages) stage.nanoseconds = 0;
   cost_ = {};
 }
@@ -97,10 +98,10 @@ void PreciseDriver::profile(bool on) {
 Statistics PreciseDriver::statistics() const {
   Statistics all = statistics_;
   all.evaluations = equations_.evaluations();
-  all.rejected = smooth_.rejected();
-  all.implicit = smooth_.implicit_steps();
-  all.leaps = smooth_.leaps();
-  all.redundant_joints = static_cast<std::int64_t>(smooth_.redundant_joints().size());
+  all.rejected = integrator_.rejected();
+  all.implicit = integrator_.implicit_steps();
+  all.leaps = integrator_.singularity_steps();
+  all.redundant_joints = static_cast<std::int64_t>(integrator_.redundant_joints().size());
   all.contacts = contacts_.events();
   all.impacts = contacts_.impacts();
   return all;
@@ -108,19 +109,19 @@ Statistics PreciseDriver::statistics() const {
 
 void PreciseDriver::check_finite() {
   const auto check = [&](std::size_t body, const BodyState& s) {
-    const std::pair<const char*, double> parts[] = {
+    const std::pair<const char*, double> numbers[] = {
         {"position.x", s.position.x}, {"position.y", s.position.y}, {"angle", s.angle},
         {"velocity.x", s.velocity.x}, {"velocity.y", s.velocity.y}, {"angular_velocity", s.angular_velocity}};
-    for (const auto& [field, value] : parts) {
+    for (const auto& [field, value] : numbers) {
       if (!std::isfinite(value)) fail("body '" + names_[body] + "'", field, shortest(value), "not finite");
     }
   };
   if (active(kPolynomialFlight)) {
     const Clock clock(profiling_, cost_[kPolynomialFlight]);
-    for (const std::size_t body : parts_.flying) check(body, flight_.at(body, time_).state);
+    for (const std::size_t body : partition_.ballistic) check(body, ballistic_.at(body, time_).state);
   }
-  for (std::size_t slot = 0; slot < parts_.integrated.size(); ++slot) {
-    check(parts_.integrated[slot], EquationsOfMotion::state(smooth_.state().value(), slot));
+  for (std::size_t slot = 0; slot < partition_.integrated.size(); ++slot) {
+    check(partition_.integrated[slot], EquationsOfMotion::state(integrator_.state().value(), slot));
   }
 }
 
@@ -135,7 +136,7 @@ void PreciseDriver::report_cost() {
   if (!profiling_) return;
   cost_[kForces] = equations_.cost.forces;
   cost_[kJointAccelerations] = equations_.cost.joints;
-  cost_[kProjection] = smooth_.projection_nanoseconds;
+  cost_[kProjection] = integrator_.projection_nanoseconds;
   for (int i = 0; i < kStageCount; ++i) plan_.stages[i].nanoseconds = cost_[i];
   double& rest = plan_.stages[kRungeKutta].nanoseconds;  // everything except evaluations and projection
   rest = std::max(0.0, rest - cost_[kForces] - cost_[kJointAccelerations] - cost_[kProjection]);
@@ -151,13 +152,13 @@ std::vector<std::byte> PreciseDriver::save() const {
   out.put(std::int64_t{joints_closed_});
   out.put(statistics_.steps);
   contacts_.save(out);
-  smooth_.save(time_, out);
+  integrator_.save(time_, out);
   invariants_.save(out);
   out.put(equations_.evaluations());
-  for (const Flight::Arc& arc : flight_.arcs()) out.put(arc);
+  for (const BallisticMotion::Arc& arc : ballistic_.arcs()) out.put(arc);
   if (sensitivities_) {
     sensitivities_->save(out);
-    out.put(leaps_seen_);
+    out.put(handled_singularities_);
   }
   return out.bytes();
 }
@@ -165,14 +166,14 @@ std::vector<std::byte> PreciseDriver::save() const {
 void PreciseDriver::restore(std::span<const std::byte> snapshot) {
   const std::vector<std::byte> before = save();
   try {
-    take(snapshot);
+    load(snapshot);
   } catch (const Error&) {
-    take(before);
+    load(before);
     throw;
   }
 }
 
-void PreciseDriver::take(std::span<const std::byte> snapshot) {
+void PreciseDriver::load(std::span<const std::byte> snapshot) {
   SnapshotReader in(snapshot);
   time_ = in.get<double>();
   last_event_ = in.get<double>();
@@ -182,13 +183,13 @@ void PreciseDriver::take(std::span<const std::byte> snapshot) {
   statistics_ = {};
   statistics_.steps = in.get<std::int64_t>();
   contacts_.restore(in);
-  smooth_.restore(in);
+  integrator_.restore(in);
   invariants_.restore(in);
   equations_.set_evaluations(in.get<std::int64_t>());
-  for (Flight::Arc& arc : flight_.arcs()) arc = in.get<Flight::Arc>();
+  for (BallisticMotion::Arc& arc : ballistic_.arcs()) arc = in.get<BallisticMotion::Arc>();
   if (sensitivities_) {
     sensitivities_->restore(in, contacts_);
-    leaps_seen_ = in.get<std::int64_t>();
+    handled_singularities_ = in.get<std::int64_t>();
   }
   in.expect_end();
   written_ = true;  // its initial state no longer matters

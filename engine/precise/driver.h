@@ -11,12 +11,12 @@
 #include "engine/driver/accuracy.h"
 #include "engine/driver/driver.h"
 #include "engine/integrate/compensated.h"
-#include "engine/precise/dynamics/flight.h"
-#include "engine/precise/dynamics/joint_starts.h"
+#include "engine/precise/dynamics/ballistic_motion.h"
+#include "engine/precise/dynamics/initial_joint_errors.h"
 #include "engine/precise/dynamics/motion.h"
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/precise/events/contacts.h"
-#include "engine/precise/integration/smooth.h"
+#include "engine/precise/integration/integrator.h"
 #include "engine/precise/invariants.h"
 #include "engine/precise/plan.h"
 #include "engine/precise/sensitivity/sensitivities.h"
@@ -45,50 +45,50 @@ class PreciseDriver final : public Driver {
 
  private:
   /// Returns true if the motion has crossed a singularity that the sensitivities have not handled yet.
-  bool leapt() const { return smooth_.leaps() != leaps_seen_; }
+  bool has_new_singularity() const { return integrator_.singularity_steps() != handled_singularities_; }
   bool active(StageIndex stage) const { return plan_.stages[stage].active; }
 
   // The parts of a step, in this order.
   void close_joints();
-  void go_on(double end);
-  void decide();
+  void advance(double end);
+  void prepare_step();
   double limit_of_step(double end) const;
-  void arrive();
-  void settle();
-  void follow();
+  void switch_forces();
+  void resolve_event();
+  void advance_sensitivities();
 
   // Helpers of these parts.
-  Reactions reactions_after_next_decision();
-  void name_redundant_joints();
-  void refuse_open_joints() const;
+  Reactions reactions_of_next_step();
+  void report_redundant_joints();
+  void check_initial_gaps() const;
   std::size_t slot_of(std::size_t body) const;
-  void take(std::span<const std::byte> snapshot);
+  void load(std::span<const std::byte> snapshot);
   void check_finite();
   void report_cost();
   [[noreturn]] void fail(const std::string& subject, const std::string& field, const std::string& value,
                          const std::string& problem) const;
 
-  const double max_dt_, overlap_;  // s; fraction of the scene's length that shapes may overlap by at the
-                                   // start
-  Parts parts_;
+  const double max_dt_, overlap_tolerance_;  // s; fraction of the scene's length that shapes may overlap by
+                                             // at the start
+  ScenePartition partition_;
   Plan plan_;
-  Flight flight_;
+  BallisticMotion ballistic_;
   EquationsOfMotion equations_;
-  mutable EventFreeIntegrator smooth_;  // mutable: computes its polynomial when it is read
-  mutable Compensated sample_;          // of the integrated bodies at sampled_, if within the last step
-  mutable double sampled_ = -1;         // s
+  mutable EventFreeIntegrator integrator_;  // mutable: computes its polynomial when it is read
+  mutable Compensated sample_;              // of the integrated bodies at sampled_, if within the last step
+  mutable double sampled_ = -1;             // s
   Contacts contacts_;
   Invariants invariants_;
   std::unique_ptr<Sensitivities> sensitivities_;  // null without parameters
-  std::int64_t leaps_seen_ = 0;                   // by the sensitivities
+  std::int64_t handled_singularities_ = 0;        // by the sensitivities
   std::vector<std::string> names_;
-  std::vector<char> at_rest_, locked_;  // by body: static; without rotation
+  std::vector<char> is_static_, locked_;  // by body: static; without rotation
 
   double time_ = 0;  // s, of the states read: within the last step of the motion, or at its end
   std::int64_t grid_steps_ = 0;
   bool joints_closed_ = false;
-  bool written_ = false;  // bodies were changed from outside
-  JointStart open_{};     // the joint with the largest gap at the start; gap 0: none is open
+  bool written_ = false;            // bodies were changed from outside
+  InitialJointError open_joint_{};  // the joint with the largest gap at the start; gap 0: none is open
   Statistics statistics_{};
   int steps_in_step_ = 0;
   double last_event_ = 0, last_flight_ = 0;  // s: time of the last event, and the flight before it

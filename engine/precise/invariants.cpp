@@ -17,22 +17,22 @@ constexpr double kBalanceRoundings = 16;
 
 }  // namespace
 
-Invariants::Invariants(const Scene& scene, const Parts& parts, const Precise& precise,
+Invariants::Invariants(const Scene& scene, const ScenePartition& partition, const Precise& precise,
                        EquationsOfMotion& equations)
     : equations_(equations), gravity_(scene.gravity), tolerance_(precise.tolerance) {
-  const Scales scales = scales_of(scene, parts);
+  const Scales scales = scales_of(scene, partition);
   length_ = scales.length;
   speed_ = scales.speed;
 }
 
 double Invariants::bound() const {
-  return tolerance_ * most_ * (1 + static_cast<double>(steps_) / kSteps) +
+  return tolerance_ * max_energy_ * (1 + static_cast<double>(steps_) / kSteps) +
          kBalanceRoundings * std::numeric_limits<double>::epsilon() * std::sqrt(rounding_);
 }
 
 void Invariants::account(const EventFreeIntegrator& motion) {
   const std::optional<double> work = motion.work();
-  if (!work || equations_.held_works()) return;
+  if (!work || equations_.constraints_do_work()) return;
   double gained = 0, size = 0, rounding = std::abs(*work);
   for (std::size_t slot = 0; slot < equations_.bodies().size(); ++slot) {
     const std::size_t body = equations_.bodies()[slot];
@@ -55,7 +55,7 @@ void Invariants::account(const EventFreeIntegrator& motion) {
     rounding += inertia * w2;
   }
   ++steps_;
-  most_ = std::max(most_, size);
+  max_energy_ = std::max(max_energy_, size);
   rounding_ += rounding * rounding;
   drift_ += gained - *work;
   if (std::abs(drift_) <= bound()) return;
@@ -67,14 +67,14 @@ void Invariants::account(const EventFreeIntegrator& motion) {
 
 void Invariants::save(SnapshotWriter& out) const {
   out.put(drift_);
-  out.put(most_);
+  out.put(max_energy_);
   out.put(rounding_);
   out.put(steps_);
 }
 
 void Invariants::restore(SnapshotReader& in) {
   drift_ = in.get<double>();
-  most_ = in.get<double>();
+  max_energy_ = in.get<double>();
   rounding_ = in.get<double>();
   steps_ = in.get<std::int64_t>();
 }

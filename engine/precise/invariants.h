@@ -5,7 +5,7 @@
 #include "engine/driver/snapshot.h"
 #include "engine/integrate/compensated.h"
 #include "engine/precise/dynamics/motion.h"
-#include "engine/precise/integration/smooth.h"
+#include "engine/precise/integration/integrator.h"
 
 namespace plumb::precise {
 
@@ -19,7 +19,8 @@ namespace plumb::precise {
 /// positions and speeds.
 class Invariants {
  public:
-  Invariants(const Scene& scene, const Parts& parts, const Precise& precise, EquationsOfMotion& equations);
+  Invariants(const Scene& scene, const ScenePartition& partition, const Precise& precise,
+             EquationsOfMotion& equations);
 
   /// Accounts for the last step of `motion`, before any jump at its end.
   void account(const EventFreeIntegrator& motion);
@@ -35,9 +36,9 @@ class Invariants {
   const EquationsOfMotion& equations_;
   Vec2d gravity_;
   double tolerance_, length_, speed_;
-  double drift_ = 0;     // J
-  double most_ = 0;      // J: the largest S so far
-  double rounding_ = 0;  // J^2: sum of squares over the steps so far
+  double drift_ = 0;       // J
+  double max_energy_ = 0;  // J: the largest S so far
+  double rounding_ = 0;    // J^2: sum of squares over the steps so far
   std::int64_t steps_ = 0;
 };
 

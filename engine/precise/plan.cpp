@@ -15,19 +15,20 @@ std::string count(std::size_t n, const std::string& one, const std::string& many
 
 }  // namespace
 
-Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
+Plan plan_of(const Scene& scene, const ScenePartition& partition, bool every_stage) {
   const std::size_t bodies = scene.bodies.size();
   const std::size_t laws = static_cast<std::size_t>(
       std::count_if(scene.forces.begin(), scene.forces.end(), [&](const ForceLaw& law) {
         const auto ends = ends_of(law);
         return std::any_of(ends.begin(), ends.end(), [&](std::string_view name) {
           const auto body = find_body(scene, name);
-          return body && std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
+          return body && std::binary_search(partition.integrated.begin(), partition.integrated.end(), *body);
         });
       }));
-  const std::string some = std::to_string(parts.integrated.size()) + " of " + count(bodies, "body", "bodies");
-  const bool integrates = !parts.integrated.empty(), joints = !scene.joints.empty(),
-             contacts = !parts.outlines.empty();
+  const std::string some =
+      std::to_string(partition.integrated.size()) + " of " + count(bodies, "body", "bodies");
+  const bool integrates = !partition.integrated.empty(), joints = !scene.joints.empty(),
+             contacts = !partition.shapes.empty();
 
   Plan plan{"precise", std::vector<Stage>(kStageCount)};
   const auto stage = [&](StageIndex index, const char* name, bool active, const std::string& why,
@@ -49,12 +50,12 @@ Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage) {
         some + " under joints, forces that are not constant, or with shapes that may touch",
         "every body is in free flight under constant forces");
   stage(kProjection, "projection", joints, "closes joints to rounding after each step", "no joints");
-  stage(kPolynomialFlight, "polynomial_flight", !parts.flying.empty(),
-        std::to_string(parts.flying.size()) + " of " + count(bodies, "body", "bodies") +
+  stage(kPolynomialFlight, "polynomial_flight", !partition.ballistic.empty(),
+        std::to_string(partition.ballistic.size()) + " of " + count(bodies, "body", "bodies") +
             " at rest or under constant forces: evaluated, not integrated",
         "no body is in free flight");
   stage(kContactSearch, "contact_search", contacts,
-        count(parts.outlines.size(), "shape", "shapes") + " may touch: events are located in time",
+        count(partition.shapes.size(), "shape", "shapes") + " may touch: events are located in time",
         "no shapes may touch");
   return plan;
 }

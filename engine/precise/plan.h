@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/driver/plan.h"
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
@@ -19,6 +19,6 @@ enum StageIndex : int {
 };
 
 /// Returns the stages that the scene needs, with reasons; `every_stage` activates all of them.
-Plan plan_of(const Scene& scene, const Parts& parts, bool every_stage);
+Plan plan_of(const Scene& scene, const ScenePartition& partition, bool every_stage);
 
 }  // namespace plumb::precise

@@ -19,11 +19,11 @@ namespace plumb::precise {
 namespace {
 
 /// Limits on impacts and steps within one max_dt: beyond them the run counts as stuck.
-constexpr int kMostImpacts = 1000000, kMostSteps = 200000;
+constexpr int kMaxImpacts = 1000000, kMaxSteps = 200000;
 /// Maximum length of a flight, as a multiple of the last one.
-constexpr double kLonger = 2;
+constexpr double kMaxFlightRatio = 2;
 /// Fraction of the scene's length: an initial overlap deeper than this is an error at any tolerance.
-constexpr double kDeepestOverlap = 1e-3;
+constexpr double kMaxOverlap = 1e-3;
 /// Number of roundings of a position by which joints may be open at the start.
 constexpr double kGapRoundings = 16;
 
@@ -35,9 +35,9 @@ void PreciseDriver::step() {
   impacts_before_ = contacts_.impacts();
   try {
     close_joints();
-    while (smooth_.time() < end) go_on(end);
+    while (integrator_.time() < end) advance(end);
   } catch (const Error& error) {
-    time_ = smooth_.time();
+    time_ = integrator_.time();
     fail(error.subject(), error.field(), error.value(), error.problem());
   }
   time_ = end;
@@ -48,94 +48,95 @@ void PreciseDriver::step() {
 
 /// Advances the motion by one step. The step may go beyond `end`, because states are interpolated within it:
 /// step sizes do not depend on the output times. An event ends a step.
-void PreciseDriver::go_on(double end) {
-  decide();
+void PreciseDriver::advance(double end) {
+  prepare_step();
   {
     const Clock clock(profiling_, cost_[kRungeKutta]);
-    smooth_.step(limit_of_step(end));
+    integrator_.step(limit_of_step(end));
   }
   if (!contacts_.empty()) {
     const Clock clock(profiling_, cost_[kContactSearch]);
-    contacts_.stop();  // at the first event within the step
-    if (!contacts_.settled()) {
-      last_flight_ = smooth_.time() - last_event_;
-      last_event_ = smooth_.time();
+    contacts_.truncate_at_event();  // at the first event within the step
+    if (!contacts_.is_resolved()) {
+      last_flight_ = integrator_.time() - last_event_;
+      last_event_ = integrator_.time();
     }
   }
-  if (smooth_.dimension() > 0) invariants_.account(smooth_);
-  if (++steps_in_step_ > kMostSteps) smooth_.throw_step_underflow();
-  if (contacts_.impacts() - impacts_before_ > kMostImpacts) {
-    fail("the scene", "impacts", std::to_string(kMostImpacts) + " and more",
+  if (integrator_.dimension() > 0) invariants_.account(integrator_);
+  if (++steps_in_step_ > kMaxSteps) integrator_.throw_step_underflow();
+  if (contacts_.impacts() - impacts_before_ > kMaxImpacts) {
+    fail("the scene", "impacts", std::to_string(kMaxImpacts) + " and more",
          "they do not stop within one step; Realtime may do");
   }
   ++statistics_.steps;
 }
 
 /// Determines the forces, contacts, limits and motors of the next step.
-void PreciseDriver::decide() {
-  follow();
-  arrive();
-  if (!contacts_.empty() && !contacts_.settled()) settle();
+void PreciseDriver::prepare_step() {
+  advance_sensitivities();
+  switch_forces();
+  if (!contacts_.empty() && !contacts_.is_resolved()) resolve_event();
 }
 
 /// Resolves the event at which the last step ended.
-void PreciseDriver::settle() {
+void PreciseDriver::resolve_event() {
   const Clock clock(profiling_, cost_[kContacts]);
-  if (!sensitivities_) return contacts_.settle();
-  const Compensated before = smooth_.state();
-  contacts_.settle();
-  sensitivities_->pass_event(before, smooth_.state(), contacts_);
+  if (!sensitivities_) return contacts_.resolve_event();
+  const Compensated before = integrator_.state();
+  contacts_.resolve_event();
+  sensitivities_->pass_event(before, integrator_.state(), contacts_);
 }
 
 /// Without contacts, only the motion limits the step. Ballistic flights may have any length, but longer ones
 /// have more candidate contacts. So the limit is twice the previous flight, or twice the present one so far.
 double PreciseDriver::limit_of_step(double end) const {
-  if (smooth_.dimension() == 0) return end;
+  if (integrator_.dimension() == 0) return end;
   if (contacts_.empty()) return std::numeric_limits<double>::infinity();
-  return smooth_.flies()
-             ? std::max(end, smooth_.time() + kLonger * std::max(last_flight_, smooth_.time() - last_event_))
+  return integrator_.is_ballistic()
+             ? std::max(end, integrator_.time() +
+                                 kMaxFlightRatio * std::max(last_flight_, integrator_.time() - last_event_))
              : end;
 }
 
 /// Switches forces that change at the end of the last step.
-void PreciseDriver::arrive() {
-  const double now = smooth_.time();
-  if (!std::binary_search(parts_.switches.begin(), parts_.switches.end(), now)) return;
-  flight_.switch_forces(now);
+void PreciseDriver::switch_forces() {
+  const double now = integrator_.time();
+  if (!std::binary_search(partition_.switches.begin(), partition_.switches.end(), now)) return;
+  ballistic_.switch_forces(now);
   if (sensitivities_) sensitivities_->switch_forces(now);
-  contacts_.unsettle();
+  contacts_.invalidate();
 }
 
 PreciseDriver::PreciseDriver(const Scene& scene, const Precise& precise, const CompileOptions& options,
                              std::vector<Variation> variations)
     : max_dt_(precise.max_dt),
-      overlap_(std::min(precise.tolerance, kDeepestOverlap)),
-      parts_(divide(scene)),
-      plan_(plan_of(scene, parts_, options.every_stage)),
-      flight_(scene, parts_),
-      equations_(scene, parts_, flight_, options.every_stage, precise.tolerance),
-      smooth_(scene, parts_, precise, equations_),
+      overlap_tolerance_(std::min(precise.tolerance, kMaxOverlap)),
+      partition_(partition_scene(scene)),
+      plan_(plan_of(scene, partition_, options.every_stage)),
+      ballistic_(scene, partition_),
+      equations_(scene, partition_, ballistic_, options.every_stage, precise.tolerance),
+      integrator_(scene, partition_, precise, equations_),
       sample_(equations_.dimension()),
-      contacts_(scene, parts_, flight_, equations_, smooth_),
-      invariants_(scene, parts_, precise, equations_) {
+      contacts_(scene, partition_, ballistic_, equations_, integrator_),
+      invariants_(scene, partition_, precise, equations_) {
   for (const Body& body : scene.bodies) {
     names_.push_back(body.name);
-    at_rest_.push_back(body.type == BodyType::Static);
+    is_static_.push_back(body.type == BodyType::Static);
     locked_.push_back(body.fixed_rotation);
   }
   if (!variations.empty())
     sensitivities_ = std::make_unique<Sensitivities>(scene, std::move(variations), precise);
-  name_redundant_joints();
+  report_redundant_joints();
   const double rounding = kGapRoundings * equations_.rounding_of_gaps(), length = equations_.length();
-  for (const JointStart& start : joint_starts(scene)) {
-    const double allowed = overlap_ * (start.turns ? 1 : length) + rounding;
-    if (start.gap > allowed && start.gap > open_.gap) open_ = start;
+  for (const InitialJointError& start : initial_joint_errors(scene)) {
+    const double allowed = overlap_tolerance_ * (start.is_angle ? 1 : length) + rounding;
+    if (start.gap > allowed && start.gap > open_joint_.gap) open_joint_ = start;
   }
 }
 
-void PreciseDriver::name_redundant_joints() {
+void PreciseDriver::report_redundant_joints() {
   std::string names;
-  for (const std::string& joint : smooth_.redundant_joints())
+  for (const std::string& joint : integrator_.redundant_joints())
     names += (names.empty() ? "'" : ", '") + joint + "'";
   if (!names.empty())
     plan_.stages[kJointAccelerations].why +=
@@ -145,29 +146,29 @@ void PreciseDriver::name_redundant_joints() {
 /// Closes joints and their velocities: at the start, and after bodies were changed from outside.
 void PreciseDriver::close_joints() {
   if (joints_closed_) return;
-  refuse_open_joints();
-  const Compensated given = smooth_.state();
-  smooth_.start_anew();
-  if (sensitivities_) sensitivities_->start(smooth_.time(), given, smooth_.state());
-  if (!contacts_.empty()) contacts_.refuse_overlaps(overlap_);
-  contacts_.unsettle();
+  check_initial_gaps();
+  const Compensated given = integrator_.state();
+  integrator_.reset();
+  if (sensitivities_) sensitivities_->start(integrator_.time(), given, integrator_.state());
+  if (!contacts_.empty()) contacts_.check_overlaps(overlap_tolerance_);
+  contacts_.invalidate();
   joints_closed_ = true;
 }
 
 /// At the start of a run joints must be closed, because no law says how they would close.
-void PreciseDriver::refuse_open_joints() const {
-  if (open_.gap == 0 || written_ || smooth_.time() > 0) return;
-  throw Error(Error::Kind::Run, "joint '" + open_.joint + "'", "gap",
-              shortest(open_.gap) + (open_.turns ? " rad" : " m"),
+void PreciseDriver::check_initial_gaps() const {
+  if (open_joint_.gap == 0 || written_ || integrator_.time() > 0) return;
+  throw Error(Error::Kind::Run, "joint '" + open_joint_.joint + "'", "gap",
+              shortest(open_joint_.gap) + (open_joint_.is_angle ? " rad" : " m"),
               "it is open, too long or beyond its limit where the scene starts, by more than tolerance " +
-                  shortest(overlap_) +
+                  shortest(overlap_tolerance_) +
                   " allows, and no law says how it closes: place its bodies, anchors or lengths so that they "
                   "fit; 'plumb' closes it");
 }
 
 std::size_t PreciseDriver::slot_of(std::size_t body) const {
-  const auto place = std::lower_bound(parts_.integrated.begin(), parts_.integrated.end(), body);
-  return static_cast<std::size_t>(place - parts_.integrated.begin());
+  const auto place = std::lower_bound(partition_.integrated.begin(), partition_.integrated.end(), body);
+  return static_cast<std::size_t>(place - partition_.integrated.begin());
 }
 
 }  // namespace plumb::precise
@@ -179,7 +180,7 @@ std::unique_ptr<Driver> make_precise_driver(const Scene& given, const Precise& p
   const Vec2d origin = precise::local_origin(precise::with_body_laws(given));
   const auto prepared = [&](const Scene& scene) {
     const Scene whole = precise::with_body_laws(scene);
-    return origin == Vec2d{} ? whole : precise::seen_from(whole, origin);
+    return origin == Vec2d{} ? whole : precise::relative_to(whole, origin);
   };
   const auto make = [&](const Precise& p, const std::vector<std::string>& parameters) {
     auto driver = std::make_unique<precise::PreciseDriver>(

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 
 namespace plumb::precise {
 
@@ -25,17 +25,17 @@ Vec2d local_origin(const Scene& scene) {
   }
   if (!(lower.x <= upper.x)) return {};
   const Vec2d centre = 0.5 * (lower + upper), size = upper - lower;
-  const double extent = std::max({size.x, size.y, scales_of(scene, divide(scene)).length});
+  const double extent = std::max({size.x, size.y, scales_of(scene, partition_scene(scene)).length});
   if (std::max(std::abs(centre.x), std::abs(centre.y)) < kFar * extent) return {};
   // Rounded to float, so that differences to it are exact.
   const Vec2d origin{static_cast<float>(centre.x), static_cast<float>(centre.y)};
   return std::isfinite(origin.x) && std::isfinite(origin.y) ? origin : Vec2d{};
 }
 
-Scene seen_from(const Scene& scene, Vec2d origin) {
-  Scene seen = scene;
-  for (Body& body : seen.bodies) body.position -= origin;
-  for (Joint& joint : seen.joints) {
+Scene relative_to(const Scene& scene, Vec2d origin) {
+  Scene shifted = scene;
+  for (Body& body : shifted.bodies) body.position -= origin;
+  for (Joint& joint : shifted.joints) {
     std::visit(
         [&](auto& j) {
           if constexpr (requires { j.ground_a; }) j.ground_a -= origin, j.ground_b -= origin;
@@ -52,7 +52,7 @@ Scene seen_from(const Scene& scene, Vec2d origin) {
         },
         joint);
   }
-  for (ForceLaw& law : seen.forces) {
+  for (ForceLaw& law : shifted.forces) {
     std::visit(
         [&](auto& l) {
           if constexpr (requires { l.anchor_a; }) {
@@ -65,7 +65,7 @@ Scene seen_from(const Scene& scene, Vec2d origin) {
         },
         law);
   }
-  return seen;
+  return shifted;
 }
 
 }  // namespace plumb::precise

@@ -12,9 +12,10 @@ namespace plumb::precise {
 Vec2d local_origin(const Scene& scene);
 
 /// Returns the scene relative to `origin`, which is subtracted from all positions in the world's frame.
-Scene seen_from(const Scene& scene, Vec2d origin);
+Scene relative_to(const Scene& scene, Vec2d origin);
 
-/// Wraps the driver of a scene that is `seen_from` a point, so that it acts as a driver of the scene itself.
+/// Wraps the driver of a scene that is `relative_to` a point, so that it acts as a driver of the scene
+/// itself.
 class ShiftedOriginDriver final : public Driver {
  public:
   ShiftedOriginDriver(std::unique_ptr<Driver> driver, Vec2d origin)
@@ -27,9 +28,9 @@ class ShiftedOriginDriver final : public Driver {
     for (BodyState& state : out) state.position += origin_;
   }
   void write(std::size_t body, const BodyState& state) override {
-    BodyState seen = state;
-    seen.position -= origin_;
-    driver_->write(body, seen);
+    BodyState shifted = state;
+    shifted.position -= origin_;
+    driver_->write(body, shifted);
   }
   std::vector<std::byte> save() const override { return driver_->save(); }
   void restore(std::span<const std::byte> snapshot) override { driver_->restore(snapshot); }

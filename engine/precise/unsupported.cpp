@@ -7,7 +7,7 @@
 #include "engine/core/text.h"
 #include "engine/precise/body_laws.h"
 #include "engine/precise/dynamics/joints.h"
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/precise/precise.h"
 #include "engine/scene/features.h"
 #include "engine/scene/formula.h"
@@ -57,16 +57,16 @@ std::string precise_unsupported(const Scene& scene) {
   }
   // Every evaluation solves for all contacts at once, so its cost grows at least with the square of their
   // number.
-  constexpr std::size_t kMostBodies = 300;
-  const precise::Parts parts = precise::divide(precise::with_body_laws(scene));
+  constexpr std::size_t kMaxBodies = 300;
+  const precise::ScenePartition partition = precise::partition_scene(precise::with_body_laws(scene));
   std::vector<char> touches(scene.bodies.size(), 0);
-  for (const precise::FeatureShape& outline : parts.outlines) {
-    if (scene.bodies[outline.body].type == BodyType::Dynamic) touches[outline.body] = 1;
+  for (const precise::FeatureShape& shape : partition.shapes) {
+    if (scene.bodies[shape.body].type == BodyType::Dynamic) touches[shape.body] = 1;
   }
   const auto count = static_cast<std::size_t>(std::count(touches.begin(), touches.end(), 1));
-  if (count <= kMostBodies) return {};
+  if (count <= kMaxBodies) return {};
   return std::to_string(count) + " dynamic bodies have shapes that may touch, and Precise is meant for " +
-         std::to_string(kMostBodies) +
+         std::to_string(kMaxBodies) +
          " at most; use Realtime{.dt = 1.0 / 60, .substeps = 8}, or filter pairs out";
 }
 
@@ -107,7 +107,7 @@ std::string symplectic_unsupported(const Scene& given) {
     return "a joint has a spring, whose stiffness changes with its bodies' effective mass; use method = "
            "automatic";
   }
-  if (!precise::divide(scene).outlines.empty()) {
+  if (!precise::partition_scene(scene).shapes.empty()) {
     return "shapes may touch, and impacts would cut the symplectic method's steps; use method = automatic";
   }
   return {};

@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-/// A part of a scene: the scene itself, or one entry of one of its lists.
-struct Place {
+/// Identifies a part of a scene: the scene itself, or one entry of one of its lists.
+struct SceneLocation {
   enum class List { None, Bodies, Joints, Forces, Drives };
   List list = List::None;
   std::size_t index = 0;
@@ -18,8 +18,8 @@ struct Place {
 inline constexpr double kLargest = 1e100;
 inline constexpr double kSmallest = 1e-100;
 
-/// Validates the scene and keeps `place` at the part being checked, so that after a throw it is the invalid
-/// part.
-void check(const Scene& scene, Place& place);
+/// Validates the scene and keeps `location` at the part being checked, so that after a throw it is the
+/// invalid part.
+void check(const Scene& scene, SceneLocation& location);
 
 }  // namespace plumb

@@ -35,18 +35,18 @@ template <class J>
 std::string unusual_field_of(const J& joint) {
   static const J kDefault{};
   std::string found;
-  const auto look = [&](std::string_view key, const auto& value, const FieldRule&) {
+  const auto visit_field = [&](std::string_view key, const auto& value, const FieldRule&) {
     if (!found.empty() || key == "collide" || key == "length") return;
-    const auto same = [&](std::string_view name, const auto& usual, const FieldRule&) {
+    const auto compare_default = [&](std::string_view name, const auto& usual, const FieldRule&) {
       if constexpr (std::is_same_v<decltype(usual), decltype(value)>) {
         if (name == key && !(usual == value)) found = key;
       }
     };
-    own_fields(kDefault, same);
-    last_fields(kDefault, same);
+    own_fields(kDefault, compare_default);
+    last_fields(kDefault, compare_default);
   };
-  own_fields(joint, look);
-  last_fields(joint, look);
+  own_fields(joint, visit_field);
+  last_fields(joint, visit_field);
   return found;
 }
 

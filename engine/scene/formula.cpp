@@ -12,7 +12,7 @@ namespace plumb {
 template <class Value>
 Value Formula::evaluate(std::span<const Value> variables) const {
   using namespace formula;
-  std::array<Value, kDeepest + 2> stack{};
+  std::array<Value, kMaxStack + 2> stack{};
   Value* top = stack.data() + 1;  // one past the last value; value 0 is never read
   const auto two = [&](auto&& apply) {
     --top;
@@ -54,16 +54,16 @@ Value Formula::evaluate(std::span<const Value> variables) const {
       case Code::Greater:
         compare([](double a, double b) { return a > b; });
         break;
-      case Code::AtMost:
+      case Code::LessEqual:
         compare([](double a, double b) { return a <= b; });
         break;
-      case Code::AtLeast:
+      case Code::GreaterEqual:
         compare([](double a, double b) { return a >= b; });
         break;
       case Code::Equal:
         compare([](double a, double b) { return a == b; });
         break;
-      case Code::Different:
+      case Code::NotEqual:
         compare([](double a, double b) { return a != b; });
         break;
       case Code::And:
@@ -72,7 +72,7 @@ Value Formula::evaluate(std::span<const Value> variables) const {
       case Code::Or:
         compare([](double a, double b) { return a != 0 || b != 0; });
         break;
-      case Code::Choose:
+      case Code::Select:
         top -= 2;
         top[-1] = value_of(top[-1]) != 0 ? top[0] : top[1];
         break;
@@ -116,7 +116,7 @@ Value Formula::evaluate(std::span<const Value> variables) const {
         last = logarithm_of(last, std::numbers::ln10);
         break;
       case Code::Sqrt:
-        last = root_of(last);
+        last = sqrt_of(last);
         break;
       case Code::Abs:
         last = value_of(last) < 0 ? -last : last;
@@ -131,10 +131,10 @@ Value Formula::evaluate(std::span<const Value> variables) const {
         two([](const Value& a, const Value& b) { return value_of(b) > value_of(a) ? b : a; });
         break;
       case Code::Hypot:
-        two([](const Value& a, const Value& b) { return root_of(a * a + b * b); });
+        two([](const Value& a, const Value& b) { return sqrt_of(a * a + b * b); });
         break;
       case Code::Mod:
-        two([](const Value& a, const Value& b) { return rest_of(a, b); });
+        two([](const Value& a, const Value& b) { return modulo_of(a, b); });
         break;
       case Code::Floor:
         last = Value(std::floor(value_of(last)));

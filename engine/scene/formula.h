@@ -34,7 +34,7 @@ class Formula {
   bool uses(std::size_t variable) const;
 
   /// More than this many pending values are refused: "1+(2+(3+...".
-  static constexpr std::size_t kDeepest = 64;
+  static constexpr std::size_t kMaxStack = 64;
 
  private:
   friend class FormulaParser;
@@ -49,13 +49,13 @@ class Formula {
     Power,
     Less,
     Greater,
-    AtMost,
-    AtLeast,
+    LessEqual,
+    GreaterEqual,
     Equal,
-    Different,
+    NotEqual,
     And,
     Or,
-    Choose,
+    Select,
     Sin,
     Cos,
     Tan,

@@ -19,29 +19,31 @@ inline double through(double, double f, double, double) { return f; }
 // Functions of a number or a jet: the value, and for a jet the first two derivatives.
 template <class V>
 V sine(V a) {
-  const Rotation<double> turn = rotation_of(value_of(a));
-  return through(a, turn.s, turn.c, -turn.s);
+  const Rotation<double> rotation = rotation_of(value_of(a));
+  return through(a, rotation.s, rotation.c, -rotation.s);
 }
 template <class V>
 V cosine(V a) {
-  const Rotation<double> turn = rotation_of(value_of(a));
-  return through(a, turn.c, -turn.s, -turn.c);
+  const Rotation<double> rotation = rotation_of(value_of(a));
+  return through(a, rotation.c, -rotation.s, -rotation.c);
 }
 template <class V>
 V tangent(V a) {
-  const Rotation<double> turn = rotation_of(value_of(a));
-  const double tan = turn.s / turn.c, slope = 1 + tan * tan;
+  const Rotation<double> rotation = rotation_of(value_of(a));
+  const double tan = rotation.s / rotation.c, slope = 1 + tan * tan;
   return through(a, tan, slope, 2 * tan * slope);
 }
 template <class V>
 V arc_sine(V a) {
-  const double x = value_of(a), rest = (1 - x) * (1 + x), root = std::sqrt(rest);
-  return through(a, rest < 0 ? root : arc_tangent(x, root), 1 / root, x / (rest * root));
+  const double x = value_of(a), one_minus_square = (1 - x) * (1 + x), root = std::sqrt(one_minus_square);
+  return through(a, one_minus_square < 0 ? root : arc_tangent(x, root), 1 / root,
+                 x / (one_minus_square * root));
 }
 template <class V>
 V arc_cosine(V a) {
-  const double x = value_of(a), rest = (1 - x) * (1 + x), root = std::sqrt(rest);
-  return through(a, rest < 0 ? root : arc_tangent(root, x), -1 / root, -x / (rest * root));
+  const double x = value_of(a), one_minus_square = (1 - x) * (1 + x), root = std::sqrt(one_minus_square);
+  return through(a, one_minus_square < 0 ? root : arc_tangent(root, x), -1 / root,
+                 -x / (one_minus_square * root));
 }
 template <class V>
 V arc_tangent_of(V a) {
@@ -60,7 +62,7 @@ V logarithm_of(V a, double unit) {
 }
 // At 0 the slope is taken as 0, so that sqrt(x^2 + y^2) has a derivative everywhere.
 template <class V>
-V root_of(V a) {
+V sqrt_of(V a) {
   const double root = std::sqrt(value_of(a));
   const double slope = root > 0 ? 0.5 / root : 0;
   return through(a, root, slope, root > 0 ? -0.5 * slope / (root * root) : 0);
@@ -94,15 +96,15 @@ inline Jet power_of(Jet a, Jet b) {
   if (b.first == 0 && b.second == 0) {
     const double n = b.value;
     const double slope = n == 0 ? 0 : n * power(a.value, n - 1);
-    const double curve = n == 0 || n == 1 ? 0 : n * (n - 1) * power(a.value, n - 2);
-    return through(a, value, slope, curve);
+    const double second = n == 0 || n == 1 ? 0 : n * (n - 1) * power(a.value, n - 2);
+    return through(a, value, slope, second);
   }
   Jet grown = exponential_of(b * logarithm_of(a, 1));
   grown.value = value;
   return grown;
 }
 
-inline double rest_of(double a, double b) { return a - b * std::floor(a / b); }
-inline Jet rest_of(Jet a, Jet b) { return a - b * Jet(std::floor(a.value / b.value)); }
+inline double modulo_of(double a, double b) { return a - b * std::floor(a / b); }
+inline Jet modulo_of(Jet a, Jet b) { return a - b * Jet(std::floor(a.value / b.value)); }
 
 }  // namespace plumb::formula

@@ -27,7 +27,7 @@ class FormulaParser {
 
   void run() {
     out_.operations_.clear();
-    choice();
+    conditional();
     skip_spaces();
     if (at_ < text_.size()) fail("has " + quoted_here() + " after its end");
   }
@@ -57,22 +57,22 @@ class FormulaParser {
   void skip_spaces() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
   }
-  bool take(std::string_view token) {
+  bool accept(std::string_view token) {
     skip_spaces();
     if (!text_.substr(at_).starts_with(token)) return false;
     at_ += token.size();
     return true;
   }
   void expect(std::string_view token, std::string_view after) {
-    if (take(token)) return;
+    if (accept(token)) return;
     if (at_ == text_.size()) fail("ends where '" + std::string(token) + "' is missing");
     fail("has " + quoted_here() + " where '" + std::string(token) + "' should follow " + std::string(after));
   }
 
-  /// Appends an operation that takes `taken` values off the stack and leaves one.
-  void put(Code code, std::size_t taken, std::uint32_t index = 0, double number = 0) {
-    depth_ = depth_ - taken + 1;
-    if (depth_ > Formula::kDeepest) fail("has too many pending values: nest less");
+  /// Appends an operation that pops `operands` values off the stack and pushes one.
+  void emit(Code code, std::size_t operands, std::uint32_t index = 0, double number = 0) {
+    depth_ = depth_ - operands + 1;
+    if (depth_ > Formula::kMaxStack) fail("has too many pending values: nest less");
     out_.operations_.push_back({code, index, number});
   }
 
@@ -87,42 +87,42 @@ class FormulaParser {
     int& nesting_;
   };
 
-  void choice() {
+  void conditional() {
     const Level level(nesting_);
-    either();
-    if (!take("?")) return;
-    choice();
+    logical_or();
+    if (!accept("?")) return;
+    conditional();
     expect(":", "the first value of '? :'");
-    choice();
-    put(Code::Choose, 3);
+    conditional();
+    emit(Code::Select, 3);
   }
-  void either() {
-    both();
-    while (take("||")) both(), put(Code::Or, 2);
+  void logical_or() {
+    logical_and();
+    while (accept("||")) logical_and(), emit(Code::Or, 2);
   }
-  void both() {
+  void logical_and() {
     comparison();
-    while (take("&&")) comparison(), put(Code::And, 2);
+    while (accept("&&")) comparison(), emit(Code::And, 2);
   }
   void comparison() {
     sum();
     static constexpr std::pair<std::string_view, Code> kSigns[] = {
-        {"<=", Code::AtMost},    {">=", Code::AtLeast}, {"==", Code::Equal},
-        {"!=", Code::Different}, {"<", Code::Less},     {">", Code::Greater}};
+        {"<=", Code::LessEqual}, {">=", Code::GreaterEqual}, {"==", Code::Equal},
+        {"!=", Code::NotEqual},  {"<", Code::Less},          {">", Code::Greater}};
     for (const auto& [sign, code] : kSigns) {
-      if (!take(sign)) continue;
+      if (!accept(sign)) continue;
       sum();
-      put(code, 2);
+      emit(code, 2);
       return;
     }
   }
   void sum() {
     product();
     while (true) {
-      if (take("+")) {
-        product(), put(Code::Add, 2);
-      } else if (take("-")) {
-        product(), put(Code::Subtract, 2);
+      if (accept("+")) {
+        product(), emit(Code::Add, 2);
+      } else if (accept("-")) {
+        product(), emit(Code::Subtract, 2);
       } else {
         return;
       }
@@ -131,10 +131,10 @@ class FormulaParser {
   void product() {
     signed_power();
     while (true) {
-      if (take("*")) {
-        signed_power(), put(Code::Multiply, 2);
-      } else if (take("/")) {
-        signed_power(), put(Code::Divide, 2);
+      if (accept("*")) {
+        signed_power(), emit(Code::Multiply, 2);
+      } else if (accept("/")) {
+        signed_power(), emit(Code::Divide, 2);
       } else {
         return;
       }
@@ -142,26 +142,26 @@ class FormulaParser {
   }
   void signed_power() {
     const Level level(nesting_);
-    if (take("+")) return signed_power();
-    if (take("-")) {
+    if (accept("+")) return signed_power();
+    if (accept("-")) {
       signed_power();
-      put(Code::Negate, 1);
+      emit(Code::Negate, 1);
       return;
     }
     value();
-    if (!take("^")) return;
+    if (!accept("^")) return;
     signed_power();
-    put(Code::Power, 2);
+    emit(Code::Power, 2);
   }
 
   void value() {
     skip_spaces();
     if (at_ == text_.size()) fail(text_.empty() ? "is empty" : "ends where a value is missing");
-    if (take("(")) {
-      choice();
+    if (accept("(")) {
+      conditional();
       return expect(")", "the value in parentheses");
     }
-    if (is_digit(text_[at_]) || text_[at_] == '.') return put(Code::Number, 0, 0, number());
+    if (is_digit(text_[at_]) || text_[at_] == '.') return emit(Code::Number, 0, 0, number());
     if (!is_letter(text_[at_])) fail("has " + quoted_here() + " where a value is missing");
     name();
   }
@@ -175,7 +175,7 @@ class FormulaParser {
   }
   double signed_number() {
     skip_spaces();
-    const bool minus = take("-");
+    const bool minus = accept("-");
     skip_spaces();
     if (at_ == text_.size() || !(is_digit(text_[at_]) || text_[at_] == '.'))
       fail("has a table with something other than numbers" +
@@ -189,18 +189,18 @@ class FormulaParser {
     const std::string_view word = text_.substr(start, at_ - start);
     const auto variable = std::find(variables_.begin(), variables_.end(), word);
     if (variable != variables_.end())
-      return put(Code::Variable, 0, static_cast<std::uint32_t>(variable - variables_.begin()));
-    if (word == "pi") return put(Code::Number, 0, 0, std::numbers::pi);
+      return emit(Code::Variable, 0, static_cast<std::uint32_t>(variable - variables_.begin()));
+    if (word == "pi") return emit(Code::Number, 0, 0, std::numbers::pi);
     for (const Function& function : kFunctions) {
       if (word != function.name) continue;
       expect("(", word);
       if (function.code == Code::Table) return table();
       for (int i = 0; i < function.arguments; ++i) {
         if (i > 0) expect(",", "an argument of " + std::string(word));
-        choice();
+        conditional();
       }
       expect(")", "the arguments of " + std::string(word));
-      return put(function.code, static_cast<std::size_t>(function.arguments));
+      return emit(function.code, static_cast<std::size_t>(function.arguments));
     }
     std::vector<std::string> known(variables_.begin(), variables_.end());
     known.emplace_back("pi");
@@ -209,9 +209,9 @@ class FormulaParser {
   }
 
   void table() {
-    choice();
+    conditional();
     std::vector<Formula::Point> points;
-    while (take(",")) {
+    while (accept(",")) {
       const double x = signed_number();
       expect(",", "the x of a point of the table");
       points.push_back({x, signed_number()});
@@ -220,7 +220,7 @@ class FormulaParser {
     }
     expect(")", "the last point of the table");
     if (points.size() < 2) fail("has a table of fewer than two points");
-    put(Code::Table, 1, static_cast<std::uint32_t>(out_.tables_.size()));
+    emit(Code::Table, 1, static_cast<std::uint32_t>(out_.tables_.size()));
     out_.tables_.push_back(std::move(points));
   }
 

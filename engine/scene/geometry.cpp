@@ -10,14 +10,14 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// Sums parts about the origin, and returns the whole about its centroid.
-class Sum {
+class ExtentSum {
  public:
   void add(const Extent& part) {
     area_ += part.area;
     first_ += part.area * part.centroid;
     second_ += part.area * (part.gyration_squared + length_squared(part.centroid));
   }
-  Extent whole() const {
+  Extent total() const {
     const Vec2d centroid = (1 / area_) * first_;
     return {area_, centroid, second_ / area_ - length_squared(centroid)};
   }
@@ -55,7 +55,7 @@ Extent extent(const Box& box) {
 /// Returns the extent of a rounded polygon: corners counter-clockwise, the first at the origin, of a size
 /// near 1.
 Extent of_rounded(const std::vector<Vec2d>& corners, double radius) {
-  Sum sum;
+  ExtentSum sum;
   const std::size_t n = corners.size();
   for (std::size_t i = 1; i + 1 < n; ++i) sum.add(of_triangle(corners[i], corners[i + 1]));
   for (std::size_t i = 0; i < n && radius > 0; ++i) {
@@ -67,7 +67,7 @@ Extent of_rounded(const std::vector<Vec2d>& corners, double radius) {
     const Vec2d axis = std::sin(half) * incoming - std::cos(half) * perpendicular(incoming);
     sum.add(of_sector(here, axis, half, radius));
   }
-  return sum.whole();
+  return sum.total();
 }
 
 Extent extent(const Capsule& capsule) {
@@ -94,18 +94,18 @@ Extent extent(const Polygon& polygon) {
 Extent extent(const Segment&) { return {}; }
 Extent extent(const Chain&) { return {}; }
 
-double farthest(const std::vector<Vec2d>& points) {
-  double reach = 0;
-  for (const Vec2d point : points) reach = std::max(reach, length(point));
-  return reach;
+double max_length(const std::vector<Vec2d>& points) {
+  double largest = 0;
+  for (const Vec2d point : points) largest = std::max(largest, length(point));
+  return largest;
 }
 
 double reach(const Circle& circle) { return circle.radius; }
 double reach(const Box& box) { return std::sqrt(box.width * box.width + box.height * box.height) / 2; }
-double reach(const Capsule& capsule) { return farthest({capsule.start, capsule.end}) + capsule.radius; }
-double reach(const Polygon& polygon) { return farthest(polygon.points) + polygon.radius; }
-double reach(const Segment& segment) { return farthest({segment.start, segment.end}); }
-double reach(const Chain& chain) { return farthest(chain.points); }
+double reach(const Capsule& capsule) { return max_length({capsule.start, capsule.end}) + capsule.radius; }
+double reach(const Polygon& polygon) { return max_length(polygon.points) + polygon.radius; }
+double reach(const Segment& segment) { return max_length({segment.start, segment.end}); }
+double reach(const Chain& chain) { return max_length(chain.points); }
 
 }  // namespace
 

@@ -32,7 +32,7 @@ struct Motor {
   friend bool operator==(const Motor&, const Motor&) = default;
 };
 
-/// Holds two anchors together; the bodies turn freely about them within the limits.
+/// Holds two anchors together; the bodies rotate freely about them within the limits.
 struct RevoluteJoint {
   std::string name;    ///< unique, not empty
   std::string body_a;  ///< a body's name, or "world"
@@ -67,7 +67,7 @@ struct DistanceJoint {
   friend bool operator==(const DistanceJoint&, const DistanceJoint&) = default;
 };
 
-/// Slides along an axis of a without turning.
+/// Lets b slide along an axis of a, without rotation.
 struct PrismaticJoint {
   std::string name;
   std::string body_a;
@@ -101,7 +101,7 @@ struct WeldJoint {
   friend bool operator==(const WeldJoint&, const WeldJoint&) = default;
 };
 
-/// A wheel b on a suspension along an axis of a: free to turn, rigid across the axis.
+/// A wheel b on a suspension along an axis of a: free to rotate, rigid across the axis.
 struct WheelJoint {
   std::string name;
   std::string body_a;
@@ -178,7 +178,7 @@ struct PulleyJoint {
   friend bool operator==(const PulleyJoint&, const PulleyJoint&) = default;
 };
 
-/// Lets b turn relative to a in one direction, and stops it in the other at teeth `tooth` apart.
+/// Lets b rotate relative to a in one direction, and stops it in the other at teeth `tooth` apart.
 struct RatchetJoint {
   std::string name;
   std::string body_a;

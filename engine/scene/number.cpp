@@ -56,7 +56,7 @@ std::string_view name_of(const auto&) { return {}; }  // force laws and drives h
 /// Removes the name or the index of one of `things` from the front of `path`; returns its index. Names may
 /// contain dots: if several fit, the longest one counts.
 template <class Things>
-std::optional<std::size_t> take_one(Path& path, const Things& things) {
+std::optional<std::size_t> take_entry(Path& path, const Things& things) {
   if (const auto index = path.take_index()) return *index < things.size() ? index : std::nullopt;
   std::optional<std::size_t> longest;
   for (std::size_t i = 0; i < things.size(); ++i) {
@@ -122,7 +122,7 @@ struct Finder {
   }
   template <class Part>
   void find(std::vector<Part>& parts, const ListRule&) {
-    if (const auto index = take_one(path, parts)) all_fields(parts[*index], *this);
+    if (const auto index = take_entry(path, parts)) all_fields(parts[*index], *this);
   }
   void find(auto&, const auto&) {}  // no number
 };
@@ -153,10 +153,10 @@ NumberKind kind_of_number(Scene& scene, std::string_view path) {
   return unit == "rad" ? NumberKind::Angle : NumberKind::Relative;
 }
 
-std::optional<std::size_t> body_of_start(const Scene& scene, std::string_view path) {
+std::optional<std::size_t> body_of_initial_state(const Scene& scene, std::string_view path) {
   Path rest(path);
   if (!rest.take("bodies")) return std::nullopt;
-  const auto body = take_one(rest, scene.bodies);
+  const auto body = take_entry(rest, scene.bodies);
   if (!body) return std::nullopt;
   for (const std::string_view field : {"position", "angle", "velocity", "angular_velocity"}) {
     if (rest.take(field)) return body;

@@ -29,6 +29,6 @@ enum class NumberKind {
 NumberKind kind_of_number(Scene& scene, std::string_view path);
 
 /// Returns the body whose initial state contains the number that `path` names; nullopt for any other number.
-std::optional<std::size_t> body_of_start(const Scene& scene, std::string_view path);
+std::optional<std::size_t> body_of_initial_state(const Scene& scene, std::string_view path);
 
 }  // namespace plumb

@@ -25,10 +25,10 @@ double inertia_of(const Body& body) {
   for (const Shape& shape : body.shapes) {
     const Extent extent = extent_of(shape.geometry);
     if (extent.area == 0) continue;
-    const double share = shape.density.value_or(1) * extent.area / total;
+    const double mass_fraction = shape.density.value_or(1) * extent.area / total;
     Vec2d centre = shape.position;
     if (extent.centroid != Vec2d{}) centre += rotation_of(shape.angle) * extent.centroid;
-    mean_square += share * (extent.gyration_squared + length_squared(centre));
+    mean_square += mass_fraction * (extent.gyration_squared + length_squared(centre));
   }
   return body.mass * mean_square;
 }

@@ -27,22 +27,22 @@ namespace {
 std::string text_of(Vec2d v) { return "[" + shortest(v.x) + ", " + shortest(v.y) + "]"; }
 std::string count_of(const std::vector<Vec2d>& points) { return std::to_string(points.size()) + " points"; }
 
-Place::List list_of(const std::vector<Body>&) { return Place::List::Bodies; }
-Place::List list_of(const std::vector<Joint>&) { return Place::List::Joints; }
-Place::List list_of(const std::vector<ForceLaw>&) { return Place::List::Forces; }
-Place::List list_of(const std::vector<Drive>&) { return Place::List::Drives; }
+SceneLocation::List list_of(const std::vector<Body>&) { return SceneLocation::List::Bodies; }
+SceneLocation::List list_of(const std::vector<Joint>&) { return SceneLocation::List::Joints; }
+SceneLocation::List list_of(const std::vector<ForceLaw>&) { return SceneLocation::List::Forces; }
+SceneLocation::List list_of(const std::vector<Drive>&) { return SceneLocation::List::Drives; }
 
 using Index = std::unordered_map<std::string_view, std::size_t>;
 
 /// Checks a scene in order and throws at the first error.
 class Checker {
  public:
-  Checker(const Scene& scene, Place& place) : scene_(scene), place_(place) {}
+  Checker(const Scene& scene, SceneLocation& location) : scene_(scene), location_(location) {}
 
   void run() {
-    place_ = {};
+    location_ = {};
     all_fields(scene_, *this);
-    place_ = {};
+    location_ = {};
   }
 
   // Checks a field by its type and rule.
@@ -51,11 +51,11 @@ class Checker {
     if (!std::isfinite(value) || !within(rule.limits, value)) {
       fail(Error::Kind::Value, field, shortest(value), describe(rule.limits, rule.unit));
     }
-    if (std::abs(value) > kLargest) too_large(field, shortest(value));
-    const bool signed_too = rule.limits == Limits::NotZero;
-    if ((rule.limits == Limits::Positive || signed_too) && std::abs(value) < kSmallest) {
+    if (std::abs(value) > kLargest) fail_too_large(field, shortest(value));
+    const bool either_sign = rule.limits == Limits::NotZero;
+    if ((rule.limits == Limits::Positive || either_sign) && std::abs(value) < kSmallest) {
       fail(Error::Kind::Value, field, shortest(value),
-           "must be at least " + shortest(kSmallest) + (signed_too ? " in magnitude" : "") +
+           "must be at least " + shortest(kSmallest) + (either_sign ? " in magnitude" : "") +
                ": products with its reciprocal would overflow");
     }
   }
@@ -64,7 +64,7 @@ class Checker {
       fail(Error::Kind::Value, field, text_of(value),
            std::string("must be two finite numbers of ") + rule.unit);
     }
-    if (std::abs(value.x) > kLargest || std::abs(value.y) > kLargest) too_large(field, text_of(value));
+    if (std::abs(value.x) > kLargest || std::abs(value.y) > kLargest) fail_too_large(field, text_of(value));
     if (rule.limits == Limits::NotZero && std::max(std::abs(value.x), std::abs(value.y)) < kSmallest)
       fail(Error::Kind::Value, field, text_of(value), "must not be zero: it is a direction");
   }
@@ -149,7 +149,7 @@ class Checker {
     const std::string outer = prefix_;
     prefix_ += field + ".";
     inner_fields(value, rule, *this);
-    check_whole(value);
+    check_consistency(value);
     prefix_ = outer;
   }
 
@@ -157,15 +157,15 @@ class Checker {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       prefix_ = field + "[" + std::to_string(i) + "].";
       all_fields(shapes[i], *this);
-      std::visit([&](const auto& geometry) { check_whole(geometry); }, shapes[i].geometry);
+      std::visit([&](const auto& geometry) { check_consistency(geometry); }, shapes[i].geometry);
       prefix_.clear();
     }
   }
   template <class Part>
   void operator()(const std::string&, const std::vector<Part>& parts, const ListRule&) {
-    for (place_ = {list_of(parts), 0}; place_.index < parts.size(); ++place_.index) {
-      all_fields(parts[place_.index], *this);
-      check_whole(parts[place_.index]);
+    for (location_ = {list_of(parts), 0}; location_.index < parts.size(); ++location_.index) {
+      all_fields(parts[location_.index], *this);
+      check_consistency(parts[location_.index]);
     }
   }
 
@@ -176,32 +176,32 @@ class Checker {
   }
 
   std::string subject() const {
-    switch (place_.list) {
-      case Place::List::Bodies:
-        return body_subject(place_.index, scene_.bodies[place_.index].name);
-      case Place::List::Joints:
-        return std::visit([this](const auto& joint) { return joint_subject(place_.index, joint.name); },
-                          scene_.joints[place_.index]);
-      case Place::List::Forces: {
-        const ForceLaw& law = scene_.forces[place_.index];
-        return force_subject(place_.index, kForceNames[law.index()], ends_of(law)[0]);
+    switch (location_.list) {
+      case SceneLocation::List::Bodies:
+        return body_subject(location_.index, scene_.bodies[location_.index].name);
+      case SceneLocation::List::Joints:
+        return std::visit([this](const auto& joint) { return joint_subject(location_.index, joint.name); },
+                          scene_.joints[location_.index]);
+      case SceneLocation::List::Forces: {
+        const ForceLaw& law = scene_.forces[location_.index];
+        return force_subject(location_.index, kForceNames[law.index()], ends_of(law)[0]);
       }
-      case Place::List::Drives:
-        return drive_subject(place_.index);
-      case Place::List::None:
+      case SceneLocation::List::Drives:
+        return drive_subject(location_.index);
+      case SceneLocation::List::None:
         break;
     }
     return scene_subject(scene_.name);
   }
 
-  [[noreturn]] void too_large(const std::string& field, std::string value) const {
+  [[noreturn]] void fail_too_large(const std::string& field, std::string value) const {
     fail(Error::Kind::Value, field, std::move(value),
          "must be at most " + shortest(kLargest) + " in magnitude: products of such numbers overflow");
   }
 
   void check_unique(const std::string& field, const std::string& name) {
-    const bool body = place_.list == Place::List::Bodies;
-    const auto [other, is_new] = (body ? body_names_ : joint_names_).try_emplace(name, place_.index);
+    const bool body = location_.list == SceneLocation::List::Bodies;
+    const auto [other, is_new] = (body ? body_names_ : joint_names_).try_emplace(name, location_.index);
     if (!is_new) {
       fail(Error::Kind::Name, field, printable(name),
            std::string("must be unique: ") + (body ? "body " : "joint ") + std::to_string(other->second) +
@@ -214,11 +214,11 @@ class Checker {
   // Checks conditions that involve several fields of a part.
 
   template <class... Kinds>
-  void check_whole(const std::variant<Kinds...>& part) {
-    std::visit([&](const auto& kind) { check_whole(kind); }, part);
+  void check_consistency(const std::variant<Kinds...>& part) {
+    std::visit([&](const auto& kind) { check_consistency(kind); }, part);
   }
 
-  void check_whole(const Body& body) {
+  void check_consistency(const Body& body) {
     check_motion(body);
     check_path(body);
     if (body.type == BodyType::Dynamic) check_mass(body);
@@ -243,14 +243,14 @@ class Checker {
              "must be " + shortest(sum) + " kg, what the shapes' densities give; it may be left out");
     }
     if (body.inertia || body.fixed_rotation) return;
-    const auto weighs = [](const Shape& shape) {
+    const auto has_mass = [](const Shape& shape) {
       return shape.density.value_or(1) > 0 && extent_of(shape.geometry).area > 0;
     };
     if (body.shapes.empty()) {
       fail(Error::Kind::Value, "inertia", "absent",
            "must be given in kg m^2 for a dynamic body without shapes, unless fixed_rotation is true");
     }
-    if (std::none_of(body.shapes.begin(), body.shapes.end(), weighs)) {
+    if (std::none_of(body.shapes.begin(), body.shapes.end(), has_mass)) {
       fail(Error::Kind::Value, "inertia", "absent",
            "must be given in kg m^2 for a dynamic body whose shapes weigh nothing, unless fixed_rotation is "
            "true");
@@ -284,21 +284,21 @@ class Checker {
     (*this)("motion's angular velocity at t = 0", start.angular_velocity, FieldRule{Limits::Any, "rad/s"});
   }
 
-  void check_whole(const Polygon& polygon) {
-    at_least(3, polygon.points, "");
+  void check_consistency(const Polygon& polygon) {
+    require_count(3, polygon.points, "");
     if (!(extent_of(polygon).area > 0))
       fail(Error::Kind::Value, "points", count_of(polygon.points),
            "must not lie on a line: a polygon has an area");
   }
 
-  void check_whole(const Segment& segment) {
+  void check_consistency(const Segment& segment) {
     if (segment.start == segment.end)
       fail(Error::Kind::Value, "end", text_of(segment.end), "must differ from start: a segment has a length");
   }
 
-  void check_whole(const Chain& chain) {
-    at_least(2, chain.points, "");
-    if (chain.closed) at_least(3, chain.points, " when closed");
+  void check_consistency(const Chain& chain) {
+    require_count(2, chain.points, "");
+    if (chain.closed) require_count(3, chain.points, " when closed");
     for (std::size_t i = 0; i < chain.points.size(); ++i) {
       const bool last = i + 1 == chain.points.size();
       const std::size_t next = last ? 0 : i + 1;
@@ -308,33 +308,33 @@ class Checker {
     }
   }
 
-  void at_least(std::size_t count, const std::vector<Vec2d>& points, const std::string& when) const {
+  void require_count(std::size_t count, const std::vector<Vec2d>& points, const std::string& when) const {
     if (points.size() < count)
       fail(Error::Kind::Value, "points", count_of(points),
            "must be " + std::to_string(count) + " or more" + when);
   }
 
-  void check_whole(const Range& range) {
+  void check_consistency(const Range& range) {
     if (!(range.lower <= range.upper))
       fail(Error::Kind::Value, "upper", shortest(range.upper),
            "must be at least the lower bound, " + shortest(range.lower));
   }
 
-  void check_whole(const Drive& drive) {
-    for (std::size_t other = 0; other < place_.index; ++other) {
+  void check_consistency(const Drive& drive) {
+    for (std::size_t other = 0; other < location_.index; ++other) {
       if (scene_.drives[other].joint == drive.joint)
         fail(Error::Kind::Name, "joint", printable(drive.joint), "must have one drive at most");
     }
   }
 
-  void check_whole(const AttractionForce& law) {
+  void check_consistency(const AttractionForce& law) {
     if (law.centre_body == law.body)
       fail(Error::Kind::Name, "centre_body", law.centre_body,
            "must differ from body: nothing attracts itself");
   }
 
   /// Checks the two ends of joints and springs.
-  void check_whole(const auto& part) {
+  void check_consistency(const auto& part) {
     if constexpr (requires { part.body_a; }) {
       const bool joint = requires { part.collide; };
       if (part.body_a == part.body_b) {
@@ -355,18 +355,18 @@ class Checker {
   }
 
   const Scene& scene_;
-  Place& place_;
+  SceneLocation& location_;
   std::string prefix_;  ///< prefix of the names of fields: "shapes[1]."
   Index body_names_, joint_names_;
 };
 
 }  // namespace
 
-void check(const Scene& scene, Place& place) { Checker(scene, place).run(); }
+void check(const Scene& scene, SceneLocation& location) { Checker(scene, location).run(); }
 
 void validate(const Scene& scene) {
-  Place place;
-  check(scene, place);
+  SceneLocation location;
+  check(scene, location);
 }
 
 }  // namespace plumb

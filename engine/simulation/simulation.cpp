@@ -1,6 +1,5 @@
 #include "engine/simulation/simulation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <new>

@@ -25,7 +25,7 @@ WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
 }
 
 /// Returns the scene without shapes if it does not need them: masses do not depend on them.
-Scene with_needed_parts(const Scene& scene, const Plan& plan) {
+Scene without_unneeded_shapes(const Scene& scene, const Plan& plan) {
   Scene out = scene;
   if (needs_shapes(plan)) return out;
   for (Body& body : out.bodies) {
@@ -42,9 +42,9 @@ WorldDriver<Real>::WorldDriver(const Scene& scene, const Realtime& accuracy, boo
     : accuracy_(accuracy),
       plan_(plan_world(scene, accuracy, every_stage)),
       world_(definition_of(scene, accuracy)),
-      parts_(add_scene(world_, with_needed_parts(scene, plan_))),
+      parts_(add_scene(world_, without_unneeded_shapes(scene, plan_))),
       forces_(scene, parts_),
-      before_(scene.bodies.size()) {
+      start_states_(scene.bodies.size()) {
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     if (!scene.bodies[body].motion.empty()) prescribed_.push_back({body, PrescribedPath(scene.bodies[body])});
   }
@@ -60,17 +60,17 @@ WorldDriver<Real>::WorldDriver(const Scene& scene, const Realtime& accuracy, boo
 
 template <class Real>
 void WorldDriver<Real>::step() {
-  read(before_);
-  if (accuracy_.on_violation == OnViolation::Stop) plumb::save(world_, undo_);
+  read(start_states_);
+  if (accuracy_.on_violation == OnViolation::Stop) plumb::save(world_, undo_snapshot_);
   try {
     advance();
   } catch (const Error& error) {
-    put_back();
+    restore_start_states();
     throw Error(Error::Kind::Run, error.subject(), error.field(), error.value(), error.problem());
   }
   ++steps_;
   if (profiling_) update_profile();
-  if (found_) act_on_violation();
+  if (step_violation_) handle_violation();
 }
 
 /// Advances the world by one step. Force laws are evaluated at the middle of each substep. So with force
@@ -95,23 +95,23 @@ void WorldDriver<Real>::advance() {
 template <class Real>
 void WorldDriver<Real>::apply_drives(double dt) {
   const double start = world_.time(), end = start + dt;
-  for (const Prescribed& one : prescribed_) {
-    const BodyState then = one.path.at(end).state;
-    world_.move_towards(parts_.bodies[one.body], then.position, then.angle, dt);
+  for (const Prescribed& prescribed : prescribed_) {
+    const BodyState target = prescribed.path.at(end).state;
+    world_.move_towards(parts_.bodies[prescribed.body], target.position, target.angle, dt);
   }
-  for (const Driven& one : driven_) {
+  for (const Driven& driven : driven_) {
     const auto speed = [&](double time) {
       const double now[] = {time};
-      return one.speed.at(std::span<const double>(now));
+      return driven.speed.at(std::span<const double>(now));
     };
-    JointKind kind = world_.kind(one.joint);
+    JointKind kind = world_.kind(driven.joint);
     std::visit(
         [&](auto& joint) {
           if constexpr (requires { joint.motor; })
             joint.motor->speed = (speed(start) + 4 * speed(0.5 * (start + end)) + speed(end)) / 6;
         },
         kind);
-    world_.change(one.joint, kind);
+    world_.change(driven.joint, kind);
   }
 }
 
@@ -130,18 +130,19 @@ void WorldDriver<Real>::apply_forces(double dt) {
 template <class Real>
 void WorldDriver<Real>::check() {
   std::optional<Error> error = monitor_->end_step();
-  if (accuracy_.on_violation != OnViolation::Ignore && error && !found_) found_ = std::move(error);
+  if (accuracy_.on_violation != OnViolation::Ignore && error && !step_violation_)
+    step_violation_ = std::move(error);
 }
 
 template <class Real>
-void WorldDriver<Real>::act_on_violation() {
-  const Error found = *found_;
-  found_.reset();
+void WorldDriver<Real>::handle_violation() {
+  const Error found = *step_violation_;
+  step_violation_.reset();
   if (accuracy_.on_violation == OnViolation::Report) {
     if (!violation_) violation_ = found;
     return;
   }
-  plumb::restore(world_, undo_);
+  plumb::restore(world_, undo_snapshot_);
   --steps_;
   throw Error(found.kind(), found.subject(), found.field(), found.value(),
               found.problem() + ", after step " + std::to_string(steps_ + 1));
@@ -150,22 +151,22 @@ void WorldDriver<Real>::act_on_violation() {
 template <class Real>
 void WorldDriver<Real>::read(std::span<BodyState> out) const {
   if (abandoned_) {
-    std::ranges::copy(before_, out.begin());
+    std::ranges::copy(start_states_, out.begin());
     return;
   }
   // Dynamic bodies of a scene have their origin at the centre of mass; other bodies' shapes may lie anywhere.
   const WorldData<Real>& w = world_.data();
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) {
     const int body = static_cast<int>(parts_.bodies[i].index);
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     out[i] = {world_.position(parts_.bodies[i]), w.bodies[body].angle, motion.velocity.template as<double>(),
               static_cast<double>(motion.angular_velocity)};
   }
   // In the world, the velocity of a prescribed body is the mean over its last step.
-  for (const Prescribed& one : prescribed_) {
-    const BodyState now = one.path.at(time()).state;
-    out[one.body].velocity = now.velocity;
-    out[one.body].angular_velocity = now.angular_velocity;
+  for (const Prescribed& prescribed : prescribed_) {
+    const BodyState now = prescribed.path.at(time()).state;
+    out[prescribed.body].velocity = now.velocity;
+    out[prescribed.body].angular_velocity = now.angular_velocity;
   }
 }
 
@@ -183,10 +184,10 @@ void WorldDriver<Real>::write(std::size_t body, const BodyState& state) {
 
 /// Sets all bodies back to the start of a step that failed, and drops its forces.
 template <class Real>
-void WorldDriver<Real>::put_back() {
+void WorldDriver<Real>::restore_start_states() {
   WorldData<Real>& w = world_.data();
   if (w.loads.used()) std::fill_n(w.loads.data(), w.bodies.size(), Load<Real>{});
-  for (std::size_t body = 0; body < before_.size(); ++body) write(body, before_[body]);
+  for (std::size_t body = 0; body < start_states_.size(); ++body) write(body, start_states_[body]);
 }
 
 template <class Real>

@@ -41,8 +41,8 @@ class WorldDriver final : public Driver {
   void apply_forces(double dt);
   void apply_drives(double dt);
   void check();
-  void act_on_violation();
-  void put_back();
+  void handle_violation();
+  void restore_start_states();
   void update_profile();
 
   Realtime accuracy_;
@@ -61,14 +61,14 @@ class WorldDriver final : public Driver {
   };
   std::vector<Prescribed> prescribed_;
   std::vector<Driven> driven_;
-  std::vector<BodyState> before_;  // by body, at the start of the step
-  std::vector<std::byte> undo_;    // the whole state then, in case a violation undoes the step
+  std::vector<BodyState> start_states_;   // by body, at the start of the step
+  std::vector<std::byte> undo_snapshot_;  // snapshot at that time, in case a violation undoes the step
   std::optional<InvariantMonitor<Real>> monitor_;
-  std::optional<Error> found_;      // in this step
-  std::optional<Error> violation_;  // the first
+  std::optional<Error> step_violation_;  // in this step
+  std::optional<Error> violation_;       // the first
   std::int64_t steps_ = 0;
   double force_time_ = 0;   // ns
-  bool abandoned_ = false;  // memory ran out during a step: only `before_` is valid
+  bool abandoned_ = false;  // memory ran out during a step: only `start_states_` is valid
   bool profiling_ = false;
 };
 

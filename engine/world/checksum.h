@@ -8,8 +8,8 @@
 namespace plumb {
 
 /// Computes 64-bit FNV-1a (Fowler, Noll, Vo) over words of eight bytes instead of single bytes; the rest byte
-/// by byte. After each word, the upper half is folded onto the lower one: a product carries nothing
-/// downwards, so two changed signs would otherwise cancel. Each round is a bijection, so bytes of the same
+/// by byte. After each word, the upper half is folded onto the lower one: multiplication moves bits only
+/// upwards, so two flipped sign bits would otherwise cancel. Each round is a bijection, so bytes of the same
 /// length that differ in one word have different sums.
 inline std::uint64_t checksum(std::span<const std::byte> bytes) {
   constexpr std::uint64_t kPrime = 0x100000001B3u;

@@ -20,7 +20,7 @@ using ShapeGeometry = std::variant<Circle, Box, Capsule, Polygon, Segment>;
 struct Material {
   double friction = 0.6;          ///< Coulomb's coefficient, >= 0
   double restitution = 0;         ///< Newton's coefficient, 0..1
-  double rolling_resistance = 0;  ///< lever arm of the rolling resistance over the rounding radius, >= 0
+  double rolling_resistance = 0;  ///< lever arm of rolling friction divided by the rounding radius, >= 0
   double surface_speed = 0;       ///< m/s, of the surface, positive to the right of someone standing on it
 };
 
@@ -100,9 +100,9 @@ using CombineFunction = double (*)(double a, double b);
 /// Speeds at which behaviour changes, m/s. Negative selects the default, from the shapes' sizes or gravity,
 /// so that scenes of all sizes behave alike.
 struct Thresholds {
-  double hit = -1;     ///< approach from which impacts are hits; default: the smaller extent a second
-  double bounce = -1;  ///< approach up to which nothing bounces; default: gravity's gain of speed in 4 steps
-  double sleep = -1;   ///< speed up to which a body may fall asleep; default: 0.05 of its extents a second
+  double hit = -1;     ///< approach speed at which hit events begin; default: the smaller extent per second
+  double bounce = -1;  ///< approach speed below which nothing bounces; default: 4 steps of gravity
+  double sleep = -1;   ///< speed up to which a body may fall asleep; default: 0.05 of its extents per second
   friend bool operator==(const Thresholds&, const Thresholds&) = default;
 };
 
@@ -115,7 +115,7 @@ struct WorldDefinition {
   bool continuous = true;  ///< continuous collision: fast bodies do not tunnel
   Solver solver = Solver::SoftSteps;
   Integrator integrator = Integrator::VelocityVerlet;  ///< of SoftSteps and Direct
-  int iterations = 10;         ///< iterations a substep, 1..1000: SequentialImpulses and Jakobsen
+  int iterations = 10;         ///< iterations per substep, 1..1000: SequentialImpulses and Jakobsen
   bool direct_islands = true;  ///< SoftSteps solves small islands directly if iterations would not hold them
   bool quarantine = true;      ///< takes non-finite bodies out of the simulation; false: Error ends the step
   /// Number of threads that share a step, 1..64: the calling thread, and a pool of the world or of the game

@@ -51,18 +51,18 @@ class InvariantMonitor {
  private:
   struct State {
     Vec2d position{}, velocity{}, force{};
-    double angle = 0, spin = 0, torque = 0, mass = 0, inertia = 0;
+    double angle = 0, angular_velocity = 0, torque = 0, mass = 0, inertia = 0;
     Vec2d weight{};  // N
-    bool moves = false;
+    bool is_dynamic = false;
   };
   /// A joint or contact that exceeds its bound.
-  struct Miss {
+  struct Violation {
     std::uint64_t key = 0;
     double size = 0;
     int steps = 0;
   };
-  bool lasts(std::vector<Miss>& now, const std::vector<Miss>& before, std::uint64_t key, double size,
-             double bound) const;
+  bool is_persistent(std::vector<Violation>& now, const std::vector<Violation>& before, std::uint64_t key,
+                     double size, double bound) const;
   std::optional<Error> check_energy();
   std::optional<Error> check_joints();
   std::optional<Error> check_overlaps();
@@ -72,10 +72,10 @@ class InvariantMonitor {
   const BasicWorld<Real>* world_;
   MonitorBounds bounds_;
   std::vector<State> before_;  // by body
-  std::vector<Miss> gaps_, overlaps_, last_;
-  double gained_ = 0;  // J, above the lowest balance since the start
-  double moving_ = 0;  // J, the largest kinetic energy so far
-  int energy_misses_ = 0;
+  std::vector<Violation> gaps_, overlaps_, previous_;
+  double energy_gain_ = 0;         // J, above the lowest balance since the start
+  double max_kinetic_energy_ = 0;  // J, the largest kinetic energy so far
+  int energy_violation_steps_ = 0;
 };
 
 extern template class InvariantMonitor<float>;

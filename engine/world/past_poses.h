@@ -23,13 +23,13 @@ class PastPoses {
   double angle_between(const WorldData<Real>& data, int body, double fraction) const;
 
  private:
-  struct Past {
+  struct Stored {
     Vec2d position{};              ///< m, of the centre of mass
     double angle = 0;              ///< rad
     std::uint32_t generation = 0;  ///< even: the slot was free
   };
-  const Past* find(const WorldData<Real>& data, int body) const;
-  std::vector<Past> past_;  // by the body's index
+  const Stored* find(const WorldData<Real>& data, int body) const;
+  std::vector<Stored> stored_;  // by the body's index
 };
 
 extern template class PastPoses<float>;

@@ -45,9 +45,9 @@ class Replay {
   const ReplayReport& report() const { return report_; }
 
  private:
-  void repeat(std::span<const std::byte> content);
+  void replay_call(std::span<const std::byte> content);
   void compare(std::span<const std::byte> content);
-  void say(const std::string& message);
+  void add_message(const std::string& message);
 
   RecordingReader file_;
   std::function<bool(const ContactReading&)> hook_;

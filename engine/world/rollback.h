@@ -39,7 +39,7 @@ class Rollback {
 
  private:
   // States from the oldest to the latest are numbered 0 .. size - 1; their steps ascend.
-  int place_of(int nth) const;
+  int slot_of(int nth) const;
   std::int64_t step_of(int nth) const;
   int find(std::int64_t step) const;
 

@@ -23,7 +23,7 @@ class SvgDraw : public DebugDraw {
   std::string picture(const Aabb<double>& view, int width) const;
 
  private:
-  void reach(Vec2d point, double radius);
+  void extend_bounds(Vec2d point, double radius);
 
   std::string body_;
   Aabb<double> bounds_{};

@@ -22,7 +22,7 @@
 namespace plumb {
 namespace {
 
-[[noreturn]] void report_gone(const char* what, std::uint32_t index, std::uint32_t generation) {
+[[noreturn]] void throw_invalid_handle(const char* what, std::uint32_t index, std::uint32_t generation) {
   const bool never = index == 0xFFFFFFFFu;
   throw Error(Error::Kind::Name, what, "handle",
               never ? "none" : std::to_string(index) + " of generation " + std::to_string(generation),
@@ -65,7 +65,7 @@ BasicWorld<Real>& BasicWorld<Real>::operator=(BasicWorld&& other) {
 }
 
 template <class Real>
-void BasicWorld<Real>::report_moved() {
+void BasicWorld<Real>::throw_moved_from() {
   throw Error(Error::Kind::Name, "world", "", "", "was moved to another variable; use that one");
 }
 template <class Real>
@@ -85,7 +85,7 @@ void BasicWorld<Real>::step(double dt, int substeps) {
     throw Error(Error::Kind::Value, "step", "substeps", std::to_string(substeps),
                 "must be a number from 1 to 1000");
   }
-  if (data_->steps >= kMostSteps) {
+  if (data_->steps >= kMaxSteps) {
     throw Error(Error::Kind::Run, "world", "steps", std::to_string(data_->steps),
                 "are as many as can be counted; go on in a new world");
   }
@@ -230,15 +230,15 @@ std::vector<QuarantineEvent> BasicWorld<Real>::quarantined() const {
 }
 template <class Real>
 bool BasicWorld<Real>::quarantined(BodyId body) const {
-  const int index = place(body);
+  const int index = index_of(body);
   return data_->bodies[index].quarantined && quarantine_of(*data_, index).why.field != BadField::None;
 }
 template <class Real>
 void BasicWorld<Real>::release(BodyId body) {
   unlocked(*this);
-  const int index = place(body);
+  const int index = index_of(body);
   if (!quarantined(body)) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   release_body(*data_, index);
 }
 
@@ -256,7 +256,7 @@ WorldCounts BasicWorld<Real>::counts() const {
 template <class Real>
 void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> hook) {
   unlocked(*this);
-  wake_asked();
+  wake_pre_solve_contacts();
   if (!hook) {
     data_->pre_solve = nullptr;
     return;
@@ -308,26 +308,27 @@ std::uint64_t BasicWorld<Real>::hash() const {
 }
 
 template <class Real>
-int BasicWorld<Real>::place(BodyId body) const {
-  if (!data().bodies.holds(body.index, body.generation)) report_gone("body", body.index, body.generation);
+int BasicWorld<Real>::index_of(BodyId body) const {
+  if (!data().bodies.holds(body.index, body.generation))
+    throw_invalid_handle("body", body.index, body.generation);
   return static_cast<int>(body.index);
 }
 template <class Real>
-int BasicWorld<Real>::place(ShapeId shape) const {
+int BasicWorld<Real>::index_of(ShapeId shape) const {
   if (!data().shapes.holds(shape.index, shape.generation))
-    report_gone("shape", shape.index, shape.generation);
+    throw_invalid_handle("shape", shape.index, shape.generation);
   return static_cast<int>(shape.index);
 }
 template <class Real>
-int BasicWorld<Real>::place(JointId joint) const {
+int BasicWorld<Real>::index_of(JointId joint) const {
   if (!data().joints.holds(joint.index, joint.generation))
-    report_gone("joint", joint.index, joint.generation);
+    throw_invalid_handle("joint", joint.index, joint.generation);
   return static_cast<int>(joint.index);
 }
 template <class Real>
-int BasicWorld<Real>::place(ChainId chain) const {
+int BasicWorld<Real>::index_of(ChainId chain) const {
   if (!data().chains.holds(chain.index, chain.generation))
-    report_gone("chain", chain.index, chain.generation);
+    throw_invalid_handle("chain", chain.index, chain.generation);
   return static_cast<int>(chain.index);
 }
 
@@ -338,7 +339,7 @@ void BasicWorld<Real>::wake_all() {
 
 // Wakes sleeping bodies with a contact that has a pre-solve hook.
 template <class Real>
-void BasicWorld<Real>::wake_asked() {
+void BasicWorld<Real>::wake_pre_solve_contacts() {
   data_->contacts.for_each([&](int, const ContactRecord& contact) {
     if (contact.pre_solve && contact.home == ContactHome::Parked)
       wake_body(*data_, contact.body_a), wake_body(*data_, contact.body_b);

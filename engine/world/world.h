@@ -277,23 +277,23 @@ class BasicWorld {
   const WorldData<Real>& data() const;
 
  private:
-  int place(BodyId body) const;
-  int place(ShapeId shape) const;
-  int place(JointId joint) const;
-  int place(ChainId chain) const;
+  int index_of(BodyId body) const;
+  int index_of(ShapeId shape) const;
+  int index_of(JointId joint) const;
+  int index_of(ChainId chain) const;
   void wake(int body);
   void wake_moved(int body);
   void wake_all();
-  void wake_asked();
+  void wake_pre_solve_contacts();
 
-  [[noreturn]] static void report_moved();
+  [[noreturn]] static void throw_moved_from();
 
   /// Owns the data. Every access to data that were moved away throws, so that no call can omit this check.
   class Owned {
    public:
     explicit Owned(OwnedPointer<WorldData<Real>> data) : data_(std::move(data)) {}
     WorldData<Real>& operator*() const {
-      if (moved_away()) report_moved();
+      if (moved_away()) throw_moved_from();
       return *data_;
     }
     WorldData<Real>* operator->() const { return &**this; }

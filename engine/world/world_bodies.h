@@ -34,15 +34,16 @@ BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
                                      std::span<const ShapeDefinition> shapes) {
   unlocked(*this);
   validate(definition);
-  const bool weighs = std::is_same_v<Real, float> && definition.type == BodyType::Dynamic && !definition.mass;
+  const bool needs_mass_check =
+      std::is_same_v<Real, float> && definition.type == BodyType::Dynamic && !definition.mass;
   for (const ShapeDefinition& shape : shapes) {
     const auto subject = [&] {
       const std::string which = "shape " + std::to_string(&shape - shapes.data());
       return definition.name.empty() ? which : which + " of " + body_subject(0, definition.name);
     };
-    naming(subject, [&] {
+    with_subject(subject, [&] {
       validate(shape);
-      if (weighs) require_weight(shape);
+      if (needs_mass_check) require_float_mass(shape);
     });
   }
   const int body = add_body(*data_, definition, shapes);
@@ -59,7 +60,8 @@ BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
   made.reserve(shapes.size());
   const BodyId body = create_body(definition, shapes);
   made.clear();
-  for (int shape = data_->bodies[place(body)].first_shape; shape != kNone; shape = data_->shapes[shape].next)
+  for (int shape = data_->bodies[index_of(body)].first_shape; shape != kNone;
+       shape = data_->shapes[shape].next)
     made.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
   std::reverse(made.begin(), made.end());
   return body;
@@ -67,7 +69,7 @@ BodyId BasicWorld<Real>::create_body(const BodyDefinition& definition,
 template <class Real>
 void BasicWorld<Real>::destroy(BodyId body) {
   unlocked(*this);
-  remove_body(*data_, place(body));
+  remove_body(*data_, index_of(body));
 }
 template <class Real>
 bool BasicWorld<Real>::valid(BodyId body) const {
@@ -110,45 +112,45 @@ std::size_t BasicWorld<Real>::moved(std::span<BodyId> out) const {
 
 template <class Real>
 Vec2d BasicWorld<Real>::position(BodyId body) const {
-  return origin_of(*data_, place(body));
+  return origin_of(*data_, index_of(body));
 }
 template <class Real>
 Vec2d BasicWorld<Real>::centre(BodyId body) const {
-  const int index = place(body);
-  const Vec2<Real> way = data_->rotation[index] * way_to_centre(*data_, index);
-  return data_->position[index] + way.template as<double>();
+  const int index = index_of(body);
+  const Vec2<Real> offset = data_->rotation[index] * centre_of_mass_shift(*data_, index);
+  return data_->position[index] + offset.template as<double>();
 }
 template <class Real>
 double BasicWorld<Real>::angle(BodyId body) const {
-  return data_->bodies[place(body)].angle;
+  return data_->bodies[index_of(body)].angle;
 }
 template <class Real>
 Vec2d BasicWorld<Real>::velocity(BodyId body) const {
-  const int index = place(body);
-  const BodyMotion<Real>& motion = data_->motion[index];
-  if (!is_unsettled(*data_, index)) return motion.velocity.template as<double>();
-  const Vec2<Real> way = data_->rotation[index] * way_to_centre(*data_, index);
-  return (motion.velocity + cross(motion.angular_velocity, way)).template as<double>();
+  const int index = index_of(body);
+  const SolverBody<Real>& motion = data_->motion[index];
+  if (!has_mass_change(*data_, index)) return motion.velocity.template as<double>();
+  const Vec2<Real> offset = data_->rotation[index] * centre_of_mass_shift(*data_, index);
+  return (motion.velocity + cross(motion.angular_velocity, offset)).template as<double>();
 }
 template <class Real>
 double BasicWorld<Real>::angular_velocity(BodyId body) const {
-  return static_cast<double>(data_->motion[place(body)].angular_velocity);
+  return static_cast<double>(data_->motion[index_of(body)].angular_velocity);
 }
 template <class Real>
 Vec2d BasicWorld<Real>::velocity_at(BodyId body, Vec2d point) const {
-  naming_body(*data_, place(body), [&] { require_place("body", "point", point); });
+  with_body_subject(*data_, index_of(body), [&] { require_query_position("body", "point", point); });
   return velocity(body) + cross(angular_velocity(body), point - centre(body));
 }
 template <class Real>
 Vec2d BasicWorld<Real>::world_point(BodyId body, Vec2d local) const {
-  const Rotation<Real> q = data_->rotation[place(body)];
-  naming_body(*data_, place(body), [&] { require_place("body", "local", local); });
+  const Rotation<Real> q = data_->rotation[index_of(body)];
+  with_body_subject(*data_, index_of(body), [&] { require_query_position("body", "local", local); });
   return position(body) + Rotation<double>{q.c, q.s} * local;
 }
 template <class Real>
 Vec2d BasicWorld<Real>::local_point(BodyId body, Vec2d world) const {
-  const Rotation<Real> q = data_->rotation[place(body)];
-  naming_body(*data_, place(body), [&] { require_place("body", "world", world); });
+  const Rotation<Real> q = data_->rotation[index_of(body)];
+  with_body_subject(*data_, index_of(body), [&] { require_query_position("body", "world", world); });
   return Rotation<double>{q.c, -q.s} * (world - position(body));
 }
 template <class Real>
@@ -159,31 +161,31 @@ BodyState BasicWorld<Real>::state(BodyId body) const {
 template <class Real>
 void BasicWorld<Real>::set_position(BodyId body, Vec2d position, double angle) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] {
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] {
     require_finite("body", "position", position);
     require_finite("body", "angle", angle);
   });
-  settle(*data_);
-  place_body(*data_, index, position, angle);
+  apply_mass_changes(*data_);
+  teleport_body(*data_, index, position, angle);
 }
 template <class Real>
 void BasicWorld<Real>::set_velocity(BodyId body, Vec2d velocity) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { require_finite("body", "velocity", velocity); });
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { require_finite("body", "velocity", velocity); });
   if (own_type(*data_, index) == BodyType::Static) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   wake_moved(index);
   data_->motion[index].velocity = velocity.as<Real>();
 }
 template <class Real>
 void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { require_finite("body", "angular_velocity", angular_velocity); });
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { require_finite("body", "angular_velocity", angular_velocity); });
   if (own_type(*data_, index) == BodyType::Static) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   wake_moved(index);
   const bool locked = own_type(*data_, index) == BodyType::Dynamic && data_->bodies[index].lock_rotation;
   data_->motion[index].angular_velocity = locked ? Real(0) : static_cast<Real>(angular_velocity);
@@ -191,18 +193,18 @@ void BasicWorld<Real>::set_angular_velocity(BodyId body, double angular_velocity
 template <class Real>
 void BasicWorld<Real>::move_towards(BodyId body, Vec2d position, double angle, double dt) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] {
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] {
     require_finite("body", "position", position);
     require_finite("body", "angle", angle);
     require_positive("body", "dt", dt);
   });
   const Rotation<double> q = rotation_of(angle);
-  const Vec2<Real> centre_in_body = data_->bodies[index].centre + way_to_centre(*data_, index);
+  const Vec2<Real> centre_in_body = data_->bodies[index].centre + centre_of_mass_shift(*data_, index);
   const Vec2d target = position + q * centre_in_body.template as<double>();
   const Vec2d velocity = (1 / dt) * (target - centre(body));
   const double angular_velocity = (angle - this->angle(body)) / dt;
-  naming_body(*data_, index, [&] {
+  with_body_subject(*data_, index, [&] {
     require_finite("body", "velocity", velocity);
     require_finite("body", "angular_velocity", angular_velocity);
   });
@@ -218,13 +220,13 @@ void BasicWorld<Real>::apply_force(BodyId body, Vec2d force) {
 template <class Real>
 void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] {
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] {
     require_finite("body", "force", force);
     require_finite("body", "point", point);
   });
   if (!data_->is_dynamic(index)) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   wake(index);
   Load<Real>& load = data_->loads.at(index, data_->bodies.size());
   load.force += force.as<Real>();
@@ -233,10 +235,10 @@ void BasicWorld<Real>::apply_force(BodyId body, Vec2d force, Vec2d point) {
 template <class Real>
 void BasicWorld<Real>::apply_torque(BodyId body, double torque) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { require_finite("body", "torque", torque); });
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { require_finite("body", "torque", torque); });
   if (!data_->is_dynamic(index)) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   wake(index);
   data_->loads.at(index, data_->bodies.size()).torque += static_cast<Real>(torque);
 }
@@ -248,71 +250,74 @@ void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse) {
 template <class Real>
 void BasicWorld<Real>::apply_impulse(BodyId body, Vec2d impulse, Vec2d point) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] {
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] {
     require_finite("body", "impulse", impulse);
     require_finite("body", "point", point);
   });
   if (!data_->is_dynamic(index)) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   wake(index);
-  push_body(*data_, index, impulse, cross(point - data_->position[index], impulse));
+  apply_body_impulse(*data_, index, impulse, cross(point - data_->position[index], impulse));
 }
 template <class Real>
 void BasicWorld<Real>::apply_angular_impulse(BodyId body, double impulse) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { require_finite("body", "angular_impulse", impulse); });
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { require_finite("body", "angular_impulse", impulse); });
   if (!data_->is_dynamic(index)) return;
-  settle(*data_);
+  apply_mass_changes(*data_);
   wake(index);
-  push_body(*data_, index, {}, impulse);
+  apply_body_impulse(*data_, index, {}, impulse);
 }
 
 template <class Real>
 BodyType BasicWorld<Real>::type(BodyId body) const {
-  return own_type(*data_, place(body));
+  return own_type(*data_, index_of(body));
 }
 template <class Real>
 void BasicWorld<Real>::set_type(BodyId body, BodyType type) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { validate(type); });
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { validate(type); });
   if (type == BodyType::Dynamic && !data_->bodies[index].mass_given)
-    naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
-  settle(*data_);
+    with_part_subject(*data_, "shape", index, [&] { require_float_masses(*data_, index); });
+  apply_mass_changes(*data_);
   plumb::set_type(*data_, index, type);
 }
 template <class Real>
 double BasicWorld<Real>::mass(BodyId body) const {
-  const int index = place(body);
+  const int index = index_of(body);
   if (own_type(*data_, index) != BodyType::Dynamic) return 0;
-  return static_cast<double>(is_unsettled(*data_, index) ? static_cast<Real>(mass_now(*data_, index).mass)
-                                                         : data_->bodies[index].mass);
+  return static_cast<double>(has_mass_change(*data_, index)
+                                 ? static_cast<Real>(current_mass(*data_, index).mass)
+                                 : data_->bodies[index].mass);
 }
 template <class Real>
 double BasicWorld<Real>::inertia(BodyId body) const {
-  const int index = place(body);
+  const int index = index_of(body);
   if (own_type(*data_, index) != BodyType::Dynamic) return 0;
-  return static_cast<double>(is_unsettled(*data_, index) ? static_cast<Real>(mass_now(*data_, index).inertia)
-                                                         : data_->bodies[index].inertia);
+  return static_cast<double>(has_mass_change(*data_, index)
+                                 ? static_cast<Real>(current_mass(*data_, index).inertia)
+                                 : data_->bodies[index].inertia);
 }
 template <class Real>
 void BasicWorld<Real>::set_mass(BodyId body, const MassProperties& mass) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { validate(BodyDefinition{.mass = mass}); });
-  settle(*data_);
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { validate(BodyDefinition{.mass = mass}); });
+  apply_mass_changes(*data_);
   plumb::set_mass(*data_, index, mass);
   wake(index);
 }
 template <class Real>
 void BasicWorld<Real>::use_densities(BodyId body) {
   unlocked(*this);
-  const int index = place(body);
-  const bool weighs = own_type(*data_, index) == BodyType::Dynamic;
-  if (weighs) naming_part(*data_, "shape", index, [&] { require_weights(*data_, index); });
-  settle(*data_);
+  const int index = index_of(body);
+  const bool needs_mass_check = own_type(*data_, index) == BodyType::Dynamic;
+  if (needs_mass_check)
+    with_part_subject(*data_, "shape", index, [&] { require_float_masses(*data_, index); });
+  apply_mass_changes(*data_);
   data_->bodies[index].mass_given = false;
   update_mass(*data_, index);
   wake(index);
@@ -320,16 +325,16 @@ void BasicWorld<Real>::use_densities(BodyId body) {
 template <class Real>
 void BasicWorld<Real>::set_gravity_scale(BodyId body, double scale) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] { require_finite("body", "gravity_scale", scale); });
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] { require_finite("body", "gravity_scale", scale); });
   plumb::set_gravity_scale(*data_, index, scale);
   wake(index);
 }
 template <class Real>
 void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
   unlocked(*this);
-  const int index = place(body);
-  naming_body(*data_, index, [&] {
+  const int index = index_of(body);
+  with_body_subject(*data_, index, [&] {
     require_not_negative("body", "linear_damping", linear);
     require_not_negative("body", "angular_damping", angular);
   });
@@ -339,17 +344,17 @@ void BasicWorld<Real>::set_damping(BodyId body, double linear, double angular) {
 template <class Real>
 void BasicWorld<Real>::set_continuous(BodyId body, bool on) {
   unlocked(*this);
-  plumb::set_continuous(*data_, place(body), on);
+  plumb::set_continuous(*data_, index_of(body), on);
 }
 template <class Real>
 bool BasicWorld<Real>::continuous(BodyId body) const {
-  return data_->extras_of(place(body)).continuous;
+  return data_->extras_of(index_of(body)).continuous;
 }
 template <class Real>
 void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   unlocked(*this);
-  const int index = place(body);
-  settle(*data_);
+  const int index = index_of(body);
+  apply_mass_changes(*data_);
   BodyRecord<Real>& record = data_->bodies[index];
   record.lock_x = x, record.lock_y = y, record.lock_rotation = rotation;
   const bool dynamic = own_type(*data_, index) == BodyType::Dynamic;
@@ -358,19 +363,19 @@ void BasicWorld<Real>::set_locks(BodyId body, bool x, bool y, bool rotation) {
   data_->motion[index].inverse_inertia = turns ? 1 / record.inertia : Real(0);
   if (rotation && dynamic) data_->motion[index].angular_velocity = 0;
   // Residues of rounding must not move locked axes either.
-  data_->position_compensation.renew(index, data_->bodies.size());
+  data_->position_compensation.reset(index, data_->bodies.size());
   data_->topology_changed = true;
   invalidate_manifolds(*data_, index);
   wake(index);
 }
 template <class Real>
 bool BasicWorld<Real>::awake(BodyId body) const {
-  return data_->bodies[place(body)].awake;
+  return data_->bodies[index_of(body)].awake;
 }
 template <class Real>
 void BasicWorld<Real>::set_awake(BodyId body, bool awake) {
   unlocked(*this);
-  const int index = place(body);
+  const int index = index_of(body);
   if (awake) {
     wake(index);
   } else {
@@ -380,31 +385,31 @@ void BasicWorld<Real>::set_awake(BodyId body, bool awake) {
 template <class Real>
 void BasicWorld<Real>::set_may_sleep(BodyId body, bool may_sleep) {
   unlocked(*this);
-  const int index = place(body);
+  const int index = index_of(body);
   data_->bodies[index].may_sleep = may_sleep;
   if (!may_sleep) wake(index);
 }
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(BodyId body) const {
-  return data_->body_data.get(place(body));
+  return data_->body_data.get(index_of(body));
 }
 template <class Real>
 void BasicWorld<Real>::set_user_data(BodyId body, std::uint64_t data) {
   unlocked(*this);
-  data_->body_data.at(place(body), data_->bodies.size()) = data;
+  data_->body_data.at(index_of(body), data_->bodies.size()) = data;
 }
 template <class Real>
 void BasicWorld<Real>::set_name(BodyId body, const std::string& name) {
   unlocked(*this);
-  const int index = place(body);
+  const int index = index_of(body);
   std::string copy = name;
-  make_uncommon(*data_, index).name.swap(copy);
+  make_extras(*data_, index).name.swap(copy);
 }
 template <class Real>
 void BasicWorld<Real>::set_enabled(BodyId body, bool enabled) {
   unlocked(*this);
-  const int index = place(body);
-  settle(*data_);
+  const int index = index_of(body);
+  apply_mass_changes(*data_);
   if (enabled) {
     enable_body(*data_, index);
   } else {
@@ -413,11 +418,11 @@ void BasicWorld<Real>::set_enabled(BodyId body, bool enabled) {
 }
 template <class Real>
 bool BasicWorld<Real>::enabled(BodyId body) const {
-  return !data_->bodies[place(body)].quarantined;
+  return !data_->bodies[index_of(body)].quarantined;
 }
 template <class Real>
 Aabb<double> BasicWorld<Real>::box(BodyId body) const {
-  int shape = data_->bodies[place(body)].first_shape;
+  int shape = data_->bodies[index_of(body)].first_shape;
   if (shape == kNone) return {position(body), position(body)};
   Aabb<Real> all = current_aabb(*data_, shape);
   for (; shape != kNone; shape = data_->shapes[shape].next) all = merged(all, current_aabb(*data_, shape));
@@ -425,32 +430,32 @@ Aabb<double> BasicWorld<Real>::box(BodyId body) const {
 }
 template <class Real>
 bool BasicWorld<Real>::may_sleep(BodyId body) const {
-  return data_->bodies[place(body)].may_sleep;
+  return data_->bodies[index_of(body)].may_sleep;
 }
 template <class Real>
 double BasicWorld<Real>::gravity_scale(BodyId body) const {
-  return static_cast<double>(data_->extras_of(place(body)).gravity_scale);
+  return static_cast<double>(data_->extras_of(index_of(body)).gravity_scale);
 }
 template <class Real>
 double BasicWorld<Real>::linear_damping(BodyId body) const {
-  return static_cast<double>(data_->extras_of(place(body)).linear_damping);
+  return static_cast<double>(data_->extras_of(index_of(body)).linear_damping);
 }
 template <class Real>
 double BasicWorld<Real>::angular_damping(BodyId body) const {
-  return static_cast<double>(data_->extras_of(place(body)).angular_damping);
+  return static_cast<double>(data_->extras_of(index_of(body)).angular_damping);
 }
 template <class Real>
 BodyLocks BasicWorld<Real>::locks(BodyId body) const {
-  return data_->bodies[place(body)].locks();
+  return data_->bodies[index_of(body)].locks();
 }
 template <class Real>
 const std::string& BasicWorld<Real>::name(BodyId body) const {
-  return data_->extras_of(place(body)).name;
+  return data_->extras_of(index_of(body)).name;
 }
 template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {
   std::vector<ShapeId> all;
-  for (int shape = data_->bodies[place(body)].first_shape; shape != kNone;
+  for (int shape = data_->bodies[index_of(body)].first_shape; shape != kNone;
        shape = data_->shapes[shape].next) {
     all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
   }
@@ -460,7 +465,7 @@ std::vector<ShapeId> BasicWorld<Real>::shapes(BodyId body) const {
 template <class Real>
 std::vector<JointId> BasicWorld<Real>::joints(BodyId body) const {
   std::vector<JointId> all;
-  for_each_edge(data_->joints, data_->bodies[place(body)].first_joint, [&](int edge, const JointRecord&) {
+  for_each_edge(data_->joints, data_->bodies[index_of(body)].first_joint, [&](int edge, const JointRecord&) {
     all.push_back({static_cast<std::uint32_t>(edge / 2), data_->joints.generation(edge / 2)});
   });
   std::reverse(all.begin(), all.end());
@@ -475,7 +480,7 @@ std::vector<ContactReading> BasicWorld<Real>::contacts(BodyId body) const {
 template <class Real>
 std::size_t BasicWorld<Real>::contacts(BodyId body, std::span<ContactReading> out) const {
   std::size_t count = 0;
-  for_each_edge(data_->contacts, data_->bodies[place(body)].first_contact,
+  for_each_edge(data_->contacts, data_->bodies[index_of(body)].first_contact,
                 [&](int, const ContactRecord& contact) {
                   if (!has_points(contact)) return;
                   if (count < out.size())

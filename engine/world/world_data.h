@@ -15,10 +15,10 @@
 #include "engine/core/locked_pool.h"
 #include "engine/core/slot_map.h"
 #include "engine/linear_algebra/bounded_rows.h"
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_graph.h"
 #include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/contact_solver/soft_contacts.h"
+#include "engine/world/contact_solver/solver_body.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/joint_solver/direct_rows.h"
@@ -156,9 +156,9 @@ struct BodyVelocity {
 template <class Real>
 struct VelocityIncrement {
   int body = 0;
-  Vec2<Real> velocity{};         ///< m/s
-  Real spin = 0;                 ///< rad/s
-  Real keep = 1, keep_spin = 1;  ///< factors by damping
+  Vec2<Real> velocity{};                             ///< m/s
+  Real spin = 0;                                     ///< rad/s
+  Real damping_factor = 1, spin_damping_factor = 1;  ///< factors by damping
   bool locked_x = false, locked_y = false;
   bool in_tree = false;          ///< moved as part of its articulated body
   Vec2<Real> velocity_before{};  ///< m/s, after forces, before contact impulses of this substep
@@ -184,7 +184,7 @@ struct ExpectedImpact {
 
 /// A shape that has left its fat AABB, with its next fat AABB.
 template <class Real>
-struct LeftBox {
+struct ProxyUpdate {
   int shape = 0;
   Aabb<Real> box{};
 };
@@ -193,10 +193,10 @@ struct LeftBox {
 template <class Real>
 struct BegunContact {
   ContactConstraint<Real> constraint{};
-  bool bounces = false;   ///< it is one of the `bouncing`
-  bool pressing = false;  ///< its bodies will be pressed together in this step
-  bool asked = false;     ///< the user's pre-solve hook is to be called for it
-  bool waived = false;    ///< it was disabled
+  bool bounces = false;          ///< it is one of the `bouncing`
+  bool pressing = false;         ///< it will be under load in this step
+  bool needs_pre_solve = false;  ///< the user's pre-solve hook is to be called for it
+  bool disabled = false;         ///< it was disabled
 };
 
 /// Contacts of one colour that are contiguous in the graph, updated by one thread.
@@ -204,13 +204,13 @@ template <class Real>
 struct ContactRun {
   ContactConstraint<Real>* first = nullptr;
   int count = 0;
-  int place = 0;  ///< of the first, among all contacts that are updated
+  int first_index = 0;  ///< of the first, among all contacts that are updated
 };
 
 /// A small island of contacts, solved directly.
 template <class Real>
 struct DirectIsland {
-  explicit DirectIsland(std::pmr::memory_resource* room) : contacts(room), system(room) {}
+  explicit DirectIsland(std::pmr::memory_resource* memory) : contacts(memory), system(memory) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
   DirectRows<Real> system;
@@ -220,19 +220,21 @@ struct DirectIsland {
 /// A body of an island with joints: its motion through a substep, in double.
 struct JointedLink {
   int body = kNone;
-  Vec2d before{}, velocity{}, way{};           ///< m/s: at the start; without, then with impulses; the mean
-  double spin_before = 0, spin = 0, turn = 0;  ///< rad/s, the same
-  Vec2d push{};                                ///< m/s, by forces in the substep
-  double twist = 0;                            ///< rad/s, the same
-  Vec2d moved{};                               ///< m, since the start of the step
-  double turned = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
+  Vec2d start_velocity{};                          ///< m/s, at the start of the substep
+  Vec2d velocity{};                                ///< m/s, without impulses, then with them
+  Vec2d mean_velocity{};                           ///< m/s, mean of the start and the end: moves the body
+  double start_spin = 0, spin = 0, mean_spin = 0;  ///< rad/s, the same for rotation
+  Vec2d velocity_increment{};                      ///< m/s, by the forces of the substep
+  double spin_increment = 0;                       ///< rad/s, the same
+  Vec2d delta_position{};                          ///< m, since the start of the step
+  double delta_angle = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
 };
 
 /// The source of a row of an island with joints.
 template <class Real>
-struct RowTie {
+struct RowSource {
   Real* impulse = nullptr;  ///< N s, where the joint or contact stores it
-  Real most = 0;            ///< N s, bound of a pair of rows as a vector
+  Real max_impulse = 0;     ///< N s, bound of a pair of rows as a vector
   bool pair = false;
   int first = -1, count = 0;  ///< rows whose impulses bound this one
   double factor = 0;          ///< applied to their sum; m for torques
@@ -245,51 +247,51 @@ template <class Real>
 struct FrictionCone {
   const ContactConstraint<Real>* contact = nullptr;
   int block = 0;
-  int first = 0, count = 0;   ///< rows
-  double friction = 0;        ///< coefficient
-  double slip = 0;            ///< m/s, along the tangent: the slip for which the rows were made
-  double gain = 1, last = 0;  ///< factor of the next change of `slip`; m/s, the last change
+  int first = 0, count = 0;          ///< rows
+  double friction = 0;               ///< coefficient
+  double slip = 0;                   ///< m/s, along the tangent: the slip for which the rows were made
+  double gain = 1, last_change = 0;  ///< factor of the next change of `slip`; m/s, the last change
 };
 
 /// Impulses of a contact, N s and N m s.
-struct LastImpulses {
+struct ContactImpulses {
   double normal[2] = {0, 0}, tangent = 0, rolling = 0;
 };
 
 /// An island with joints, solved directly.
 template <class Real>
 struct JointedIsland {
-  explicit JointedIsland(std::pmr::memory_resource* room)
-      : contacts(room),
-        joints(room),
-        links(room),
-        blocks(room),
-        sizes(room),
-        ties(room),
-        cones(room),
-        impulses(room),
-        last(room),
-        allowed(room),
-        starts(room),
-        bodies(room),
-        system(room) {}
+  explicit JointedIsland(std::pmr::memory_resource* memory)
+      : contacts(memory),
+        joints(memory),
+        links(memory),
+        blocks(memory),
+        block_sizes(memory),
+        row_sources(memory),
+        cones(memory),
+        impulses(memory),
+        last_impulses(memory),
+        max_gaps(memory),
+        saved_links(memory),
+        saved_bodies(memory),
+        system(memory) {}
 
   std::pmr::vector<ContactConstraint<Real>*> contacts;
   std::pmr::vector<int> joints;  ///< slots in the joint set
   std::pmr::vector<JointedLink> links;
   std::pmr::vector<std::pair<int, int>> blocks;  ///< links of each joint, then of each contact
-  std::pmr::vector<int> sizes;
-  std::pmr::vector<RowTie<Real>> ties;  ///< of the system's rows
+  std::pmr::vector<int> block_sizes;
+  std::pmr::vector<RowSource<Real>> row_sources;  ///< of the system's rows
   std::pmr::vector<FrictionCone<Real>> cones;
-  std::pmr::vector<double> impulses;     ///< N s, of the rows in this substep
-  std::pmr::vector<LastImpulses> last;   ///< by contact, of the last step
-  std::pmr::vector<double> allowed;      ///< m or rad, gaps of the rows: joint_gaps.cpp
-  std::pmr::vector<JointedLink> starts;  ///< of a substep that is divided
-  std::pmr::vector<BoundedBody> bodies;  ///< with their own masses, while gaps are closed
+  std::pmr::vector<double> impulses;                ///< N s, of the rows in this substep
+  std::pmr::vector<ContactImpulses> last_impulses;  ///< by contact, of the last step
+  std::pmr::vector<double> max_gaps;                ///< m or rad, by row: joint_gaps.cpp; else scratch
+  std::pmr::vector<JointedLink> saved_links;        ///< at the start of a substep that is divided
+  std::pmr::vector<BoundedBody> saved_bodies;       ///< with their own masses, while gaps are closed
   BoundedRows system;
-  int root = kNone;     ///< body that represents it
-  int contact_row = 0;  ///< first row of a contact
-  double energy = 0;    ///< J, to which errors of the substep's solutions are relative
+  int root = kNone;           ///< body that represents it
+  int first_contact_row = 0;  ///< first row of a contact
+  double energy = 0;          ///< J, to which errors of the substep's solutions are relative
 };
 
 /// A row whose position error is fed back, see solvers/error_feedback.h.
@@ -297,21 +299,21 @@ template <class Real>
 struct FeedbackRow {
   int body_a = 0, body_b = 0;
   JointRow<Real> row{};
-  Real speed = 0;  ///< m/s or rad/s, target along the row
+  Real target_speed = 0;  ///< m/s or rad/s, target along the row
   Real mass = 0, impulse = 0;
-  Real least = 0, most = std::numeric_limits<Real>::infinity();  ///< bounds of the impulse
+  Real min_impulse = 0, max_impulse = std::numeric_limits<Real>::infinity();  ///< bounds of the impulse
 };
 
 /// Articulated bodies that are moved as such; kept until contacts or joints change.
 template <class Real>
 struct HingeTrees {
-  std::vector<TreeLink> links;        ///< tree by tree, parents first
-  std::vector<Vec2<Real>*> impulses;  ///< of the links' hinges, in the joint set; the roots have none
-  std::vector<int> firsts;            ///< roots of the trees, and the end
-  std::vector<char> holds;            ///< by body: it is a link
-  int hinges = 0;
+  std::vector<ArticulatedLink> links;  ///< tree by tree, parents first
+  std::vector<Vec2<Real>*> impulses;   ///< of the links' hinges, in the joint set; the roots have none
+  std::vector<int> offsets;            ///< first link (root) of each tree, and the end
+  std::vector<char> is_link;           ///< by body: it is a link
+  int hinge_count = 0;
 
-  bool empty() const { return hinges == 0; }
+  bool empty() const { return hinge_count == 0; }
 };
 
 /// Scratch data of a step. Memory is kept between steps, islands only while no contact or joint changes.
@@ -320,56 +322,57 @@ struct Scratch {
   std::vector<int> queue;
   std::vector<std::pair<int, int>> found_pairs;
   BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
-  std::vector<char> meets;                         ///< by proxy of the dynamic tree
+  std::vector<char> has_overlap;                   ///< by proxy of the dynamic tree
   std::vector<int> lost_contacts, ended_contacts, touch_changes;
   std::vector<int> parted_contacts;  ///< touched at an impact in flight, and have no points now
   BlockLists<BegunContact<Real>> begun_contacts;
   BlockLists<ExpectedImpact<Real>> found_impacts;
-  BlockLists<std::pair<int, int>> found_presses;      ///< bodies that a contact will press on
+  BlockLists<std::pair<int, int>> found_pressed;      ///< bodies that will be loaded by a contact
   std::vector<ContactConstraint<Real>> left_impacts;  ///< of contacts without points, left to the solver
   std::vector<ContactRun<Real>> contact_runs;
-  std::vector<char> loaded;                   ///< by body: a contact has pressed on it: contacts.h
+  std::vector<char> has_contact_load;         ///< by body: a contact presses on it
   std::vector<std::uint8_t> contact_changes;  ///< by contact that is updated: near ones, then the graph's
   std::vector<std::uint8_t>
       separating_faces;  ///< by contact without points: the face that separates its shapes
-  std::vector<VelocityIncrement<Real>> kicks;  ///< of the awake bodies that move by substeps
-  std::vector<BodyVelocity<Real>> starts;      ///< their velocities at the start of the step
-  std::vector<int> block_firsts;               ///< by block of a loop: where its results begin
-  std::vector<int> nonfinite_bodies;           ///< bodies with an invalid motion in this step
-  std::vector<int> island_of, island_size, island_place, island_room;
+  std::vector<VelocityIncrement<Real>> velocity_increments;  ///< of the awake bodies that move by substeps
+  std::vector<BodyVelocity<Real>> start_velocities;          ///< their velocities at the start of the step
+  std::vector<int> block_firsts;                             ///< by block of a loop: where its results begin
+  std::vector<int> nonfinite_bodies;                         ///< bodies with an invalid motion in this step
+  std::vector<int> island_of, island_size, island_index, max_island_rows;
   std::vector<int> link_of;  ///< by body: index among the links of its island
   std::vector<Real> lightest, heaviest;
-  std::vector<int> island_joints, island_bounded;
-  std::vector<Real> carry;  ///< by body: fraction of impulses from which iterations start; empty: 1
+  std::vector<int> island_joints, island_bounded_rows;
+  std::vector<Real>
+      warm_start_fraction;  ///< by body: fraction of the impulses from which iterations start; empty: 1
   std::vector<JointSolverRow<Real>> joint_rows;
   std::vector<FeedbackRow<Real>> feedback_rows;
   std::vector<BodyVelocity<Real>> feedback;  ///< by body
   /// Memory pool of small islands: islands that grow reuse the memory that others release.
-  LockedPool room{{.largest_required_pool_block = 1 << 17}};
-  std::vector<DirectIsland<Real>> direct;  ///< `direct_count` are in use
+  LockedPool memory{{.largest_required_pool_block = 1 << 17}};
+  std::vector<DirectIsland<Real>> direct_islands;  ///< `direct_count` are in use
   int direct_count = 0;
-  std::vector<JointedIsland<Real>> jointed;  ///< `jointed_count` are in use
+  std::vector<JointedIsland<Real>> jointed_islands;  ///< `jointed_count` are in use
   int jointed_count = 0;
-  std::vector<char> open_joints;      ///< by slot of the joint: joint_gaps.cpp
-  JointedIsland<Real> opened{&room};  ///< a mechanism whose gaps are being closed
-  bool islands_known = false;         ///< `island_of` and `island_size` are up to date
-  bool islands_chosen = false;        ///< at least one island is solved directly
+  std::vector<char> open_joints;                ///< by slot of the joint: joint_gaps.cpp
+  JointedIsland<Real> open_mechanism{&memory};  ///< a mechanism whose gaps are being closed
+  bool islands_known = false;                   ///< `island_of` and `island_size` are up to date
+  bool has_direct_islands = false;              ///< at least one island is solved directly
   HingeTrees<Real> trees;
-  std::vector<int> tree_of, link_place;         ///< by body, while trees are found and loaded
+  std::vector<int> tree_root_of, link_index;    ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set
-  std::vector<int> bouncing;  ///< contacts with restitution, or possibly of discs that approach fast
-  std::vector<int> unparked;  ///< contacts that have come back from sleepers in the step
-  std::vector<RestitutionContact<Real>> bounces;
-  std::vector<char> apart;         ///< by contact: it must not be solved in lanes
-  std::vector<char> joints_apart;  ///< the same by the joint's slot
-  SoftContacts<Real> passes;
+  std::vector<int> bounce_candidates;  ///< contacts with restitution, or possibly of discs that approach fast
+  std::vector<int> unparked;           ///< contacts that have come back from sleepers in the step
+  std::vector<RestitutionContact<Real>> restitution_contacts;
+  std::vector<char> is_scalar;          ///< by contact: not solved in SIMD lanes
+  std::vector<char> joints_in_islands;  ///< by the joint's slot: solved with its island
+  SoftContacts<Real> soft_contacts;
   std::vector<ExpectedImpact<Real>> expected_impacts;
   std::vector<int> pressed_bodies;  ///< bodies that contacts or joints will hold in this step
   std::vector<int> expecting_bodies;
   std::vector<char> pressed, expecting;  ///< by body: true if it is in that list; all 0 if the list is empty
-  ImpactScratch<Real> impacts{&room};
+  ImpactScratch<Real> impacts{&memory};
   std::vector<char> cannot_sleep;
-  BlockLists<LeftBox<Real>> left_boxes;  ///< by block of awake bodies, as are the next two
+  BlockLists<ProxyUpdate<Real>> proxy_updates;  ///< by block of awake bodies, as are the next two
   BlockLists<FastBody> found_fast;
   BlockLists<int> found_nonfinite;
   std::vector<FastBody> fast_bodies;
@@ -379,7 +382,7 @@ struct Scratch {
   std::vector<ToiEvent> toi_events;  ///< a heap, earliest on top
   BlockLists<int> found_deep;
   BlockLists<ToiEvent> found_toi_events;
-  std::vector<int> swept_body_places;  ///< by body: index of its swept body, during continuous collision
+  std::vector<int> swept_index_of;  ///< by body: index of its swept body, during continuous collision
   std::vector<ShapeId> visitors;
 };
 
@@ -401,7 +404,7 @@ struct WorldData {
   SlotMap<BodyExtras<Real>> uncommon;
   LazyArray<Load<Real>> loads;
   LazyArray<std::uint64_t> body_data;  ///< user data
-  std::vector<BodyMotion<Real>> motion;
+  std::vector<SolverBody<Real>> motion;
   std::vector<Rotation<Real>> rotation;
   std::vector<Vec2d> position;             ///< m, of the centres of mass
   LazyArray<Vec2d> position_compensation;  ///< m, Kahan compensation of the positions; in double only
@@ -459,9 +462,9 @@ struct WorldData {
   /// Returns true if the user's own code computes coefficients; only the calling thread may call that code.
   bool has_rules() const { return friction_rule != nullptr || restitution_rule != nullptr; }
   /// Returns true if continuous collision may call the user's own code.
-  bool asks_user() const { return has_rules() || filter; }
+  bool calls_user_code() const { return has_rules() || filter; }
   /// Returns the buffer for events that are raised now.
-  Events& log() { return stepping ? events : pending; }
+  Events& event_buffer() { return stepping ? events : pending; }
   SolverBodies<Real> solver_bodies() { return {motion.data(), rotation.data(), position.data()}; }
   bool is_dynamic(int body) const { return bodies[body].type == BodyType::Dynamic; }
   const BodyExtras<Real>& extras_of(int body) const {

@@ -17,11 +17,12 @@ namespace plumb {
 template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
   unlocked(*this);
-  const int index = place(body);
-  const bool weighs = own_type(*data_, index) == BodyType::Dynamic && !data_->bodies[index].mass_given;
-  naming_part(*data_, "shape", index, [&] {
+  const int index = index_of(body);
+  const bool needs_mass_check =
+      own_type(*data_, index) == BodyType::Dynamic && !data_->bodies[index].mass_given;
+  with_part_subject(*data_, "shape", index, [&] {
     validate(definition);
-    if (std::is_same_v<Real, float> && weighs) require_weight(definition);
+    if (std::is_same_v<Real, float> && needs_mass_check) require_float_mass(definition);
   });
   const int shape = add_shape(*data_, index, definition);
   return {static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)};
@@ -29,7 +30,7 @@ ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& defin
 template <class Real>
 void BasicWorld<Real>::destroy(ShapeId shape) {
   unlocked(*this);
-  const int index = place(shape);
+  const int index = index_of(shape);
   if (data_->shapes[index].chain != kNone) {
     throw Error(Error::Kind::Value, "shape", "handle", std::to_string(index),
                 "is a segment of a chain; destroy the chain");
@@ -42,98 +43,98 @@ bool BasicWorld<Real>::valid(ShapeId shape) const {
 }
 template <class Real>
 BodyId BasicWorld<Real>::body(ShapeId shape) const {
-  const int body = data_->shapes[place(shape)].body;
+  const int body = data_->shapes[index_of(shape)].body;
   return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
 }
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(ShapeId shape) const {
-  return data_->shape_data.get(place(shape));
+  return data_->shape_data.get(index_of(shape));
 }
 template <class Real>
 Material BasicWorld<Real>::material(ShapeId shape) const {
-  return material_of(data_->shapes[place(shape)]);
+  return material_of(data_->shapes[index_of(shape)]);
 }
 template <class Real>
 ShapeDefinition BasicWorld<Real>::definition(ShapeId shape) const {
-  return shape_definition(*data_, place(shape));
+  return shape_definition(*data_, index_of(shape));
 }
 template <class Real>
 void BasicWorld<Real>::set_material(ShapeId shape, const Material& material) {
   unlocked(*this);
-  const int index = place(shape);
-  naming_part(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
-              [&] { validate(ShapeDefinition{.material = material}); });
+  const int index = index_of(shape);
+  with_part_subject(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
+                    [&] { validate(ShapeDefinition{.material = material}); });
   plumb::set_material(*data_, index, material);
 }
 template <class Real>
 Filter BasicWorld<Real>::filter(ShapeId shape) const {
-  return data_->shapes[place(shape)].filter;
+  return data_->shapes[index_of(shape)].filter;
 }
 template <class Real>
 double BasicWorld<Real>::density(ShapeId shape) const {
-  return data_->shapes[place(shape)].density;
+  return data_->shapes[index_of(shape)].density;
 }
 template <class Real>
 bool BasicWorld<Real>::sensor(ShapeId shape) const {
-  return data_->forms[place(shape)].sensor;
+  return data_->forms[index_of(shape)].sensor;
 }
 template <class Real>
 bool BasicWorld<Real>::hit_events(ShapeId shape) const {
-  return data_->shapes[place(shape)].hit_events;
+  return data_->shapes[index_of(shape)].hit_events;
 }
 template <class Real>
 bool BasicWorld<Real>::pre_solve(ShapeId shape) const {
-  return data_->shapes[place(shape)].pre_solve;
+  return data_->shapes[index_of(shape)].pre_solve;
 }
 template <class Real>
 void BasicWorld<Real>::set_filter(ShapeId shape, const Filter& filter) {
   unlocked(*this);
-  plumb::set_filter(*data_, place(shape), filter);
+  plumb::set_filter(*data_, index_of(shape), filter);
 }
 template <class Real>
 void BasicWorld<Real>::set_user_data(ShapeId shape, std::uint64_t data) {
   unlocked(*this);
-  data_->shape_data.at(place(shape), data_->shapes.size()) = data;
+  data_->shape_data.at(index_of(shape), data_->shapes.size()) = data;
 }
 template <class Real>
 ChainId BasicWorld<Real>::chain(ShapeId shape) const {
-  const int chain = data_->shapes[place(shape)].chain;
+  const int chain = data_->shapes[index_of(shape)].chain;
   return chain == kNone ? ChainId{}
                         : ChainId{static_cast<std::uint32_t>(chain), data_->chains.generation(chain)};
 }
 template <class Real>
 Aabb<double> BasicWorld<Real>::box(ShapeId shape) const {
-  const Aabb<Real> box = current_aabb(*data_, place(shape));
+  const Aabb<Real> box = current_aabb(*data_, index_of(shape));
   return {box.lower.template as<double>(), box.upper.template as<double>()};
 }
 template <class Real>
 void BasicWorld<Real>::set_density(ShapeId shape, double density) {
   unlocked(*this);
-  const int index = place(shape);
-  naming_part(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
-              [&] { validate(ShapeDefinition{.density = density}); });
+  const int index = index_of(shape);
+  with_part_subject(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
+                    [&] { validate(ShapeDefinition{.density = density}); });
   plumb::set_density(*data_, index, density);
 }
 template <class Real>
 void BasicWorld<Real>::set_sensor(ShapeId shape, bool sensor) {
   unlocked(*this);
-  plumb::set_sensor(*data_, place(shape), sensor);
+  plumb::set_sensor(*data_, index_of(shape), sensor);
 }
 template <class Real>
 void BasicWorld<Real>::set_hit_events(ShapeId shape, bool on) {
   unlocked(*this);
-  const int index = place(shape);
+  const int index = index_of(shape);
   plumb::set_flags(*data_, index, on, data_->shapes[index].pre_solve);
 }
 template <class Real>
 void BasicWorld<Real>::set_pre_solve(ShapeId shape, bool on) {
   unlocked(*this);
-  const int index = place(shape);
+  const int index = index_of(shape);
   plumb::set_flags(*data_, index, data_->shapes[index].hit_events, on);
 }
 template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::overlapping(ShapeId sensor) const {
-  const int index = place(sensor);
+  const int index = index_of(sensor);
   for (const SensorRecord& record : data_->sensors) {
     if (record.shape == index) return record.visitors;
   }
@@ -144,15 +145,15 @@ std::vector<ShapeId> BasicWorld<Real>::overlapping(ShapeId sensor) const {
 template <class Real>
 ChainId BasicWorld<Real>::create_chain(BodyId body, const ChainDefinition& definition) {
   unlocked(*this);
-  const int index = place(body);
-  naming_part(*data_, "chain", index, [&] { validate(definition); });
+  const int index = index_of(body);
+  with_part_subject(*data_, "chain", index, [&] { validate(definition); });
   const int chain = add_chain(*data_, index, definition);
   return {static_cast<std::uint32_t>(chain), data_->chains.generation(chain)};
 }
 template <class Real>
 void BasicWorld<Real>::destroy(ChainId chain) {
   unlocked(*this);
-  remove_chain(*data_, place(chain));
+  remove_chain(*data_, index_of(chain));
 }
 template <class Real>
 bool BasicWorld<Real>::valid(ChainId chain) const {
@@ -161,7 +162,7 @@ bool BasicWorld<Real>::valid(ChainId chain) const {
 template <class Real>
 std::vector<ShapeId> BasicWorld<Real>::segments(ChainId chain) const {
   std::vector<ShapeId> all;
-  for (const int shape : data_->chains[place(chain)].shapes) {
+  for (const int shape : data_->chains[index_of(chain)].shapes) {
     all.push_back({static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)});
   }
   return all;
@@ -169,13 +170,13 @@ std::vector<ShapeId> BasicWorld<Real>::segments(ChainId chain) const {
 
 template <class Real>
 ChainDefinition BasicWorld<Real>::definition(ChainId chain) const {
-  return chain_definition(*data_, place(chain));
+  return chain_definition(*data_, index_of(chain));
 }
 
 template <class Real>
 JointId BasicWorld<Real>::create_joint(BodyId a, BodyId b, const JointDefinition& definition) {
   unlocked(*this);
-  const int body_a = place(a), body_b = place(b);
+  const int body_a = index_of(a), body_b = index_of(b);
   validate(definition);
   const int joint = add_joint(*data_, body_a, body_b, definition);
   return {static_cast<std::uint32_t>(joint), data_->joints.generation(joint)};
@@ -183,7 +184,7 @@ JointId BasicWorld<Real>::create_joint(BodyId a, BodyId b, const JointDefinition
 template <class Real>
 void BasicWorld<Real>::destroy(JointId joint) {
   unlocked(*this);
-  remove_joint(*data_, place(joint));
+  remove_joint(*data_, index_of(joint));
 }
 template <class Real>
 bool BasicWorld<Real>::valid(JointId joint) const {
@@ -191,27 +192,28 @@ bool BasicWorld<Real>::valid(JointId joint) const {
 }
 template <class Real>
 const JointKind& BasicWorld<Real>::kind(JointId joint) const {
-  return data_->joint_set.definition(data_->joints[place(joint)].slot);
+  return data_->joint_set.definition(data_->joints[index_of(joint)].slot);
 }
 template <class Real>
 void BasicWorld<Real>::change(JointId joint, const JointKind& kind) {
   unlocked(*this);
-  const JointRecord& record = data_->joints[place(joint)];
+  const JointRecord& record = data_->joints[index_of(joint)];
   data_->topology_changed = true;  // set before the joints' lists grow, which may fail halfway
   data_->joint_set.change(record.slot, kind);
-  data_->joint_set.meet(record.slot, data_->bodies[record.body_a].angle, data_->bodies[record.body_b].angle);
+  data_->joint_set.set_initial_angles(record.slot, data_->bodies[record.body_a].angle,
+                                      data_->bodies[record.body_b].angle);
   wake(record.body_a), wake(record.body_b);
 }
 template <class Real>
 JointReading BasicWorld<Real>::read(JointId joint) const {
   WorldData<Real>& w = *data_;
-  const int slot = w.joints[place(joint)].slot;
+  const int slot = w.joints[index_of(joint)].slot;
   const Real rate = w.last_h > 0 ? static_cast<Real>(1 / w.last_h) : Real(0);
   // The positions already include the motion of the last step.
   SolverBodies<Real> bodies = w.solver_bodies();
   const auto [a, b] = w.joint_set.bodies(slot);
-  const BodyMotion<Real> motion_a = w.motion[a], motion_b = w.motion[b];
-  for (const int body : {a, b}) w.motion[body].moved = {}, w.motion[body].turned = 0;
+  const SolverBody<Real> motion_a = w.motion[a], motion_b = w.motion[b];
+  for (const int body : {a, b}) w.motion[body].delta_position = {}, w.motion[body].delta_angle = 0;
   const JointError<Real> error = w.joint_set.error(slot, bodies);
   JointReading reading;
   reading.force = static_cast<double>(w.joint_set.force(slot, rate));
@@ -232,11 +234,11 @@ JointReading BasicWorld<Real>::read(JointId joint) const {
 }
 template <class Real>
 JointStiffness BasicWorld<Real>::stiffness(JointId joint) const {
-  return stiffness_of(*data_, place(joint));
+  return stiffness_of(*data_, index_of(joint));
 }
 template <class Real>
 std::pair<BodyId, BodyId> BasicWorld<Real>::bodies(JointId joint) const {
-  const JointRecord& record = data_->joints[place(joint)];
+  const JointRecord& record = data_->joints[index_of(joint)];
   const auto id = [&](int body) {
     return BodyId{static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
   };
@@ -244,7 +246,7 @@ std::pair<BodyId, BodyId> BasicWorld<Real>::bodies(JointId joint) const {
 }
 template <class Real>
 JointDefinition BasicWorld<Real>::definition(JointId joint) const {
-  const JointRecord& record = data_->joints[place(joint)];
+  const JointRecord& record = data_->joints[index_of(joint)];
   return {data_->joint_set.definition(record.slot),
           record.collide,
           record.break_force,
@@ -256,23 +258,23 @@ JointDefinition BasicWorld<Real>::definition(JointId joint) const {
 template <class Real>
 void BasicWorld<Real>::set_load_events(JointId joint, double force, double torque) {
   unlocked(*this);
-  const int index = place(joint);
+  const int index = index_of(joint);
   require_not_negative("joint", "report_force", force);
   require_not_negative("joint", "report_torque", torque);
   plumb::set_load_events(*data_, index, force, torque);
 }
 template <class Real>
 std::uint64_t BasicWorld<Real>::user_data(JointId joint) const {
-  return data_->joints[place(joint)].user_data;
+  return data_->joints[index_of(joint)].user_data;
 }
 template <class Real>
 void BasicWorld<Real>::set_user_data(JointId joint, std::uint64_t data) {
   unlocked(*this);
-  data_->joints[place(joint)].user_data = data;
+  data_->joints[index_of(joint)].user_data = data;
 }
 template <class Real>
 BodyId BasicWorld<Real>::body(ChainId chain) const {
-  const int body = data_->chains[place(chain)].body;
+  const int body = data_->chains[index_of(chain)].body;
   return {static_cast<std::uint32_t>(body), data_->bodies.generation(body)};
 }
 

@@ -8,7 +8,7 @@
 namespace plumb::harness::cluster {
 namespace {
 
-/// Collects what is known of a unit and its repetitions.
+/// Collects the results of a unit and its repetitions.
 struct Attempts {
   std::vector<const Done*> done;
   int planned = 0;  ///< repetitions

@@ -21,7 +21,7 @@ struct WorkOptions {
 enum class Worked {
   Done,
   Before,       ///< it was done already
-  Elsewhere,    ///< another does it
+  Elsewhere,    ///< another process has claimed it
   Failed,       ///< its `Failure` is in failed/
   Interrupted,  ///< the unit is free again
 };

@@ -11,7 +11,7 @@
 /// A folder of work: independent units, done by any number of processes on any number of machines that see
 /// the folder. There is no server: all communication is by files that appear and folders that are renamed.
 ///     plan.json            program, settings
-///     units.jsonl          a unit a line
+///     units.jsonl          one unit per line
 ///     claims/00001         exists while a process does unit 1
 ///     doing/00001.NONCE/   results of the unit under way
 ///     done/00001/          complete results, and unit.json

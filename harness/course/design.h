@@ -28,15 +28,15 @@ std::optional<double> measured_joint_error(const Lab& lab);
 /// rotation, even along a wrong normal.
 bool turns_bodies(const Lab& lab);
 
-/// Returns the number of passes that a step makes over the errors of its joints, measured on two balls at
-/// rest on sticks that are too long. Each pass leaves the same fraction of an error, and a step leaves `left`
-/// of a single one. nullopt if no number up to 30 gives the engine's positions. `like` has the other
-/// properties.
+/// Returns the number of position iterations per step over the joints, measured on two balls at rest on
+/// sticks that are too long. Each iteration leaves the same fraction of an error; a whole step leaves the
+/// fraction `left` of a single joint's error. nullopt if no number up to 30 gives the engine's positions.
+/// `like` has the other properties.
 std::optional<int> measured_corrections(const Lab& lab, Manner like, double left);
 
-/// Returns the number of passes that a step makes over its contacts, measured on a heavy ball on a light one,
-/// which needs many passes. nullopt if no number up to 60 gives the engine's velocities. `like` has the other
-/// properties.
+/// Returns the number of iterations per step over the contacts, measured on a heavy ball on a light one,
+/// which needs many iterations. nullopt if no number up to 60 gives the engine's velocities. `like` has the
+/// other properties.
 std::optional<int> measured_sweeps(const Lab& lab, Manner like);
 
 /// Returns the design variants of the learner's engine for a chapter, with the measured properties. If a

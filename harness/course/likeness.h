@@ -10,11 +10,11 @@
 /// Compares an engine's motion and figures with those of a mistake.
 namespace plumb::course {
 
-/// Compares the first `runs` runs: those that the check makes without its experiments for engines that fail.
+/// Compares the first `runs` runs: those of the check itself, without its experiments for engines that fail.
 /// Each run is compared up to and including the first state in which a body of `seen` has left the range
-/// around the origin in which paths are compared; places outside count as the nearest ones inside. So an
-/// engine that throws a body away is far from one that keeps it, and the distances for one `seen` obey the
-/// triangle inequality.
+/// around the origin in which paths are compared; positions are clamped to this range. So an engine that
+/// throws a body away is far from one that keeps it, and the distances for one `seen` obey the triangle
+/// inequality.
 double distance(const std::vector<Recorded>& seen, const std::vector<Recorded>& a,
                 const std::vector<Recorded>& b, std::size_t runs);
 
@@ -43,9 +43,9 @@ bool same_figures(const Finding& seen, const Finding& predicted);
 /// Returns true if a static body has a velocity or moves.
 bool static_moves(const std::vector<Recorded>& runs);
 
-/// Returns true if steps move bodies farther than any overlap that a mistake predicts, for an engine that
-/// removes the fraction `share` of an overlap in each step: position corrections are then wrong,
-/// independently of other mistakes. False for scenes with joints, which are corrected as well.
+/// Returns true if position corrections are wrong, whatever other mistakes there are: steps move bodies
+/// farther than any overlap that a mistake predicts, for an engine that removes the fraction `share` of an
+/// overlap per step. False for scenes with joints, which are corrected as well.
 bool pushes_farther(const std::vector<Recorded>& seen, const std::vector<Recorded>& predicted, double share);
 
 /// Returns true if the mistake predicts a wrong reading, but the engine's is nearer to the correct one.

@@ -352,8 +352,8 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
   double lower = high - kGolden * (high - low), upper = low + kGolden * (high - low);
   double at_lower = far(lower, kInfinity), at_upper = far(upper, kInfinity);
   for (int i = 0; i < 24; ++i) {
-    // A twentieth of the interval changes the path only a little: if the path is not near now, it never will
-    // be.
+    // A twentieth of the interval changes the path only a little: a path that is not near here cannot come
+    // near within the rest of the interval.
     if (i == 7 && least > kHopeless * all) return std::nullopt;
     if (at_lower < at_upper) {
       high = std::exchange(upper, lower);

@@ -1,4 +1,4 @@
-// Checks of chapter 4 on bodies that turn and touch: rods, boxes on a side or a corner, and discs that rub.
+// Checks of chapter 4 on contacts of rotating bodies: rods, boxes on a side or a corner, discs with friction.
 #include "harness/course/turning_contacts.h"
 
 #include <algorithm>
@@ -143,8 +143,8 @@ Finding turned_box(const Lab& lab) {
   const double angle = 15 / kDegrees, e = 0.6, v = 2.3, along = 0.5, r = 0.3;
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const Vec2d at{0.5, -0.3};
-  // Distances to a side are no whole number of steps, otherwise rounding would decide in which step it is
-  // hit.
+  // The distance to a side must not be a whole number of steps, otherwise rounding decides in which step the
+  // ball hits it.
   const auto thrown = [&](Vec2d from, Vec2d velocity) {
     const Body ball =
         make(Ball{.position = at + q * from, .velocity = q * velocity, .radius = r, .restitution = e});

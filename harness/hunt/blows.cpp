@@ -61,7 +61,7 @@ Blow struck(Blow at, const ContactRules& rules, double e, double mu) {
     work += 0.5 * own * (from + at.up());
   }
   if (rules.tangential_restitution > 0 && stopped && std::abs(at.along()) < 1e-6 * std::abs(slip)) {
-    // The largest fraction of the requested restitution that friction, the gap and the energy allow.
+    // Largest fraction of the requested restitution that friction, the gap and the energy permit.
     double low = 0, high = rules.tangential_restitution * std::abs(slip) / tt;
     const auto allowed = [&](double more) {
       Blow then = at;

@@ -157,7 +157,7 @@ std::string some_parameter(const Scene& scene, Random& random) {
   return random.pick(names);
 }
 
-// Checks derivatives by a number of the scene against runs in which it differs a little, to either side.
+// Checks derivatives with respect to a number of the scene against one-sided differences of nearby runs.
 std::string derived(const Case& one) {
   const Scene& scene = one.scene;
   if (dynamic_bodies(scene) > 4 || has_formulas(scene)) return {};

@@ -8,8 +8,8 @@
 
 namespace plumb::harness::hunt {
 
-/// Returns the promises of the engine's interface that hold for any scene: runs in a mode that must keep
-/// every bit. Judged like relations.
+/// Returns the checks of guarantees of the engine's interface that hold for any scene: run modes in which all
+/// results must be bit-identical. They are evaluated like relations.
 const std::vector<Relation>& promises();
 
 /// Returns the text of `check`, or an empty one if it throws `Error`: a rejected run is not judged.

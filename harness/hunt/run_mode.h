@@ -13,13 +13,13 @@ enum class RunMode : std::uint8_t {
   Plain,
   Restored,    ///< saved, and restored into a world of other settings with other bodies in it
   RolledBack,  ///< repeatedly steps ahead and rolls back
-  Threaded,    ///< by two threads, which share all loops
+  Threaded,    ///< by two threads, which run all loops in parallel
   Scalar,      ///< without vector registers
   Narrow,      ///< with vector registers of 16 bytes
-  Observed,    ///< is read, queried, saved and monitored after each step
+  Observed,    ///< read, queried, saved and monitored after each step
   Refused,     ///< with calls between the steps that must be refused
   Overrun,     ///< with a body that exceeds the world's limits after half of the steps
-  Asked,       ///< with queries, whose answers are compared with the shapes' outlines
+  Asked,       ///< with queries whose results are compared with the shapes' outlines
   Labelled,    ///< with other names and user data, and hit events
 };
 

@@ -69,7 +69,7 @@ std::string StateWatch<Real>::flights(double dt) const {
       // Continuous collision may stop it within the step, in front of an obstacle that it touches in the next
       // one: it then has only a part of its displacement and of its velocity gain.
       const double whole = length(way), part = whole > 0 ? dot(gone, way) / (whole * whole) : 1;
-      // Its velocity may be lower by at most what the forces would have added on the rest of its path.
+      // Its squared speed may differ by what the forces would have added on the rest of its path.
       const Vec2d now = world_.velocity(body), lost = before.velocity + gain - now;
       const double most = dt > 0 ? 2 * length(gain) / dt * length(way - gone) : 0;
       const bool is_stopped = dynamic && part < 1 &&
@@ -143,7 +143,7 @@ std::string StateWatch<Real>::wakings() const {
         world_.type(body) == BodyType::Dynamic && world_.enabled(body))
       woken[key_of(body)] = body;
   }
-  // Spreads from what was awake.
+  // Flood fill that starts at the bodies that were awake.
   const std::vector<BodyId> bodies = world_.bodies();
   bool spreads = true;
   while (!woken.empty() && spreads) {

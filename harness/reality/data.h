@@ -16,8 +16,8 @@ struct MeasuredImpact {
   double angular_velocity = 0, angular_velocity_after = 0;  ///< rad/s
   double lever_normal = 0;   ///< m: the contact's rate perpendicular to the floor is v.y + lever_normal w
   double lever_tangent = 0;  ///< m: its slip along the floor is v.x + lever_tangent w
-  double place = 0;          ///< m, of the contact along the floor
-  bool doubted = false;      ///< by those who recorded it
+  double place = 0;          ///< m, position of the contact along the floor
+  bool doubted = false;      ///< true: marked as doubtful in the data
 };
 
 /// One frame of a body in motion.

@@ -59,7 +59,7 @@ EllipseLaw falling(const char* name, const char* text, Rule rule) {
           {kInertia, kFriction, kRestitution, kExponent},
           false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
-            const double e = precise::falling_restitution(v[2], -point.closing, kYieldSpeed, v[3]);
+            const double e = precise::falling_restitution(v[2], -point.gap_rate, kYieldSpeed, v[3]);
             return rule(point, {e, v[1], v[1], 0});
           }};
 }
@@ -80,7 +80,7 @@ EllipseLaw later_falling(const char* name, const char* text, Rule rule) {
           {kInertia, kFriction, kRestitution, kLater, kExponent},
           false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
-            const double e = precise::falling_restitution(v[2], -point.closing, kYieldSpeed, v[4]);
+            const double e = precise::falling_restitution(v[2], -point.gap_rate, kYieldSpeed, v[4]);
             return rule(point, {e, v[1], v[3], 0});
           }};
 }
@@ -91,7 +91,7 @@ EllipseLaw oblique(const char* name, const char* text, Rule rule) {
           {kInertia, kFriction, kRestitution, kLater, kOblique},
           false,
           [rule](const ImpactPoint& point, const MeasuredImpact&, Values v) {
-            const double e = v[2] * (1 - v[4] * std::abs(point.slip / point.closing));
+            const double e = v[2] * (1 - v[4] * std::abs(point.slip_speed / point.gap_rate));
             return rule(point, {std::clamp(e, 0.0, 1.0), v[1], v[3], 0});
           }};
 }

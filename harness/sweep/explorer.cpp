@@ -133,8 +133,8 @@ std::optional<Space::Place> Explorer::next_towards(const Goal& goal, double dear
     return {};
   }
   if (goal.error) {
-    // If no point meets the goal, a finer one may. Otherwise, settings that cost more than the one that meets
-    // it are useless.
+    // If no point meets the goal, a finer step may. Otherwise, settings that cost more than the point that
+    // meets it are useless.
     const double most = right != nullptr ? right->cost * kMargin : dearest;
     if (right != nullptr)
       if (auto place = step_from(*right, 0, most)) return place;

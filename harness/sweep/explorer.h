@@ -20,8 +20,8 @@ class Explorer {
   /// Settings with an expected cost above `dearest` are skipped; costs are in the unit of `tell`.
   std::optional<Space::Place> next(double dearest);
 
-  /// Target of a search, in the units of `tell`: the cheapest setting with at most this error, or else the
-  /// most accurate of at most this cost.
+  /// Goal of a search, in the units of `tell`: the cheapest setting with at most this error, or the most
+  /// accurate one with at most this cost.
   struct Goal {
     std::optional<double> error, cost;
   };

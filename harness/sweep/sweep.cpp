@@ -165,7 +165,7 @@ std::optional<RunRequest> InstanceSweep::request(Entrant& entrant, const Space::
 std::vector<RunRequest> InstanceSweep::next_runs() {
   std::vector<RunRequest> out;
   const double duration = instance_.build().duration;
-  const double dearest = kDearest * seconds_ * 1e9 / duration;  // ns a simulated second
+  const double dearest = kDearest * seconds_ * 1e9 / duration;  // ns per simulated second
   for (std::size_t looked = 0; looked < entrants_.size() && out.size() < kAtOnce; ++looked) {
     Entrant& entrant = entrants_[turn_++ % entrants_.size()];
     if (entrant.finished) continue;
@@ -297,7 +297,7 @@ bool InstanceSweep::measure(const std::function<void(double, const std::string&)
   const Clock::time_point start = Clock::now();
   const double allowed = std::max(seconds_ - explored_, 0.3 * seconds_);
   for (int round = 0; round < options_.repetitions; ++round) {
-    // A copy, because points without time left are removed below.
+    // A copy, because points that no time is left for are removed below.
     const std::vector<std::string> chosen = known_.chosen;
     const double each = (1 - kExploring) / options_.repetitions;
     for (std::size_t i = 0; i < chosen.size(); ++i) {

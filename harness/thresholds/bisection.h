@@ -8,15 +8,15 @@ namespace plumb::harness::thresholds {
 /// Range and resolution of a search for a critical value.
 struct SearchRange {
   double low = 0, high = 1;
-  bool logarithmic = false;  ///< halves ratios instead of differences; then low > 0
+  bool logarithmic = false;  ///< bisects on a logarithmic scale; requires low > 0
   bool holds_below = true;   ///< true if the scene holds below the critical value
-  double resolution = 1e-3;  ///< width of the last bracket relative to its middle
+  double resolution = 1e-3;  ///< width of the last bracket, as a fraction of its middle
 };
 
 /// Outcome of a run at one value.
 struct Answer {
   bool holds = false;
-  std::string why{};  ///< the failure, as a short sentence
+  std::string why{};  ///< description of the failure, a short sentence
 };
 
 /// Ending of a search.

@@ -32,7 +32,7 @@ struct Threshold {
   std::string title;     ///< "the friction that holds a box on a slope"
   std::string quantity;  ///< meaning of the parameter: "friction coefficient at which a box stays on a slope
                          ///< of 20 degrees"
-  std::string unit{};    ///< empty if it has none
+  std::string unit{};    ///< empty for a number without a unit
   std::string source;    ///< source of the exact value, or the reason why there is none
   std::string judged;    ///< criterion of failure, and why the run is long enough to detect it
   SearchRange range{};   ///< without the resolution

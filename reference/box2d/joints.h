@@ -174,7 +174,7 @@ class Box2dJointMaker {
         return Vec2d{way.x, way.y};
       };
       soften(def, *j.angular_spring,
-             turning_mobility(pair_of(def.bodyA, def.bodyB), arm(def.bodyA, def.localAnchorA),
+             angular_mobility(pair_of(def.bodyA, def.bodyB), arm(def.bodyA, def.localAnchorA),
                               arm(def.bodyB, def.localAnchorB)));
     }
     return world_.CreateJoint(&def);

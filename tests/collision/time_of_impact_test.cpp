@@ -36,7 +36,7 @@ struct Motion {
   static std::vector<Point> moved(const Convex<Real>& shape, const Sweep<Real>& sweep, Wide t) {
     const Wide c0 = sweep.start_rotation.c, s0 = sweep.start_rotation.s,
                length = std::sqrt(c0 * c0 + s0 * s0);
-    const Wide c = std::cos(t * sweep.turn), s = std::sin(t * sweep.turn);
+    const Wide c = std::cos(t * sweep.delta_angle), s = std::sin(t * sweep.delta_angle);
     return truth::placed(shape, {sweep.start.template as<Wide>() + t * sweep.motion.template as<Wide>(),
                                  {(c * c0 - s * s0) / length, (s * c0 + c * s0) / length}});
   }
@@ -59,7 +59,8 @@ struct Motion {
   }
   /// A bound of how fast the gap changes: the speed of the fastest points.
   Wide fastest() const {
-    return speed() + std::abs(Wide(sweep_a.turn)) * reach(a) + std::abs(Wide(sweep_b.turn)) * reach(b);
+    return speed() + std::abs(Wide(sweep_a.delta_angle)) * reach(a) +
+           std::abs(Wide(sweep_b.delta_angle)) * reach(b);
   }
   Wide rounding() const { return 8 * kDouble * (size() + fastest()); }
 
@@ -249,7 +250,7 @@ TYPED_TEST(TimeOfImpact, SpinningRodMeetsADisc) {
         const Wide radii = Wide(rod.radius) + Wide(disc.radius) + Wide(target);
         const auto meets = [&](Wide gap) { return std::atan2(y, x) - std::asin((radii + gap) / distance); };
         ASSERT_EQ(got.state, State<Real>::Hit);
-        const Wide angle = Wide(spin.turn) * got.exact_fraction;
+        const Wide angle = Wide(spin.delta_angle) * got.exact_fraction;
         EXPECT_LE(angle, meets(0) + 4 * kDouble);
         EXPECT_GE(angle, meets(tolerance) - 4 * kDouble);
         EXPECT_LE(got.iterations, 30);

@@ -14,27 +14,27 @@ namespace {
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 TEST(ActiveShare, ExactInsideOutsideAndAcrossTheEdges) {
-  EXPECT_EQ(active_share(0, kForever, 0, 0.1), 1);
-  EXPECT_EQ(active_share(1, 2, 1, 3), 1);
-  EXPECT_EQ(active_share(1, 2, 0, 1), 0);
-  EXPECT_EQ(active_share(1, 2, 3, 4), 0);
-  EXPECT_EQ(active_share(1, 2, 0, 4), 0.5);
-  EXPECT_EQ(active_share(1, 2, 0.5, 1.5), 0.5);
-  EXPECT_EQ(active_share(1, 2, 2.75, 3.75), 0.25);
-  EXPECT_EQ(active_share(1, 0, 0, 4), 0);
+  EXPECT_EQ(active_fraction(0, kForever, 0, 0.1), 1);
+  EXPECT_EQ(active_fraction(1, 2, 1, 3), 1);
+  EXPECT_EQ(active_fraction(1, 2, 0, 1), 0);
+  EXPECT_EQ(active_fraction(1, 2, 3, 4), 0);
+  EXPECT_EQ(active_fraction(1, 2, 0, 4), 0.5);
+  EXPECT_EQ(active_fraction(1, 2, 0.5, 1.5), 0.5);
+  EXPECT_EQ(active_fraction(1, 2, 2.75, 3.75), 0.25);
+  EXPECT_EQ(active_fraction(1, 0, 0, 4), 0);
 }
 
 TEST(ActiveShare, AtAnInstant) {
-  EXPECT_EQ(active_share(1, 2, 0.5, 0.5), 0);
-  EXPECT_EQ(active_share(1, 2, 1, 1), 1);
-  EXPECT_EQ(active_share(1, 2, 2.5, 2.5), 1);
-  EXPECT_EQ(active_share(1, 2, 3, 3), 0);
+  EXPECT_EQ(active_fraction(1, 2, 0.5, 0.5), 0);
+  EXPECT_EQ(active_fraction(1, 2, 1, 1), 1);
+  EXPECT_EQ(active_fraction(1, 2, 2.5, 2.5), 1);
+  EXPECT_EQ(active_fraction(1, 2, 3, 3), 0);
 }
 
 TEST(ActiveShare, ImpulseOverAnyStepsIsForceTimesDuration) {
   const double start = 0.3, duration = 0.77, dt = 1.0 / 60;
   double impulse = 0;
-  for (int i = 0; i < 100; ++i) impulse += active_share(start, duration, i * dt, (i + 1) * dt) * dt;
+  for (int i = 0; i < 100; ++i) impulse += active_fraction(start, duration, i * dt, (i + 1) * dt) * dt;
   EXPECT_NEAR(impulse, duration, 1e-14);
 }
 

@@ -83,7 +83,7 @@ TEST(Core, LiesEvenlyDeepInAnyPolygon) {
     }
     if (hull.size() < 3) continue;
     const auto corners = polygon(hull);
-    const double depth = convex_passing_width(view(corners)) / 2;
+    const double depth = convex_tunnelling_width(view(corners)) / 2;
     const Core<double> core(view(corners), depth);
     ASSERT_GT(core.convex().count, 0);
     // All of the core is that deep, and no corner of the shape is far from it.
@@ -102,9 +102,9 @@ TEST(Core, LiesEvenlyDeepInAnyPolygon) {
 }
 
 TEST(PassingWidth, IsHalfTheWidthOfWhatIsBlunt) {
-  EXPECT_NEAR(convex_passing_width(view(polygon({{-2, -1}, {2, -1}, {2, 1}, {-2, 1}}))), 1, 1e-12);
+  EXPECT_NEAR(convex_tunnelling_width(view(polygon({{-2, -1}, {2, -1}, {2, 1}, {-2, 1}}))), 1, 1e-12);
   const std::vector<Corner<double>> disc{{{0, 0}, {}}};
-  EXPECT_NEAR(convex_passing_width(view(disc, 0.5)), 0.5, 1e-12);
+  EXPECT_NEAR(convex_tunnelling_width(view(disc, 0.5)), 0.5, 1e-12);
 }
 
 }  // namespace

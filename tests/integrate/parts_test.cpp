@@ -49,19 +49,19 @@ Bernstein<3> with_roots(double a, double b, double k) {
 }
 
 TEST(Bernstein, FindsTheDescentOnly) {
-  EXPECT_NEAR(*first_descent(with_roots(0.3, 0.8, 1)), 0.3, 1e-15);
-  EXPECT_NEAR(*first_descent(with_roots(0.3, 0.8, -1)), 0.8, 1e-15);
-  EXPECT_NEAR(*first_descent(with_roots(0.3, 1.8, 1)), 0.3, 1e-15);
-  EXPECT_FALSE(first_descent(with_roots(1.3, 1.8, 1)));
-  EXPECT_FALSE(first_descent(with_roots(-0.5, 0.5, 1)));  // comes from below
+  EXPECT_NEAR(*first_down_crossing(with_roots(0.3, 0.8, 1)), 0.3, 1e-15);
+  EXPECT_NEAR(*first_down_crossing(with_roots(0.3, 0.8, -1)), 0.8, 1e-15);
+  EXPECT_NEAR(*first_down_crossing(with_roots(0.3, 1.8, 1)), 0.3, 1e-15);
+  EXPECT_FALSE(first_down_crossing(with_roots(1.3, 1.8, 1)));
+  EXPECT_FALSE(first_down_crossing(with_roots(-0.5, 0.5, 1)));  // comes from below
   Bernstein<3> near_miss = with_roots(0.5, 0.5, 1);
   for (double& c : near_miss) c += 1e-12;
-  EXPECT_FALSE(first_descent(near_miss));
+  EXPECT_FALSE(first_down_crossing(near_miss));
 }
 
 TEST(Bernstein, FindsRootsThatAreCloseTogether) {
-  EXPECT_NEAR(*first_descent(with_roots(0.4, 0.4 + 1e-6, 1)), 0.4, 1e-9);
-  EXPECT_NEAR(*first_descent(with_roots(0.999999, 2, 1)), 0.999999, 1e-15);
+  EXPECT_NEAR(*first_down_crossing(with_roots(0.4, 0.4 + 1e-6, 1)), 0.4, 1e-9);
+  EXPECT_NEAR(*first_down_crossing(with_roots(0.999999, 2, 1)), 0.999999, 1e-15);
 }
 
 TEST(Bernstein, HalvesMeetInTheMiddle) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 // Truth are the conditions of the problem itself, evaluated from the impulses: with
-//     w = J (v + M^-1 J^T x) + C x - wanted
+//     w = J (v + M^-1 J^T x) + C x - target
 // a row has w = 0 between its bounds, w >= 0 at the lower one, and w <= 0 at the upper one.
 namespace plumb {
 namespace {
@@ -31,7 +31,7 @@ class Draw {
 struct Problem {
   BoundedRows system;
   std::vector<BoundedBody> start;
-  std::vector<double> wanted;  // of the rows: solving may change theirs
+  std::vector<double> target;  // of the rows: solving may change theirs
 };
 
 // A chain of bodies, up to three rows between neighbours: joints, limits, brakes and springs.
@@ -53,7 +53,7 @@ void draw(Draw& of, int bodies, double ratio, Problem& out) {
       const Vec2d n{k == 1 ? 0.0 : 1.0, k == 1 ? 1.0 : 0.0};
       if (k < 2) row.linear_a = -n, row.linear_b = n;
       row.angular_a = k < 2 ? of.in(-0.5, 0.5) : -1, row.angular_b = k < 2 ? of.in(-0.5, 0.5) : 1;
-      row.wanted = of.one_in(2) ? 0 : of.in(-1, 1);
+      row.target = of.one_in(2) ? 0 : of.in(-1, 1);
       row.lower = -kUnbounded, row.upper = kUnbounded;
       switch (of.below(4)) {
         case 0:
@@ -76,7 +76,7 @@ void draw(Draw& of, int bodies, double ratio, Problem& out) {
     const int a = 1 + of.below(bodies - 1), b = a + 1 + of.below(bodies - a);
     BoundedRow row{.a = a, .b = b, .block = static_cast<int>(blocks.size())};
     row.linear_a = {-0.8, 0.6}, row.linear_b = {0.8, -0.6};
-    row.compliance = of.in(0.1, 1), row.wanted = of.in(-1, 1);
+    row.compliance = of.in(0.1, 1), row.target = of.in(-1, 1);
     row.lower = -kUnbounded, row.upper = kUnbounded;
     out.system.rows.push_back(row);
     blocks.emplace_back(a, b), sizes.push_back(1);
@@ -85,8 +85,8 @@ void draw(Draw& of, int bodies, double ratio, Problem& out) {
 }
 
 void note_wanted(Problem& it) {
-  it.wanted.clear();
-  for (const BoundedRow& row : it.system.rows) it.wanted.push_back(row.wanted);
+  it.target.clear();
+  for (const BoundedRow& row : it.system.rows) it.target.push_back(row.target);
 }
 
 // Chains of up to 8 bodies, a quarter of up to 30, of equal masses or up to 100 times apart.
@@ -125,22 +125,22 @@ bool is_solved(const Problem& it, double tolerance) {
     push(row.a, row.linear_a, row.angular_a), push(row.b, row.linear_b, row.angular_b);
   }
   double largest = 0;  // of the energies that rows want, as speeds of bodies of 1 kg
-  for (std::size_t i = 0; i < it.wanted.size(); ++i) {
+  for (std::size_t i = 0; i < it.target.size(); ++i) {
     const BoundedRow& row = it.system.rows[i];
     if (const double m = mobility(row, it.start); m > 0)
       largest =
-          std::max(largest, std::max(std::abs(along(row, it.start)), std::abs(it.wanted[i])) / std::sqrt(m));
+          std::max(largest, std::max(std::abs(along(row, it.start)), std::abs(it.target[i])) / std::sqrt(m));
   }
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const BoundedBody& body = it.system.bodies[i];
     solved = solved && length(body.velocity - moved[i].velocity) < 1e-9 &&
              std::abs(body.spin - moved[i].spin) < 1e-9;
   }
-  for (std::size_t i = 0; i < it.wanted.size(); ++i) {
+  for (std::size_t i = 0; i < it.target.size(); ++i) {
     const BoundedRow& row = it.system.rows[i];
     const double own = mobility(row, it.start);
     if (!(own > 0)) continue;
-    const double w = (along(row, moved) + row.compliance * row.impulse - it.wanted[i]) / std::sqrt(own);
+    const double w = (along(row, moved) + row.compliance * row.impulse - it.target[i]) / std::sqrt(own);
     const double off = tolerance * largest, impulse_off = tolerance * largest / std::sqrt(own);
     solved = solved && row.impulse >= row.lower - impulse_off && row.impulse <= row.upper + impulse_off;
     if (row.impulse > row.lower + impulse_off) solved = solved && w <= off;
@@ -204,7 +204,7 @@ TEST(BoundedRows, SolvesHeapsOfJointedBodiesWithFriction) {
     const int bodies = 2 + of.below(8);
     draw(of, bodies, of.one_in(2) ? 1 : 100, it);
     // All may come to rest on the first body.
-    for (BoundedRow& row : it.system.rows) row.wanted = 0;
+    for (BoundedRow& row : it.system.rows) row.target = 0;
     it.system.bodies[0].velocity = it.start[0].velocity = {}, it.system.bodies[0].spin = it.start[0].spin = 0;
     add_contacts(of, 1 + of.below(bodies + 2), it);
     note_wanted(it);
@@ -230,7 +230,7 @@ TEST(BoundedRows, GainNoEnergyWhateverTheMasses) {
     Problem it;
     const int bodies = 2 + of.below(8);
     draw(of, bodies, std::pow(10, of.in(0, 12)), it);
-    for (BoundedRow& row : it.system.rows) row.wanted = 0;
+    for (BoundedRow& row : it.system.rows) row.target = 0;
     it.system.bodies[0].velocity = it.start[0].velocity = {}, it.system.bodies[0].spin = it.start[0].spin = 0;
     add_contacts(of, 1 + of.below(bodies + 2), it);
     note_wanted(it);
@@ -256,7 +256,7 @@ TEST(BoundedRows, SolvesAgainAfterBoundsHaveChanged) {
   }
 }
 
-// A single row has x = (wanted - J v) / (J M^-1 J^T).
+// A single row has x = (target - J v) / (J M^-1 J^T).
 TEST(BoundedRows, SolvesOneRowInClosedForm) {
   BoundedRows system;
   system.bodies = {{}, {.inverse_mass = {0.5, 0.5}, .inverse_inertia = 3, .velocity = {1, 2}, .spin = -1}};
@@ -265,7 +265,7 @@ TEST(BoundedRows, SolvesOneRowInClosedForm) {
                          .linear_a = {-0.6, -0.8},
                          .linear_b = {0.6, 0.8},
                          .angular_b = 0.5,
-                         .wanted = 0.25,
+                         .target = 0.25,
                          .lower = -kUnbounded,
                          .upper = kUnbounded});
   const std::pair<int, int> block{0, 1};
@@ -290,8 +290,8 @@ TEST(BoundedRows, CorrectsGapsWithoutOverrunningALimit) {
     system.order(blocks, sizes);
     system.correct(0);
     const double turn = std::min(open, 0.1);
-    EXPECT_NEAR(system.shifts[1].turn, -turn, 1e-15);
-    EXPECT_NEAR(system.shifts[1].way.y, -(0.2 - turn), 1e-15);
+    EXPECT_NEAR(system.displacements[1].rotation, -turn, 1e-15);
+    EXPECT_NEAR(system.displacements[1].translation.y, -(0.2 - turn), 1e-15);
   }
 }
 
@@ -335,7 +335,7 @@ TEST(BoundedRows, LetsRowsThatContradictEachOtherPressNoHarderThanTheMotionTakes
   system.order(blocks, sizes);
   for (int step = 0; step < 50; ++step) {
     system.bodies = {{}, still, still, still, mover};
-    for (BoundedRow& row : system.rows) row.wanted = 0;
+    for (BoundedRow& row : system.rows) row.target = 0;
     system.solve();
     const double velocities[] = {-1.0 / 6, -1.0 / 2, -5.0 / 6}, impulses[] = {0, 1.0 / 6, 2.0 / 3, 1.5};
     for (int i = 0; i < 3; ++i)

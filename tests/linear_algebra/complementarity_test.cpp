@@ -146,7 +146,7 @@ TEST(Coulomb, StickSlipAndSeparation) {
   EXPECT_NEAR(slips.rate[1], 1, 1e-14);
   EXPECT_EQ(solve_coulomb(point(0.5, -10, -6)).mode[0], -1);
   const auto opens = solve_coulomb(point(0.5, 10, 6));
-  EXPECT_EQ(opens.pushes[0], 0);
+  EXPECT_EQ(opens.active[0], 0);
   EXPECT_EQ(opens.force[1], 0);
   // Slip that goes on, whatever its rate.
   EXPECT_NEAR(solve_coulomb(point(0.5, -10, 1, -1)).force[1], 5, 1e-14);

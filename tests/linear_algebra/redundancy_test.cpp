@@ -38,7 +38,7 @@ int dependent_at(double share, Real least_share = 0) {
   for (const int beside : {0, 1}) {
     const std::vector<Row<Real>> rows = almost_parallel<Real>(share, beside);
     JointSystem<Real> system = system_for(rows);
-    system.set_least_share(least_share);
+    system.set_pivot_threshold(least_share);
     const int dependent = system.factor(rows);
     EXPECT_TRUE(counted < 0 || counted == dependent) << "with other rows beside";
     counted = dependent;
@@ -81,13 +81,13 @@ TEST(Redundancy, RowsThatStayDependentDoSoUntilTheyAreReleased) {
                                    apart = almost_parallel<double>(0.5, beside);
     JointSystem<double> system = system_for(near);
     EXPECT_EQ(system.factor(near), 1);
-    system.keep_dependent();
-    EXPECT_EQ(system.kept(), 1);
+    system.freeze_dependent();
+    EXPECT_EQ(system.frozen_count(), 1);
     EXPECT_EQ(system.factor(apart), 1);
     system.release_dependent();
-    EXPECT_EQ(system.kept(), 0);
+    EXPECT_EQ(system.frozen_count(), 0);
     EXPECT_EQ(system.factor(apart), 0);
-    EXPECT_NEAR(system.weakest(), 0.5, 1e-12);
+    EXPECT_NEAR(system.min_pivot_ratio(), 0.5, 1e-12);
   }
 }
 

@@ -55,12 +55,12 @@ TEST(BitSet, GrowsAsNeededAndKeepsItsRoom) {
   EXPECT_FALSE(bits.test(1000));
   bits.reset(1000);
   EXPECT_EQ(bits.size(), 0) << "nothing to take out";
-  bits.ensure(65);
+  bits.reserve(65);
   EXPECT_EQ(bits.size(), 128);
   EXPECT_TRUE(bits.none());
   bits.set(500);
   EXPECT_GT(bits.size(), 500);
-  bits.ensure(1);
+  bits.reserve(1);
   EXPECT_TRUE(bits.test(500));
   EXPECT_FALSE(bits.none());
   const int size = bits.size();

@@ -24,27 +24,27 @@ struct Followed {
 
 Followed follow(const ImpactPoint& point, const ImpactCoefficients& c, bool energetic) {
   constexpr int kSteps = 200'000;
-  const double step = -2 * point.closing / (point.normal_response * kSteps);
+  const double step = -2 * point.gap_rate / (point.normal_response * kSteps);
   Followed out;
   ContactImpulse now;
   bool stopped = false;
   for (;;) {
-    const double closing = closing_after(point, now), slip = slip_after(point, now);
+    const double closing = gap_rate_after(point, now), slip = slip_speed_after(point, now);
     if (out.compression.normal == 0 && closing >= 0) out.compression = now;
     if (out.compression.normal > 0) {
       const bool done = energetic ? out.given >= c.restitution * c.restitution * out.taken
                                   : now.normal >= (1 + c.restitution) * out.compression.normal;
       if (done) break;
     }
-    stopped = stopped || slip * point.slip <= 0;
-    double share = point.slip > 0 ? -c.friction : c.friction;
+    stopped = stopped || slip * point.slip_speed <= 0;
+    double share = point.slip_speed > 0 ? -c.friction : c.friction;
     if (stopped) {
       share = -point.cross_response / point.tangent_response;
       share = std::min(std::max(share, -c.later_friction), c.later_friction);
     }
     now.normal += step;
     now.tangential += share * step;
-    const double work = step * (closing + closing_after(point, now)) / 2;
+    const double work = step * (closing + gap_rate_after(point, now)) / 2;
     (closing < 0 ? out.taken : out.given) += closing < 0 ? -work : work;
   }
   out.whole = now;
@@ -68,7 +68,7 @@ TEST(ImpactLaws, SlidingDiscIsSlowedByFrictionOrMadeToRoll) {
     EXPECT_NEAR(slides.tangential, -0.9 * 3, 1e-14);
     const ContactImpulse rolls = law(point, {.restitution = 0.5, .friction = 1.1, .later_friction = 1.1});
     EXPECT_NEAR(rolls.tangential, -9.0 / 3, 1e-14);
-    EXPECT_NEAR(slip_after(point, rolls), 0, 1e-14);
+    EXPECT_NEAR(slip_speed_after(point, rolls), 0, 1e-14);
   }
 }
 
@@ -91,7 +91,7 @@ TEST(ImpactLaws, RouthsPathIsThatOfSmallSteps) {
   for (int i = 0; i < 30; ++i) {
     const ImpactPoint point =
         touching(draw(-1, 1), draw(0.1, 1), draw(0.1, 0.6), draw(-3, 3), -3, draw(-1, 1));
-    if (point.closing > -0.5) continue;
+    if (point.gap_rate > -0.5) continue;
     const double mu = draw(0, 0.9);
     const ImpactCoefficients c{draw(0, 1), mu, mu * draw(0.3, 1), 0};
     for (const bool energetic : {false, true}) {
@@ -113,14 +113,15 @@ TEST(ImpactLaws, StrongeNeverGainsEnergyAndNewtonCan) {
   for (int i = 0; i < 200'000; ++i) {
     const ImpactPoint point =
         touching(draw(-1, 1), draw(0, 1), draw(0.02, 0.6), draw(-6, 6), draw(-6, 1), draw(-6, 6));
-    if (point.closing >= 0) continue;
+    if (point.gap_rate >= 0) continue;
     ++seen;
     const double mu = draw(0, 2);
     const ImpactCoefficients c{draw(0, 1), mu, mu * draw(0, 1), draw(0, 1)};
-    const double size = point.closing * point.closing / point.normal_response + point.slip * point.slip;
+    const double size =
+        point.gap_rate * point.gap_rate / point.normal_response + point.slip_speed * point.slip_speed;
     const ContactImpulse stronge = with_tangential_restitution(point, c, stronge_impulse(point, c));
     ASSERT_LE(energy_change(point, stronge), 1e-9 * size);
-    ASSERT_GE(closing_after(point, stronge), -1e-9 * std::sqrt(size));
+    ASSERT_GE(gap_rate_after(point, stronge), -1e-9 * std::sqrt(size));
     ASSERT_GE(stronge.normal, 0);
     newton_gain = std::max(newton_gain, energy_change(point, newton_impulse(point, c)) / size);
   }
@@ -146,8 +147,8 @@ TEST(ImpactLaws, JammingSlipStopsAndTheGapOpens) {
   const ImpactCoefficients c{.restitution = 0.3, .friction = 2, .later_friction = 2};
   for (const ContactImpulse& impulse : {poisson_impulse(point, c), stronge_impulse(point, c)}) {
     EXPECT_GT(impulse.normal, 0);
-    EXPECT_GT(closing_after(point, impulse), 0);
-    EXPECT_NEAR(slip_after(point, impulse), 0, 1e-12);
+    EXPECT_GT(gap_rate_after(point, impulse), 0);
+    EXPECT_NEAR(slip_speed_after(point, impulse), 0, 1e-12);
   }
 }
 
@@ -157,8 +158,8 @@ TEST(ImpactLaws, SuperballTurnsItsSlipRoundWithoutLoss) {
   const ImpactCoefficients c{
       .restitution = 1, .friction = 5, .later_friction = 5, .tangential_restitution = 1};
   const ContactImpulse impulse = with_tangential_restitution(point, c, stronge_impulse(point, c));
-  EXPECT_NEAR(slip_after(point, impulse), -point.slip, 1e-14);
-  EXPECT_NEAR(closing_after(point, impulse), -point.closing, 1e-14);
+  EXPECT_NEAR(slip_speed_after(point, impulse), -point.slip_speed, 1e-14);
+  EXPECT_NEAR(gap_rate_after(point, impulse), -point.gap_rate, 1e-14);
   EXPECT_NEAR(energy_change(point, impulse), 0, 1e-13);
 }
 

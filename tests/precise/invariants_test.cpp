@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/scene/error.h"
 #include "tests/precise/support.h"
 
@@ -18,12 +18,12 @@ namespace {
 struct Followed {
   explicit Followed(const Scene& scene, double tolerance = 1e-9)
       : precise{.tolerance = tolerance},
-        parts(divide(scene)),
-        flight(scene, parts),
-        equations(scene, parts, flight, false, tolerance),
-        motion(scene, parts, precise, equations),
-        invariants(scene, parts, precise, equations) {
-    motion.start_anew();
+        partition(partition_scene(scene)),
+        ballistic(scene, partition),
+        equations(scene, partition, ballistic, false, tolerance),
+        motion(scene, partition, precise, equations),
+        invariants(scene, partition, precise, equations) {
+    motion.reset();
   }
 
   void until(double time) {
@@ -34,8 +34,8 @@ struct Followed {
   }
 
   Precise precise;
-  Parts parts;
-  Flight flight;
+  ScenePartition partition;
+  BallisticMotion ballistic;
   EquationsOfMotion equations;
   EventFreeIntegrator motion;
   Invariants invariants;
@@ -75,7 +75,7 @@ TEST(PreciseInvariants, ForcesThatAreMissingFromTheAccountAreFound) {
   Followed run(scene);
   Scene other = scene;
   other.gravity.y *= 1.001;
-  Invariants wrong(other, run.parts, run.precise, run.equations);
+  Invariants wrong(other, run.partition, run.precise, run.equations);
   try {
     while (run.motion.time() < 10) {
       run.motion.step(std::numeric_limits<double>::infinity());

@@ -1,4 +1,4 @@
-#include "engine/precise/dynamics/joint_starts.h"
+#include "engine/precise/dynamics/initial_joint_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(JointStarts, WhatIsOpenOrTooLongIsRefusedByPreciseWithItsFigure) {
     double figure = 0;
     EXPECT_EQ(refused(row.scene, 1e-9, figure), row.subject);
     EXPECT_NEAR(figure, row.figure, 1e-12) << row.subject;
-    const auto said = joint_complaints(row.scene, 1e-7, 1e-7);
+    const auto said = describe_joint_errors(row.scene, 1e-7, 1e-7);
     ASSERT_EQ(said.size(), 1u) << row.subject;
     EXPECT_EQ(said[0].find(row.subject), 0u) << said[0];
   }
@@ -82,10 +82,10 @@ TEST(JointStarts, AngularFitsAndSpeedsAreNamedInTheirUnits) {
   EXPECT_NEAR(figure, 0.02, 1e-12);
   Scene moving = two(weld);
   moving.bodies[1].velocity = {0, 3};
-  const auto said = joint_complaints(moving, 1e-7, 1e-7);
+  const auto said = describe_joint_errors(moving, 1e-7, 1e-7);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0], "joint 'weld' holds what moves at 3 m/s where the scene starts");
-  EXPECT_TRUE(joint_complaints(rods(5), 1e-12, 1e-12).empty());
+  EXPECT_TRUE(describe_joint_errors(rods(5), 1e-12, 1e-12).empty());
 }
 
 // An impulse of both hinges acts on a bar that spins beside a hinge at rest and carries a weight. By least

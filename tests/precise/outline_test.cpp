@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/math/trigonometry.h"
-#include "engine/precise/event_search/events.h"
+#include "engine/precise/event_search/zero_crossing.h"
 
 namespace plumb::precise {
 namespace {
@@ -32,9 +32,10 @@ double along(const Row<double>& row, const Twist<double>& a, const Twist<double>
 TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const FeatureShape box = outlines_of(0, {.geometry = Box{1, 0.6}, .position = {0.1, 0.2}, .angle = 0.3})[0];
-  const FeatureShape disc = outlines_of(1, {.geometry = Circle{0.4}, .position = {-0.2, 0.1}})[0];
-  const FeatureShape box_b = outlines_of(1, {.geometry = Box{0.7, 0.9}})[0];
+  const FeatureShape box =
+      feature_shapes_of(0, {.geometry = Box{1, 0.6}, .position = {0.1, 0.2}, .angle = 0.3})[0];
+  const FeatureShape disc = feature_shapes_of(1, {.geometry = Circle{0.4}, .position = {-0.2, 0.1}})[0];
+  const FeatureShape box_b = feature_shapes_of(1, {.geometry = Box{0.7, 0.9}})[0];
   const auto motion = [&](Vec2d at) {
     return Moving{at,
                   {unit(random), unit(random)},
@@ -72,8 +73,8 @@ TEST(PreciseOutline, RatesAreTheGapsDerivatives) {
 
 TEST(PreciseOutline, SeparationIsTheDistance) {
   // Against the least distance of points sampled on both outlines.
-  const FeatureShape a = outlines_of(0, {.geometry = Box{1, 0.6}})[0];
-  const FeatureShape b = outlines_of(1, {.geometry = Box{0.8, 0.8}})[0];
+  const FeatureShape a = feature_shapes_of(0, {.geometry = Box{1, 0.6}})[0];
+  const FeatureShape b = feature_shapes_of(1, {.geometry = Box{0.8, 0.8}})[0];
   const auto edge_points = [](const FeatureShape& o, const Pose<double>& pose) {
     std::vector<Vec2d> points;
     for (int i = 0; i < o.count(); ++i) {
@@ -97,8 +98,8 @@ TEST(PreciseOutline, SeparationIsTheDistance) {
 }
 
 TEST(PreciseOutline, EdgesThatLieOnEachOtherTouchInTheEndsOfWhatTheyShare) {
-  const FeatureShape low = outlines_of(0, {.geometry = Box{2, 1}})[0];
-  const FeatureShape high = outlines_of(1, {.geometry = Box{2, 1}})[0];
+  const FeatureShape low = feature_shapes_of(0, {.geometry = Box{2, 1}})[0];
+  const FeatureShape high = feature_shapes_of(1, {.geometry = Box{2, 1}})[0];
   const auto touching = [&](double x) {
     return touching_features(low, {{0, 0}, {}}, {}, high, {{x, 1}, {}}, {}, 1e-12);
   };

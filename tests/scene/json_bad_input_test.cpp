@@ -87,7 +87,7 @@ TEST(BadInput, DeepNestingIsRefused) {
 }
 
 TEST(BadInput, TooLongATextIsRefusedUnread) {
-  const std::size_t size = json::kLongestText + 1;
+  const std::size_t size = json::kMaxTextSize + 1;
   const std::unique_ptr<void, decltype(&std::free)> memory(std::calloc(size, 1), &std::free);
   ASSERT_NE(memory, nullptr);
   const std::string_view text(static_cast<const char*>(memory.get()), size);

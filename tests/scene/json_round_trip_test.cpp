@@ -21,7 +21,7 @@ double written_and_read(double value) {
   emitter.end(']');
   json::Document document;
   json::parse(emitter.take(), document);
-  EXPECT_FALSE(document.refusal.has_value()) << value;
+  EXPECT_FALSE(document.error.has_value()) << value;
   return document.root.items.at(0).number;
 }
 

@@ -22,8 +22,8 @@ TEST(NumbersOfAScene, TheLongestNameThatFitsIsMeant) {
     const std::size_t longer = longer_first ? 0 : 1;
     EXPECT_EQ(numbers_at(scene, "bodies.a.b.mass"), std::vector{&scene.bodies[longer].mass});
     EXPECT_EQ(numbers_at(scene, "bodies.a.mass"), std::vector{&scene.bodies[1 - longer].mass});
-    EXPECT_EQ(body_of_start(scene, "bodies.a.b.angle"), longer);
-    EXPECT_EQ(body_of_start(scene, "bodies.a.angle"), 1 - longer);
+    EXPECT_EQ(body_of_initial_state(scene, "bodies.a.b.angle"), longer);
+    EXPECT_EQ(body_of_initial_state(scene, "bodies.a.angle"), 1 - longer);
     EXPECT_THROW(numbers_at(scene, "bodies.a.c.mass"), Error);
   }
 }

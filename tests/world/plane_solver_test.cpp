@@ -15,7 +15,7 @@ using query_truth::Random;
 
 double depth(const std::vector<HalfPlane>& planes, Vec2d point) {
   double worst = 0;
-  for (const HalfPlane& plane : planes) worst = std::max(worst, plane.least - dot(plane.normal, point));
+  for (const HalfPlane& plane : planes) worst = std::max(worst, plane.offset - dot(plane.normal, point));
   return worst;
 }
 

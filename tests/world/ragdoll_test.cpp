@@ -75,7 +75,7 @@ TEST(Ragdoll, SettlesOnAHeapAndSleeps) {
 // Limbs wedged in each other press joints against contacts; what is solved directly must not make much of it.
 // They come apart no faster than overlaps of half a limb are pushed out at. Where two limbs catch each other
 // is chance: one start in 200 flings one faster (of 3,000 other starts 12 to 26, with each of five values of
-// kExpectedOverlap from 0.0015 to 0.0025), so that the bound is for all but one in 25.
+// kLoadEstimateOverlap from 0.0015 to 0.0025), so that the bound is for all but one in 25.
 TEST(Ragdoll, TwoThatBeginInsideEachOtherComeApart) {
   const char* more = std::getenv("PLUMB_PROPERTY_CASES");
   const int starts = 25 * (more != nullptr ? std::max(std::atoi(more), 1) : 1);

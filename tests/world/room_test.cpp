@@ -83,7 +83,7 @@ TEST(Room, LongListsGrowByAQuarter) {
     EXPECT_EQ(list.back(), i);
     if (list.capacity() == room) continue;
     room = list.capacity(), ++growths;
-    if (list.size() > 2 * kDoubled) {
+    if (list.size() > 2 * kDoublingLimit) {
       EXPECT_LE(4 * room, 5 * list.size());
     }
   }
@@ -92,14 +92,14 @@ TEST(Room, LongListsGrowByAQuarter) {
 
 TEST(LazyArray, HasNoRoomUntilItIsUsed) {
   LazyArray<double> list;
-  list.renew(2, 3);
+  list.reset(2, 3);
   EXPECT_FALSE(list.used());
   EXPECT_EQ(list.get(2), 0);
   list.at(1, 3) = 5;
-  list.renew(3, 4);
+  list.reset(3, 4);
   EXPECT_EQ(list.get(1), 5);
   EXPECT_EQ(list.get(3), 0);
-  list.renew(1, 4);
+  list.reset(1, 4);
   EXPECT_EQ(list.get(1), 0);
 }
 

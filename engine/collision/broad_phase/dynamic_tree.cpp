@@ -4,13 +4,13 @@
 #include <cassert>
 #include <limits>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 
 namespace plumb {
 namespace {
 
 template <class Real>
-Real joint_half_perimeter(const Aabb<Real>& a, const Aabb<Real>& b) {
+Real merged_half_perimeter(const Aabb<Real>& a, const Aabb<Real>& b) {
   return merged(a, b).half_perimeter();
 }
 
@@ -24,7 +24,7 @@ Real distance_squared(const Aabb<Real>& a, const Aabb<Real>& b) {
 
 template <class Real>
 int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int user) {
-  make_room(1);
+  reserve_more(1);
   int proxy = static_cast<int>(slots_.size());
   if (free_proxies_.empty()) {
     slots_.push_back(kNone);
@@ -41,7 +41,7 @@ int DynamicTree<Real>::insert(const Aabb<Real>& box, std::uint32_t category, int
 template <class Real>
 void DynamicTree<Real>::remove(int proxy) {
   assert(slots_[proxy] != kNone);
-  take_leaf(proxy);
+  remove_leaf(proxy);
   slots_[proxy] = kNone;
   free_proxies_.push_back(proxy);
 }
@@ -50,7 +50,7 @@ template <class Real>
 void DynamicTree<Real>::move(int proxy, const Aabb<Real>& box) {
   assert(slots_[proxy] != kNone);
   const Aabb<Real> wanted = box;  // a copy: `box` may be another leaf's, which moves when this one is removed
-  Node leaf = take_leaf(proxy);
+  Node leaf = remove_leaf(proxy);
   leaf.box = boxes_[proxy] = wanted;
   insert_leaf(leaf);
 }
@@ -88,7 +88,7 @@ void DynamicTree<Real>::clear() {
   free_proxies_.clear();
   size_ = 0;
   enlargements_ = marks_ = 0;
-  usual_ = 0;
+  mean_at_build_ = 0;
 }
 
 template <class Real>
@@ -101,22 +101,22 @@ void DynamicTree<Real>::reserve(int leaves) {
   free_proxies_.reserve(count);
   loose_pairs_.reserve(count);
   is_loose_.reserve(count);
-  held_.reserve(count);
+  gathered_.reserve(count);
   items_.reserve(count);
 }
 
 template <class Real>
-void DynamicTree<Real>::make_room(std::size_t more) {
+void DynamicTree<Real>::reserve_more(std::size_t more) {
   const std::size_t proxies = slots_.size() + more - std::min(more, free_proxies_.size());
-  ensure_room(slots_, proxies), ensure_room(boxes_, proxies), ensure_room(free_proxies_, proxies);
+  ensure_capacity(slots_, proxies), ensure_capacity(boxes_, proxies), ensure_capacity(free_proxies_, proxies);
   const std::size_t pairs =
       pairs_.size() + 1 + more - std::min(more, free_pairs_.size());  // pair 0 holds the root alone
-  ensure_room(pairs_, pairs), ensure_room(free_pairs_, pairs);
+  ensure_capacity(pairs_, pairs), ensure_capacity(free_pairs_, pairs);
 }
 
 /// Updates the links of a node's children, or of its proxy, to its slot.
 template <class Real>
-void DynamicTree<Real>::adopt(int slot) {
+void DynamicTree<Real>::update_links(int slot) {
   const Node& here = node(slot);
   if (here.is_leaf())
     slots_[here.proxy()] = slot;
@@ -129,11 +129,11 @@ void DynamicTree<Real>::put(int slot, Node content) {
   Node& here = node(slot);
   content.parent = here.parent;
   here = content;
-  adopt(slot);
+  update_links(slot);
 }
 
 template <class Real>
-void DynamicTree<Real>::exchange(int a, int b) {
+void DynamicTree<Real>::swap_nodes(int a, int b) {
   const Node was = node(a);
   put(a, node(b));
   put(b, was);
@@ -143,7 +143,7 @@ template <class Real>
 int DynamicTree<Real>::new_pair() {
   if (free_pairs_.empty()) {
     append(pairs_, Pair{});
-    ensure_room(free_pairs_, pairs_.size());  // so that removing a leaf allocates nothing
+    ensure_capacity(free_pairs_, pairs_.size());  // so that removing a leaf allocates nothing
     return static_cast<int>(pairs_.size()) - 1;
   }
   const int pair = free_pairs_.back();
@@ -180,18 +180,19 @@ template <class Real>
 int DynamicTree<Real>::best_sibling(const Aabb<Real>& box, std::uint32_t ties) const {
   const Real least = box.half_perimeter();
   int best = kRoot, slot = kRoot;
-  Real direct = joint_half_perimeter(node(kRoot).box, box);
+  Real direct = merged_half_perimeter(node(kRoot).box, box);
   Real best_cost = direct, inherited = 0;
   while (!node(slot).is_leaf()) {
     const Node& here = node(slot);
     inherited += direct - here.box.half_perimeter();
     const auto& children = pairs_[here.link].children;
-    Real joint[2], cost[2], bound[2];
+    Real merged_size[2], cost[2], bound[2];
     for (int i = 0; i < 2; ++i) {
       const Aabb<Real>& other = children[i].box;
-      joint[i] = joint_half_perimeter(other, box);
-      cost[i] = inherited + joint[i];
-      bound[i] = children[i].is_leaf() ? cost[i] : inherited + (joint[i] - other.half_perimeter()) + least;
+      merged_size[i] = merged_half_perimeter(other, box);
+      cost[i] = inherited + merged_size[i];
+      bound[i] =
+          children[i].is_leaf() ? cost[i] : inherited + (merged_size[i] - other.half_perimeter()) + least;
     }
     int next = bound[1] < bound[0] ? 1 : 0;
     if (bound[0] == bound[1]) {
@@ -211,7 +212,7 @@ int DynamicTree<Real>::best_sibling(const Aabb<Real>& box, std::uint32_t ties) c
     }
     if (bound[next] > best_cost) break;
     slot = first(here.link) + next;
-    direct = joint[next];
+    direct = merged_size[next];
   }
   return best;
 }
@@ -227,10 +228,10 @@ void DynamicTree<Real>::insert_leaf(const Node& leaf) {
   const int pair = new_pair();
   put(first(pair), node(top));
   put(first(pair) + 1, leaf);
-  Node& joint = node(top);
-  joint.link = pair;
-  joint.tag = 0;
-  adopt(top);
+  Node& parent = node(top);
+  parent.link = pair;
+  parent.tag = 0;
+  update_links(top);
   // A rotation involves three levels of boxes: once three in a row are unchanged, none above can rotate.
   for (int slot = top, unchanged = 0; slot != kNone && unchanged < 3; slot = node(slot).parent) {
     unchanged = update(slot) ? 0 : unchanged + 1;
@@ -239,7 +240,7 @@ void DynamicTree<Real>::insert_leaf(const Node& leaf) {
 }
 
 template <class Real>
-typename DynamicTree<Real>::Node DynamicTree<Real>::take_leaf(int proxy) {
+typename DynamicTree<Real>::Node DynamicTree<Real>::remove_leaf(int proxy) {
   const int slot = slots_[proxy];
   const Node leaf = node(slot);
   --size_;
@@ -266,8 +267,8 @@ bool DynamicTree<Real>::rotate(int slot) {
     if (sibling.is_leaf()) continue;
     const Real before = sibling.box.half_perimeter();
     const auto& [a, b] = pairs_[sibling.link].children;
-    const Real saved_by_a = before - joint_half_perimeter(node(here).box, b.box);
-    const Real saved_by_b = before - joint_half_perimeter(node(here).box, a.box);
+    const Real saved_by_a = before - merged_half_perimeter(node(here).box, b.box);
+    const Real saved_by_b = before - merged_half_perimeter(node(here).box, a.box);
     const Real saved = std::max(saved_by_a, saved_by_b);
     if (!(saved > most_saved)) continue;
     most_saved = saved;
@@ -275,7 +276,7 @@ bool DynamicTree<Real>::rotate(int slot) {
     lower = first(sibling.link) + (saved_by_a >= saved_by_b ? 0 : 1);
   }
   if (upper == kNone) return false;
-  exchange(upper, lower);
+  swap_nodes(upper, lower);
   update(upper ^ 1);
   if (node(upper ^ 1).marked()) node(slot).tag = 1;
   return true;

@@ -35,8 +35,8 @@ class DynamicTree {
   /// leaf's old one is moved.
   void enlarge(int proxy, const Aabb<Real>& box);
   /// Prefetches a leaf and (once that is loaded) the node above it.
-  void ask_for(int proxy) const { __builtin_prefetch(&node(slots_[proxy])); }
-  void ask_for_above(int proxy) const {
+  void prefetch(int proxy) const { __builtin_prefetch(&node(slots_[proxy])); }
+  void prefetch_parent(int proxy) const {
     const int above = node(slots_[proxy]).parent;
     if (above != kNone) __builtin_prefetch(&node(above));
   }
@@ -100,7 +100,7 @@ class DynamicTree {
   /// Reserves capacity for `leaves` leaves, so that inserting and rebuilding them allocates nothing.
   void reserve(int leaves);
   /// Reserves capacity for `more` leaves, with some over for those that follow.
-  void make_room(std::size_t more);
+  void reserve_more(std::size_t more);
 
   /// Appends the complete state, including free lists: everything that affects what the tree does later.
   void save(std::vector<std::byte>& out) const;
@@ -112,7 +112,7 @@ class DynamicTree {
   using Node = TreeNode<Real>;
   using Pair = TreePair<Real>;
 
-  // A leaf or subtree to arrange: half its centre, and its index in `held_`.
+  // A leaf or subtree to arrange: half its centre, and its index in `gathered_`.
   struct Item {
     Vec2<Real> center;
     int place;
@@ -130,15 +130,15 @@ class DynamicTree {
 
   // Moves a node to another slot and updates the links that lead back to it.
   void put(int slot, Node content);
-  void exchange(int a, int b);
-  void adopt(int slot);
+  void swap_nodes(int a, int b);
+  void update_links(int slot);
   int new_pair();
   void free_pair(int pair);
   bool update(int slot);
 
   int best_sibling(const Aabb<Real>& box, std::uint32_t ties) const;
   void insert_leaf(const Node& leaf);
-  Node take_leaf(int proxy);
+  Node remove_leaf(int proxy);
   bool rotate(int slot);
 
   bool refit();
@@ -150,14 +150,14 @@ class DynamicTree {
   // Visits the nodes below `pair` for which enter(node) returns true, along the parents, without a stack.
   // Returns false when leaf(node) stopped it.
   template <class Enter, class Leaf>
-  bool walk(int pair, const Enter& enter, const Leaf& leaf) const;
+  bool traverse_stackless(int pair, const Enter& enter, const Leaf& leaf) const;
   // Traverses by branch and bound: visits the node with the smaller bound(node) first, while reaches(bound)
   // holds.
   template <class Bound, class Reaches, class Leaf>
-  void descend(const Bound& bound, const Reaches& reaches, const Leaf& leaf) const;
+  void traverse_nearest_first(const Bound& bound, const Reaches& reaches, const Leaf& leaf) const;
 
-  bool inner_is_sound(int slot) const;
-  bool leaf_is_sound(int slot) const;
+  bool is_valid_inner(int slot) const;
+  bool is_valid_leaf(int slot) const;
 
   std::vector<Pair> pairs_;  // pair 0 holds the root and an unused node
   std::vector<int> slots_;   // proxy -> slot of its leaf
@@ -167,12 +167,12 @@ class DynamicTree {
   std::vector<int> free_pairs_, free_proxies_;
   int size_ = 0;
   std::int64_t enlargements_ = 0, marks_ = 0;  // since the last rebuild
-  double usual_ = 0;                           // mean half perimeter of inner nodes when most were built
+  double mean_at_build_ = 0;                   // mean half perimeter of inner nodes when most were built
 
   // Scratch of rebuild().
   std::vector<int> loose_pairs_;
   std::vector<char> is_loose_;  // by pair
-  std::vector<Node> held_;
+  std::vector<Node> gathered_;
   std::vector<Item> items_;
   int next_loose_ = 0;
   double built_ = 0;  // half perimeters of the part being built

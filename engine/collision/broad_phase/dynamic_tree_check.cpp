@@ -12,7 +12,7 @@ namespace plumb {
 namespace {
 
 /// Returns true if `free` lists each unused number once, and nothing else.
-bool lists_the_rest(const std::vector<int>& free, std::vector<bool>& used) {
+bool lists_all_unused(const std::vector<int>& free, std::vector<bool>& used) {
   for (const int each : free) {
     if (each < 0 || static_cast<std::size_t>(each) >= used.size() || used[each]) return false;
     used[each] = true;
@@ -42,7 +42,7 @@ int DynamicTree<Real>::height() const {
     return true;
   };
   if (!node(kRoot).is_leaf())
-    walk(
+    traverse_stackless(
         node(kRoot).link, [](const Node&) { return true; }, measure);
   return highest;
 }
@@ -56,13 +56,13 @@ double DynamicTree<Real>::cost() const {
     return true;
   };
   add(node(kRoot));
-  walk(node(kRoot).link, add, [](const Node&) { return true; });
+  traverse_stackless(node(kRoot).link, add, [](const Node&) { return true; });
   return sum / static_cast<double>(node(kRoot).box.half_perimeter());
 }
 
 /// Returns true if an inner node agrees with its children, and they link back to it.
 template <class Real>
-bool DynamicTree<Real>::inner_is_sound(int slot) const {
+bool DynamicTree<Real>::is_valid_inner(int slot) const {
   const Node& here = node(slot);
   if (here.link <= 0 || here.link >= static_cast<int>(pairs_.size())) return false;
   const auto& [a, b] = pairs_[here.link].children;
@@ -74,7 +74,7 @@ bool DynamicTree<Real>::inner_is_sound(int slot) const {
 }
 
 template <class Real>
-bool DynamicTree<Real>::leaf_is_sound(int slot) const {
+bool DynamicTree<Real>::is_valid_leaf(int slot) const {
   const Node& here = node(slot);
   if (here.proxy() >= static_cast<int>(slots_.size()) || slots_[here.proxy()] != slot) return false;
   const Aabb<Real>& box = boxes_[here.proxy()];
@@ -100,19 +100,19 @@ bool DynamicTree<Real>::valid() const {
     open.pop_back();
     const Node& here = node(slot);
     if (here.is_leaf()) {
-      if (!leaf_is_sound(slot)) return false;
+      if (!is_valid_leaf(slot)) return false;
       proxy_used[here.proxy()] = true;
       ++leaves;
       continue;
     }
     // No pair is visited twice: the loop ends whatever the links are.
-    if (!inner_is_sound(slot) || pair_used[here.link]) return false;
+    if (!is_valid_inner(slot) || pair_used[here.link]) return false;
     pair_used[here.link] = true;
     open.push_back(first(here.link));
     open.push_back(first(here.link) + 1);
   }
-  return leaves == size && lists_the_rest(free_pairs_, pair_used) &&
-         lists_the_rest(free_proxies_, proxy_used) &&
+  return leaves == size && lists_all_unused(free_pairs_, pair_used) &&
+         lists_all_unused(free_proxies_, proxy_used) &&
          std::all_of(free_proxies_.begin(), free_proxies_.end(),
                      [&](int each) { return slots_[each] == kNone; });
 }
@@ -121,7 +121,7 @@ template <class Real>
 void DynamicTree<Real>::save(std::vector<std::byte>& out) const {
   Encoder encoder(out);
   encoder.put(std::int32_t{size_});
-  encoder.put(enlargements_), encoder.put(marks_), encoder.put(usual_);
+  encoder.put(enlargements_), encoder.put(marks_), encoder.put(mean_at_build_);
   encoder.put(pairs_), encoder.put(slots_), encoder.put(free_pairs_), encoder.put(free_proxies_);
 }
 
@@ -131,7 +131,8 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   DynamicTree copy;
   constexpr char kTree[] = "tree of boxes";
   copy.size_ = decoder.get<std::int32_t>(kTree);
-  decoder.get(copy.enlargements_, kTree), decoder.get(copy.marks_, kTree), decoder.get(copy.usual_, kTree);
+  decoder.get(copy.enlargements_, kTree), decoder.get(copy.marks_, kTree),
+      decoder.get(copy.mean_at_build_, kTree);
   decoder.get(copy.pairs_, "nodes of a tree of boxes");
   decoder.get(copy.slots_, "leaves of a tree of boxes");
   decoder.get(copy.free_pairs_, "free nodes of a tree of boxes");
@@ -145,7 +146,7 @@ void DynamicTree<Real>::restore(std::span<const std::byte>& in) {
   size_ = copy.size_;
   enlargements_ = copy.enlargements_;
   marks_ = copy.marks_;
-  usual_ = copy.usual_;
+  mean_at_build_ = copy.mean_at_build_;
   pairs_.assign(copy.pairs_.begin(), copy.pairs_.end());
   slots_.assign(copy.slots_.begin(), copy.slots_.end());
   boxes_.assign(copy.boxes_.begin(), copy.boxes_.end());

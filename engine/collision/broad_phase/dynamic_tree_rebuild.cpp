@@ -8,7 +8,7 @@ namespace {
 
 /// Refitted boxes are kept while their mean half perimeter is below this multiple of that after the last
 /// build; above it they would cost queries more than a rebuild saves.
-constexpr double kWorn = 1.1;
+constexpr double kMaxRefitGrowth = 1.1;
 /// Pairs (1 MB in float) that fit into a cache, so that their order in memory does not matter.
 constexpr std::size_t kCachedPairs = 1 << 14;
 /// Prefetch distance, in nodes: nodes are scattered in memory.
@@ -77,7 +77,7 @@ int split(Item* items, int count, int budget) {
 /// Refits the boxes of the marked inner nodes, from below. Returns false when that is not enough.
 template <class Real>
 bool DynamicTree<Real>::refit() {
-  if (2 * marks_ < size_ || !(usual_ > 0)) return false;
+  if (2 * marks_ < size_ || !(mean_at_build_ > 0)) return false;
   std::vector<int>& marked = loose_pairs_;  // slots, parents first, in memory order
   marked.clear();
   marked.reserve(pairs_.capacity());
@@ -96,7 +96,7 @@ bool DynamicTree<Real>::refit() {
     update(marked[i]);
     sum += static_cast<double>(node(marked[i]).box.half_perimeter());
   }
-  if (!(sum <= kWorn * usual_ * static_cast<double>(marked.size()))) return false;
+  if (!(sum <= kMaxRefitGrowth * mean_at_build_ * static_cast<double>(marked.size()))) return false;
   for (const int slot : marked) node(slot).tag = 0;
   enlargements_ = marks_ = 0;
   return true;
@@ -118,16 +118,16 @@ void DynamicTree<Real>::order_loose_pairs() {
 template <class Real>
 void DynamicTree<Real>::gather(bool everything) {
   loose_pairs_.clear();
-  held_.clear();
+  gathered_.clear();
   // Capacity for the whole tree at once: the marked part varies from step to step.
   loose_pairs_.reserve(pairs_.capacity());
-  held_.reserve(pairs_.capacity());
+  gathered_.reserve(pairs_.capacity());
   items_.reserve(pairs_.capacity());
   const auto take = [&](const Node& each) {
     if (!each.is_leaf() && (everything || each.tag != 0))
       loose_pairs_.push_back(each.link);
     else
-      held_.push_back(each);
+      gathered_.push_back(each);
   };
   take(node(kRoot));
   for (std::size_t i = 0; i < loose_pairs_.size(); ++i) {
@@ -141,9 +141,9 @@ void DynamicTree<Real>::gather(bool everything) {
 template <class Real>
 void DynamicTree<Real>::build(int slot, Item* items, int count, int budget) {
   if (kAhead / 2 < count && count <= kAhead)
-    for (int i = 0; i < count; ++i) __builtin_prefetch(&held_[items[i].place]);
+    for (int i = 0; i < count; ++i) __builtin_prefetch(&gathered_[items[i].place]);
   if (count == 1) {
-    put(slot, held_[items[0].place]);
+    put(slot, gathered_[items[0].place]);
     return;
   }
   const int half = split(items, count, budget);
@@ -151,7 +151,7 @@ void DynamicTree<Real>::build(int slot, Item* items, int count, int budget) {
   Node& here = node(slot);
   here.link = pair;
   here.tag = 0;
-  adopt(slot);
+  update_links(slot);
   build(first(pair), items, half, budget - 1);
   build(first(pair) + 1, items + half, count - half, budget - 1);
   update(slot);
@@ -160,14 +160,14 @@ void DynamicTree<Real>::build(int slot, Item* items, int count, int budget) {
 
 template <class Real>
 int DynamicTree<Real>::build_gathered() {
-  const int count = static_cast<int>(held_.size());
-  items_.resize(held_.size());
-  for (int i = 0; i < count; ++i) items_[i] = {half_center(held_[i].box), i};
+  const int count = static_cast<int>(gathered_.size());
+  items_.resize(gathered_.size());
+  for (int i = 0; i < count; ++i) items_[i] = {half_center(gathered_[i].box), i};
   next_loose_ = 0;
   built_ = 0;
   enlargements_ = marks_ = 0;
   build(kRoot, items_.data(), count, 2 * std::bit_width(static_cast<unsigned>(count)));
-  if (2 * next_loose_ >= size_) usual_ = built_ / next_loose_;
+  if (2 * next_loose_ >= size_) mean_at_build_ = built_ / next_loose_;
   return count;
 }
 

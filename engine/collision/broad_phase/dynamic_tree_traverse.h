@@ -11,7 +11,7 @@ namespace plumb {
 
 template <class Real>
 template <class Enter, class Leaf>
-bool DynamicTree<Real>::walk(int top, const Enter& enter, const Leaf& leaf) const {
+bool DynamicTree<Real>::traverse_stackless(int top, const Enter& enter, const Leaf& leaf) const {
   int slot = first(top);
   for (;;) {
     const Node& here = node(slot);
@@ -52,7 +52,7 @@ void DynamicTree<Real>::query(const Aabb<Real>& box, std::uint32_t mask, Visit&&
         next = child.link;
       } else if (waiting < kStack) {
         stack[waiting++] = child.link;
-      } else if (!walk(child.link, meets, visit_leaf)) {
+      } else if (!traverse_stackless(child.link, meets, visit_leaf)) {
         return;
       }
     }
@@ -66,7 +66,8 @@ void DynamicTree<Real>::query(const Aabb<Real>& box, std::uint32_t mask, Visit&&
 
 template <class Real>
 template <class Bound, class Reaches, class Leaf>
-void DynamicTree<Real>::descend(const Bound& bound, const Reaches& reaches, const Leaf& leaf) const {
+void DynamicTree<Real>::traverse_nearest_first(const Bound& bound, const Reaches& reaches,
+                                               const Leaf& leaf) const {
   struct Waiting {
     int pair;
     Real bound;
@@ -101,7 +102,7 @@ void DynamicTree<Real>::descend(const Bound& bound, const Reaches& reaches, cons
         next = far->link;
       } else if (waiting < kStack) {
         stack[waiting++] = {far->link, far_bound};
-      } else if (!walk(far->link, enter, leaf)) {
+      } else if (!traverse_stackless(far->link, enter, leaf)) {
         return;
       }
     }
@@ -120,7 +121,7 @@ void DynamicTree<Real>::ray_cast(Vec2<Real> origin, Vec2<Real> translation, Vec2
                                  std::uint32_t mask, Visit&& visit) const {
   const SweepTest<Real> enters_at(origin, translation, half_extent, mask);
   Real max_fraction = 1;
-  descend(
+  traverse_nearest_first(
       enters_at, [&](Real fraction) { return fraction <= max_fraction; },
       [&](const Node& leaf) {
         max_fraction = std::min(max_fraction, static_cast<Real>(visit(int{leaf.tag}, max_fraction)));
@@ -135,7 +136,7 @@ void DynamicTree<Real>::nearest(Vec2<Real> point, std::uint32_t mask, Real max_d
   using Test = DistanceTest<Real>;
   if (!(max_distance >= 0)) return;
   Real limit = Test::limit(max_distance);
-  descend(
+  traverse_nearest_first(
       Test(point, mask), [&](Real square) { return square <= limit && square < Test::kMiss; },
       [&](const Node& leaf) {
         max_distance = std::min(max_distance, static_cast<Real>(visit(int{leaf.tag}, max_distance)));

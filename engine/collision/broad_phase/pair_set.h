@@ -21,7 +21,7 @@ class PairSet {
   bool contains(int a, int b) const { return !keys_.empty() && keys_[find(key(a, b))] != kEmpty; }
   /// Prefetches the memory that contains(a, b) will read. (GCC 12 drops calls of a function that does nothing
   /// else, unless they are inlined first.)
-  [[gnu::always_inline]] void ask_for(int a, int b) const {
+  [[gnu::always_inline]] void prefetch(int a, int b) const {
     if (!keys_.empty()) __builtin_prefetch(&keys_[hash(key(a, b)) & (keys_.size() - 1)]);
   }
 

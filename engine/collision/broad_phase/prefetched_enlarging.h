@@ -18,29 +18,29 @@ class PrefetchedEnlarging {
   PrefetchedEnlarging& operator=(const PrefetchedEnlarging&) = delete;
 
   void enlarge(int proxy, const Aabb<Real>& box) {
-    if (given_ >= kWait) take(given_ - kWait);
-    tree_.ask_for(proxy);
-    if (given_ >= kWait / 2) tree_.ask_for_above(waiting_[(given_ - kWait / 2) % kWait].proxy);
-    waiting_[given_ % kWait] = {proxy, box};
-    ++given_;
+    if (count_ >= kDelay) take(count_ - kDelay);
+    tree_.prefetch(proxy);
+    if (count_ >= kDelay / 2) tree_.prefetch_parent(queue_[(count_ - kDelay / 2) % kDelay].proxy);
+    queue_[count_ % kDelay] = {proxy, box};
+    ++count_;
   }
   /// Enlarges the delayed boxes. Call it after the last box.
   void finish() {
-    for (unsigned i = given_ < kWait ? 0 : given_ - kWait; i < given_; ++i) take(i);
-    given_ = 0;
+    for (unsigned i = count_ < kDelay ? 0 : count_ - kDelay; i < count_; ++i) take(i);
+    count_ = 0;
   }
 
  private:
-  static constexpr unsigned kWait = 16;
-  struct Given {
+  static constexpr unsigned kDelay = 16;
+  struct Entry {
     int proxy;
     Aabb<Real> box;
   };
-  void take(unsigned i) { tree_.enlarge(waiting_[i % kWait].proxy, waiting_[i % kWait].box); }
+  void take(unsigned i) { tree_.enlarge(queue_[i % kDelay].proxy, queue_[i % kDelay].box); }
 
   DynamicTree<Real>& tree_;
-  std::array<Given, kWait> waiting_;
-  unsigned given_ = 0;
+  std::array<Entry, kDelay> queue_;
+  unsigned count_ = 0;
 };
 
 }  // namespace plumb

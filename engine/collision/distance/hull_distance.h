@@ -36,7 +36,7 @@ int farthest_corner(const Convex<Real>& shape, Vec2d direction) {
 
 /// Returns the distance (m) from the origin of the shape's frame to its farthest corner.
 template <class Real>
-double reach_of(const Convex<Real>& shape) {
+double corner_extent(const Convex<Real>& shape) {
   double square = 0;
   for (int i = 0; i < shape.count; ++i)
     square = std::max(square, length_squared(shape.corners[i].point.template as<double>()));

@@ -76,26 +76,27 @@ struct Entry {
 };
 
 /// Returns where the ray enters the disc of `radius` around `center`, if it starts outside.
-Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d way) {
+Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d direction) {
   const Vec2d from = origin - center;
-  const double size = length_squared(way), along = -dot(from, way), across = cross(way, from);
+  const double size = length_squared(direction), along = -dot(from, direction),
+               across = cross(direction, from);
   // |from + t way| = radius; across / |way| is the distance of the line from the center.
   const double chord = radius * radius * size - across * across;
   if (!(chord >= 0) || !(along > 0)) return {};
   const double fraction = (along - std::sqrt(chord)) / size;
   if (!(fraction >= 0)) return {};
-  return {fraction, radius > 0 ? direction_of(from + fraction * way) : direction_of(-way)};
+  return {fraction, radius > 0 ? direction_of(from + fraction * direction) : direction_of(-direction)};
 }
 
 /// Returns where the ray enters through the edge p .. p + e, moved out by `radius`.
-Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d way) {
+Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d direction) {
   const double length = std::sqrt(length_squared(e));
   if (!(length > 0)) return {};
   const Vec2d normal{e.y / length, -e.x / length};
-  const double approach = -dot(normal, way), height = dot(normal, origin - p) - radius;
+  const double approach = -dot(normal, direction), height = dot(normal, origin - p) - radius;
   if (!(approach > 0) || !(height >= 0)) return {};
   const double fraction = height / approach;
-  const double along = dot(origin + fraction * way - p, e);
+  const double along = dot(origin + fraction * direction - p, e);
   if (!(along >= 0) || !(along <= length * length)) return {};
   return {fraction, normal};
 }
@@ -103,12 +104,12 @@ Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d way) {
 /// Clips the ray against the edges of a polygon without radius (Cyrus and Beck, 1978): no crack between two
 /// edges.
 template <class Real>
-Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
+Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d direction) {
   Entry enter{0, {}};
   double leave = kInfinity;
   for (int i = 0; i < shape.count; ++i) {
     const Vec2d p = corner(shape, i), m = outward(corner(shape, i + 1) - p);
-    const double height = dot(m, origin - p), approach = -dot(m, way);
+    const double height = dot(m, origin - p), approach = -dot(m, direction);
     if (approach > 0) {
       if (height >= enter.fraction * approach) enter = {height / approach, m};
     } else if (approach < 0) {
@@ -125,15 +126,15 @@ Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
 /// Returns where the ray enters a rounded hull. The hull is the union of the area within its corners, the
 /// discs at the corners, and the edges moved out by the radius; the ray enters at the first of these.
 template <class Real>
-Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
+Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d direction) {
   const double radius = static_cast<double>(shape.radius);
   Entry first;
   for (int i = 0; i < shape.count; ++i) {
     const Vec2d p = corner(shape, i);
-    const Entry disc = enter_disc(p, radius, origin, way);
+    const Entry disc = enter_disc(p, radius, origin, direction);
     if (disc.fraction < first.fraction) first = disc;
     if (shape.count == 1) break;
-    const Entry edge = enter_edge(p, corner(shape, i + 1) - p, radius, origin, way);
+    const Entry edge = enter_edge(p, corner(shape, i + 1) - p, radius, origin, direction);
     if (edge.fraction < first.fraction) first = edge;
   }
   return first;
@@ -143,12 +144,12 @@ Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d way) {
 
 template <class Real>
 RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation) {
-  const Vec2d from = origin.template as<double>(), way = translation.template as<double>();
-  if (!(length_squared(way) > 0) || contains(shape, origin)) return {};
-  const Entry entry = shape.count > 2 && !(shape.radius > 0) ? enter_polygon(shape, from, way)
-                                                             : enter_rounded(shape, from, way);
+  const Vec2d from = origin.template as<double>(), direction = translation.template as<double>();
+  if (!(length_squared(direction) > 0) || contains(shape, origin)) return {};
+  const Entry entry = shape.count > 2 && !(shape.radius > 0) ? enter_polygon(shape, from, direction)
+                                                             : enter_rounded(shape, from, direction);
   if (!(entry.fraction <= 1)) return {};
-  return {true, static_cast<Real>(entry.fraction), (from + entry.fraction * way).template as<Real>(),
+  return {true, static_cast<Real>(entry.fraction), (from + entry.fraction * direction).template as<Real>(),
           entry.normal.template as<Real>()};
 }
 

@@ -28,10 +28,10 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
   // rounding.
   constexpr int kMaxIterations = 64;
   const double radius_a = static_cast<double>(a.radius), radius = radius_a + static_cast<double>(b.radius);
-  const Vec2d start = b_in_a.position.template as<double>(), way = translation.template as<double>();
+  const Vec2d start = b_in_a.position.template as<double>(), displacement = translation.template as<double>();
   Pose<double> pose{start, {static_cast<double>(b_in_a.rotation.c), static_cast<double>(b_in_a.rotation.s)}};
   const double rounding =
-      kRounding * (reach_of(a) + reach_of(b) + radius + std::abs(start.x) + std::abs(start.y));
+      kRounding * (corner_extent(a) + corner_extent(b) + radius + std::abs(start.x) + std::abs(start.y));
 
   SimplexCache cache;
   HullDistance hulls = hull_distance(a, b, pose, &cache);
@@ -40,7 +40,7 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
   for (int iteration = 0;; ++iteration) {
     const bool touching = hulls.separation - radius <= rounding;
     const double gap = touching ? 0 : separation_along(a, b, pose, hulls.normal) - radius;
-    const double approach = -dot(hulls.normal, way);
+    const double approach = -dot(hulls.normal, displacement);
     // A normal along which the shapes do not approach keeps them apart for the rest of the motion.
     if (!(approach > 0) && (gap > 0 || !(fraction > 0))) return {};
     if (!(gap > 0) || iteration == kMaxIterations) break;
@@ -48,7 +48,7 @@ CastResult<Real> shape_cast(const Convex<Real>& a, const Convex<Real>& b, const 
     if (next > 1) return {};
     if (next <= fraction) break;
     fraction = next;
-    pose.position = start + fraction * way;
+    pose.position = start + fraction * displacement;
     hulls = hull_distance(a, b, pose, &cache);
   }
   return hit_at<Real>(fraction, false, hulls, radius_a);

@@ -13,12 +13,12 @@ namespace {
 constexpr double kSweepRounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// Returns q r: the rotation by both angles.
-constexpr Rotation<double> turned(Rotation<double> q, Rotation<double> r) {
+constexpr Rotation<double> composed(Rotation<double> q, Rotation<double> r) {
   return {q.c * r.c - q.s * r.s, q.s * r.c + q.c * r.s};
 }
 
-Rotation<double> turned_by(double angle, Rotation<double> start) {
-  return angle != 0 ? turned(rotation_of(angle), start) : start;
+Rotation<double> rotated_by(double angle, Rotation<double> start) {
+  return angle != 0 ? composed(rotation_of(angle), start) : start;
 }
 
 /// Normalises in double precision: a rotation in float is of unit length only to a float's rounding.
@@ -30,20 +30,20 @@ Rotation<double> unit(Rotation<Real> q) {
 
 /// A shape that rotates during the interval.
 template <class Real>
-struct Turning {
+struct RotatingShape {
   const Convex<Real>& shape;
   Rotation<double> start;
-  double turn;
-  double reach;  ///< m, from the centre of rotation to the farthest corner
+  double delta_angle;
+  double extent;  ///< m, from the centre of rotation to the farthest corner
 
   template <class Moving>
-  Turning(const Convex<Real>& convex, const Sweep<Moving>& sweep)
+  RotatingShape(const Convex<Real>& convex, const Sweep<Moving>& sweep)
       : shape(convex),
         start(unit(sweep.start_rotation)),
-        turn(static_cast<double>(sweep.turn)),
-        reach(reach_of(convex)) {}
+        delta_angle(static_cast<double>(sweep.delta_angle)),
+        extent(corner_extent(convex)) {}
   Vec2d corner(int i) const { return shape.corners[i].point.template as<double>(); }
-  Rotation<double> rotation(double fraction) const { return turned_by(fraction * turn, start); }
+  Rotation<double> rotation(double fraction) const { return rotated_by(fraction * delta_angle, start); }
 };
 
 /// x + v t - c t^2 / 2 with c >= 0: a lower bound of a separation for t >= 0.
@@ -80,9 +80,10 @@ class Approach {
 
   /// Returns a bound (m) of the rounding error of a separation up to a fraction.
   double rounding(double fraction) const {
-    const double way = speed_ + bend_ + std::abs(a_.turn) * a_.reach + std::abs(b_.turn) * b_.reach;
-    return kSweepRounding *
-           (std::abs(start_.x) + std::abs(start_.y) + fraction * way + a_.reach + b_.reach + radius_);
+    const double max_displacement =
+        speed_ + bend_ + std::abs(a_.delta_angle) * a_.extent + std::abs(b_.delta_angle) * b_.extent;
+    return kSweepRounding * (std::abs(start_.x) + std::abs(start_.y) + fraction * max_displacement +
+                             a_.extent + b_.extent + radius_);
   }
 
   /// Computes the separation of the surfaces at a fraction. Points and normal of `hulls()` are in the world's
@@ -94,7 +95,7 @@ class Approach {
     between_ = start_ + fraction * (motion_ + fraction * curve_);
     velocity_ = motion_ + (2 * fraction) * curve_;
     const Rotation<double> back = rotation_a_.inverse();
-    hulls_ = hull_distance(a_.shape, b_.shape, {back * between_, turned(back, rotation_b_)}, &cache_);
+    hulls_ = hull_distance(a_.shape, b_.shape, {back * between_, composed(back, rotation_b_)}, &cache_);
     hulls_.normal = rotation_a_ * hulls_.normal;
     hulls_.point_a = rotation_a_ * hulls_.point_a;
     hulls_.point_b = rotation_a_ * hulls_.point_b;
@@ -110,21 +111,21 @@ class Approach {
   /// least `separation` apart. Near an edge, the edge's normal, which rotates with it, gives the longest
   /// step: all points of the edge have the same height along it.
   double safe_step(double separation, double remaining) const {
-    const bool with_a = a_.turn != 0 && cache_.edge_of_a();
-    const bool with_b = b_.turn != 0 && cache_.edge_of_b();
+    const bool with_a = a_.delta_angle != 0 && cache_.edge_of_a();
+    const bool with_b = b_.delta_angle != 0 && cache_.edge_of_b();
     double step = 0;
-    if (with_a) step = safe_step(separation, remaining, a_.turn);
-    if (with_b && step < remaining) step = std::max(step, safe_step(separation, remaining, b_.turn));
+    if (with_a) step = safe_step(separation, remaining, a_.delta_angle);
+    if (with_b && step < remaining) step = std::max(step, safe_step(separation, remaining, b_.delta_angle));
     if (!with_a && !with_b) step = safe_step(separation, remaining, 0);
     return step;
   }
 
  private:
-  double safe_step(double separation, double remaining, double axis_turn) const;
-  Bound lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
+  double safe_step(double separation, double remaining, double axis_rate) const;
+  Bound lowest(const RotatingShape<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
                double t) const;
 
-  Turning<Real> a_, b_;
+  RotatingShape<Real> a_, b_;
   Vec2d start_, motion_, curve_;
   double speed_, bend_, radius_;
   SimplexCache cache_;
@@ -138,7 +139,7 @@ template <class Real>
 bool Approach<Real>::window(double separation, double& first, double& last) const {
   first = 0, last = 1;
   const double distance =
-      (a_.reach + b_.reach + radius_ + separation + bend_ + 2 * rounding(1)) * (1 + kSweepRounding);
+      (a_.extent + b_.extent + radius_ + separation + bend_ + 2 * rounding(1)) * (1 + kSweepRounding);
   if (!(speed_ > 0)) return length_squared(start_) <= distance * distance;
   const double across = cross(motion_, start_) / speed_, along = -dot(start_, motion_) / speed_;
   if (std::abs(across) > distance) return false;
@@ -154,32 +155,32 @@ bool Approach<Real>::window(double separation, double& first, double& last) cons
 /// derivative is never less than -rate^2 |r|. To first order it is r . (normal + t normal'), so the lowest
 /// corner is a support point in that direction.
 template <class Real>
-Bound Approach<Real>::lowest(const Turning<Real>& body, Rotation<double> rotation, Vec2d normal, double rate,
-                             double t) const {
+Bound Approach<Real>::lowest(const RotatingShape<Real>& body, Rotation<double> rotation, Vec2d normal,
+                             double rate, double t) const {
   const Vec2d local = rotation.inverse() * normal, change = -rate * perpendicular(local);
   const Vec2d r = body.corner(farthest_corner(body.shape, -(local + t * change)));
-  return {dot(local, r), dot(change, r), rate * rate * body.reach};
+  return {dot(local, r), dot(change, r), rate * rate * body.extent};
 }
 
-/// A separation along a normal that rotates by `axis_turn` is at most the distance. It is the minimum over
+/// A separation along a normal that rotates by `axis_rate` is at most the distance. It is the minimum over
 /// pairs of corners, and each pair's separation is bounded from below by a parabola that opens downwards. A
 /// pair that is far enough apart at t was so before, so only pairs that fail at t matter.
 template <class Real>
-double Approach<Real>::safe_step(double separation, double remaining, double axis_turn) const {
+double Approach<Real>::safe_step(double separation, double remaining, double axis_rate) const {
   constexpr int kMaxRounds = 32;
   const Vec2d normal = hulls_.normal;
   // n . P with P' = V and V' = A: (n . P)'' = n . A + 2 n' . V - w^2 n . P.
   const double farthest = bend_ + std::max(std::sqrt(length_squared(between_)),
                                            std::sqrt(length_squared(between_ + remaining * velocity_)));
   const double fastest_centers = speed_ + 2 * bend_;
-  const double pull = axis_turn != 0 ? 2 * bend_ : std::max(0.0, -2 * dot(normal, curve_));
+  const double pull = axis_rate != 0 ? 2 * bend_ : std::max(0.0, -2 * dot(normal, curve_));
   const Bound centers{dot(normal, between_) - radius_ - separation,
-                      dot(normal, velocity_) + axis_turn * cross(normal, between_),
-                      pull + std::abs(axis_turn) * (2 * fastest_centers + std::abs(axis_turn) * farthest)};
+                      dot(normal, velocity_) + axis_rate * cross(normal, between_),
+                      pull + std::abs(axis_rate) * (2 * fastest_centers + std::abs(axis_rate) * farthest)};
   double step = remaining;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const Bound total = centers + lowest(b_, rotation_b_, normal, b_.turn - axis_turn, step) +
-                        lowest(a_, rotation_a_, -normal, a_.turn - axis_turn, step);
+    const Bound total = centers + lowest(b_, rotation_b_, normal, b_.delta_angle - axis_rate, step) +
+                        lowest(a_, rotation_a_, -normal, a_.delta_angle - axis_rate, step);
     if (total.at(step) >= 0) return step;
     const double root = total.root();
     if (!(root < step)) return step;  // at the root already, but for roundings
@@ -188,8 +189,8 @@ double Approach<Real>::safe_step(double separation, double remaining, double axi
   // Too many pairs of corners were tried: fall back to the first-order bound, with the speed of the fastest
   // point of either shape.
   const double gap = hulls_.separation - radius_ - separation;
-  const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ + std::abs(a_.turn) * a_.reach +
-                         std::abs(b_.turn) * b_.reach;
+  const double fastest = std::max(0.0, -dot(normal, velocity_)) + 2 * bend_ +
+                         std::abs(a_.delta_angle) * a_.extent + std::abs(b_.delta_angle) * b_.extent;
   return gap > 0 && fastest > 0 ? std::min(gap / fastest, remaining) : 0;
 }
 
@@ -207,7 +208,7 @@ Pose<Real> pose_at(const Sweep<Real>& sweep, double fraction) {
       sweep.start.template as<double>() +
       fraction * (sweep.motion.template as<double>() + fraction * sweep.curve.template as<double>());
   const Rotation<double> q =
-      turned_by(fraction * static_cast<double>(sweep.turn), unit(sweep.start_rotation));
+      rotated_by(fraction * static_cast<double>(sweep.delta_angle), unit(sweep.start_rotation));
   return {position.template as<Real>(), {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
 }
 

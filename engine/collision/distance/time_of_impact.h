@@ -6,13 +6,13 @@
 namespace plumb {
 
 /// Motion of a body during an interval, with time as the fraction 0 .. 1 of it: its position is start +
-/// fraction motion + fraction^2 curve, its rotation is the start's turned by fraction turn. Shapes are given
-/// in the body's frame, whose origin (the centre of mass) moves along the parabola.
+/// fraction motion + fraction^2 curve, its rotation is the start's rotated by fraction delta_angle. Shapes
+/// are given in the body's frame, whose origin (the centre of mass) moves along the parabola.
 template <class Real>
 struct Sweep {
   Vec2<Real> start{}, motion{};     ///< m
   Rotation<Real> start_rotation{};  ///< at fraction 0
-  Real turn = 0;                    ///< rad over the interval, any number of turns
+  Real delta_angle = 0;             ///< rad over the interval, any number of turns
   Vec2<Real> curve{};               ///< m, half of the acceleration times the interval's square
 };
 

@@ -19,7 +19,7 @@ struct End {
 };
 
 template <class Real>
-End<Real> look(const Axis<Real>& from, Vec2<Real> point) {
+End<Real> locate(const Axis<Real>& from, Vec2<Real> point) {
   const Vec2<Real> offset = point - from.ends[0];
   const Real along = dot(perpendicular(from.normal), offset), height = dot(from.normal, offset);
   const Real beyond = along < 0 ? along : along > from.length ? along - from.length : 0;
@@ -27,7 +27,7 @@ End<Real> look(const Axis<Real>& from, Vec2<Real> point) {
 }
 
 template <class Real>
-bool beside(const Axis<Real>& axis, const End<Real>& end) {
+bool projects_onto(const Axis<Real>& axis, const End<Real>& end) {
   return end.along >= 0 && end.along <= axis.length;
 }
 
@@ -48,8 +48,8 @@ Side<Real> shallow_side(const End<Real> (&ends)[2]) {
 
 template <class Real>
 ContactManifold<Real> clip_axes(const Axis<Real>& reference, bool right, const Axis<Real>& other,
-                                bool reference_is_b, Real reference_radius, Real other_radius, Real reach,
-                                Vec2<Real> origin) {
+                                bool reference_is_b, Real reference_radius, Real other_radius,
+                                Real max_separation, Vec2<Real> origin) {
   const int r = right ? 0 : 1;
   FacingEdges<Real> edges;
   edges.normal = right ? reference.normal : -reference.normal;
@@ -61,29 +61,30 @@ ContactManifold<Real> clip_axes(const Axis<Real>& reference, bool right, const A
   }
   edges.reference_radius = reference_radius, edges.incident_radius = other_radius;
   edges.reference_is_b = reference_is_b;
-  return points_of(clip(edges), edges, reach, origin);
+  return points_of(clip(edges), edges, max_separation, origin);
 }
 
 }  // namespace
 
 template <class Real>
 ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                       Real reach) {
-  const Vec2<Real> origin = a.corners[0].point, shift = b_in_a.position - origin;
+                                       Real max_separation) {
+  const Vec2<Real> origin = a.corners[0].point, offset = b_in_a.position - origin;
   const Rotation<Real> q = b_in_a.rotation;
   Axis<Real> p{{{0, 0}, a.corners[1].point - origin}, a.corners[0].normal, 0};
-  Axis<Real> s{{shift + q * b.corners[0].point, shift + q * b.corners[1].point}, q * b.corners[0].normal, 0};
+  Axis<Real> s{
+      {offset + q * b.corners[0].point, offset + q * b.corners[1].point}, q * b.corners[0].normal, 0};
   p.length = dot(perpendicular(p.normal), p.ends[1]);
   s.length = dot(perpendicular(s.normal), s.ends[1] - s.ends[0]);
 
   // Unless they cross, two segments are nearest at an end of one.
-  const End<Real> of_b[2] = {look(p, s.ends[0]), look(p, s.ends[1])};  // seen from a
-  const End<Real> of_a[2] = {look(s, p.ends[0]), look(s, p.ends[1])};
+  const End<Real> of_b[2] = {locate(p, s.ends[0]), locate(p, s.ends[1])};  // seen from a
+  const End<Real> of_a[2] = {locate(s, p.ends[0]), locate(s, p.ends[1])};
   const int nearest_b = of_b[1].square < of_b[0].square ? 1 : 0;
   const int nearest_a = of_a[1].square < of_a[0].square ? 1 : 0;
   const Real square =
       of_a[nearest_a].square < of_b[nearest_b].square ? of_a[nearest_a].square : of_b[nearest_b].square;
-  const Real limit = reach + a.radius + b.radius;
+  const Real limit = max_separation + a.radius + b.radius;
   const Real rounding = kDirection<Real> * smaller_size(a, b);
   const auto opposite = [](const End<Real>(&ends)[2]) {
     return (ends[0].height < 0) != (ends[1].height < 0);
@@ -101,25 +102,26 @@ ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>
     const bool overlap =
         (of_b[0].along > 0 || of_b[1].along > 0) && (of_b[0].along < p.length || of_b[1].along < p.length);
     use_b = of_a[nearest_a].square < of_b[nearest_b].square && !(parallel && overlap);
-    const bool face =
-        use_b ? beside(s, of_a[nearest_a]) : beside(p, of_b[nearest_b]) || (parallel && overlap);
+    const bool face = use_b ? projects_onto(s, of_a[nearest_a])
+                            : projects_onto(p, of_b[nearest_b]) || (parallel && overlap);
     if (!face) {
       const int end_a = use_b ? nearest_a : (of_b[nearest_b].along < 0 ? 0 : 1);
       const int end_b = use_b ? (of_a[nearest_a].along < 0 ? 0 : 1) : nearest_b;
-      const Vec2<Real> way = s.ends[end_b] - p.ends[end_a];
-      const Real distance = std::sqrt(length_squared(way));
-      return single_point(origin + p.ends[end_a], {way.x / distance, way.y / distance}, distance, a.radius,
-                          b.radius, reach, corner_pair(end_a, end_b));
+      const Vec2<Real> between = s.ends[end_b] - p.ends[end_a];
+      const Real distance = std::sqrt(length_squared(between));
+      return single_point(origin + p.ends[end_a], {between.x / distance, between.y / distance}, distance,
+                          a.radius, b.radius, max_separation, corner_pair(end_a, end_b));
     }
     right = (use_b ? of_a[nearest_a].height : of_b[nearest_b].height) >= 0;
   }
-  const ContactManifold<Real> out = use_b ? clip_axes(s, right, p, true, b.radius, a.radius, reach, origin)
-                                          : clip_axes(p, right, s, false, a.radius, b.radius, reach, origin);
+  const ContactManifold<Real> out =
+      use_b ? clip_axes(s, right, p, true, b.radius, a.radius, max_separation, origin)
+            : clip_axes(p, right, s, false, a.radius, b.radius, max_separation, origin);
   if (out.count > 0 || square > rounding * rounding) return out;
   // Collinear axes, end to end: by rounding, the clipped axes have no common part. Use the two facing ends.
   const int end_a = of_b[nearest_b].along < p.length / 2 ? 0 : 1;
   return single_point(origin + p.ends[end_a], right ? p.normal : -p.normal, Real(0), a.radius, b.radius,
-                      reach, corner_pair(end_a, nearest_b));
+                      max_separation, corner_pair(end_a, nearest_b));
 }
 
 template ContactManifold<float> collide_capsules(const Convex<float>&, const Convex<float>&,

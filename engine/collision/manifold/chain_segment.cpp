@@ -24,10 +24,10 @@ struct Neighbour {
 /// `corner` is the shared vertex and `other` the neighbour's far one; `first`: at the segment's first end.
 template <class Real>
 Neighbour<Real> neighbour(Vec2<Real> corner, Vec2<Real> other, Vec2<Real> normal, bool first) {
-  const Vec2<Real> way = first ? corner - other : other - corner;
-  const Real length = std::sqrt(length_squared(way));
+  const Vec2<Real> edge = first ? corner - other : other - corner;
+  const Real length = std::sqrt(length_squared(edge));
   if (!(length > 0)) return {true, true};
-  const Vec2<Real> own{way.y / length, -way.x / length};
+  const Vec2<Real> own{edge.y / length, -edge.x / length};
   const Real bend = first ? cross(own, normal) : cross(normal, own);
   return {false, bend > Real(kFlat), own};
 }
@@ -67,16 +67,16 @@ Real taxicab(Vec2<Real> v) {
 /// corner compare the same products, so that exactly one of them gets each disc.
 template <class Real>
 ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
-                                           Vec2<Real> center, Real radius, Real reach) {
+                                           Vec2<Real> center, Real radius, Real max_separation) {
   const Vec2<Real> first = segment.corners[0].point, second = segment.corners[1].point;
-  const Vec2<Real> normal = segment.corners[0].normal, way = second - first;
+  const Vec2<Real> normal = segment.corners[0].normal, edge = second - first;
   const Real height = dot(normal, center - first);
-  const Real limit = reach + segment.radius + radius;
+  const Real limit = max_separation + segment.radius + radius;
   if (height < 0 || height > limit) return {};
-  const bool short_of = dot(center - first, way)<0, beyond = dot(center - second, way)> 0;
+  const bool short_of = dot(center - first, edge)<0, beyond = dot(center - second, edge)> 0;
   if (!short_of && !beyond) {
     const Vec2<Real> foot = center - height * normal;
-    return single_point(foot, normal, height, segment.radius, radius, reach, 0);
+    return single_point(foot, normal, height, segment.radius, radius, max_separation, 0);
   }
   const Vec2<Real> corner = short_of ? first : second, offset = center - corner;
   // The centre is beside the neighbour, which therefore gets the contact.
@@ -86,7 +86,7 @@ ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Rea
   if (distance > limit) return {};
   const bool apart = distance * distance > 16 * std::numeric_limits<Real>::min();
   return single_point(corner, apart ? Vec2<Real>{offset.x / distance, offset.y / distance} : normal, distance,
-                      segment.radius, radius, reach, 0);
+                      segment.radius, radius, max_separation, 0);
 }
 
 }  // namespace
@@ -94,12 +94,12 @@ ContactManifold<Real> collide_segment_disc(const Convex<Real>& segment, Vec2<Rea
 
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
-                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,
-                                            Vec2<Real> pivot) {
+                                            const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                            Real max_separation, Vec2<Real> pivot) {
   using namespace narrow;
   if (b.count == 1) {
     const Vec2<Real> center = b_in_a.position + b_in_a.rotation * b.corners[0].point;
-    return collide_segment_disc(segment, before, after, center, b.radius, reach);
+    return collide_segment_disc(segment, before, after, center, b.radius, max_separation);
   }
   const Vec2<Real> first = segment.corners[0].point, second = segment.corners[1].point;
   const Vec2<Real> normal = segment.corners[0].normal;
@@ -118,7 +118,7 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
                              32 * std::numeric_limits<Real>::epsilon() *
                                  (taxicab(first) + taxicab(second) + taxicab(b_in_a.position))};
   return collide_hulls<kAny, kAny>(
-      hull_a, hull_b, [&] { return smaller_size(segment, b); }, reach, first, pivot - first, admit);
+      hull_a, hull_b, [&] { return smaller_size(segment, b); }, max_separation, first, pivot - first, admit);
 }
 
 template ContactManifold<float> collide_chain_segment(const Convex<float>&, Vec2<float>, Vec2<float>,

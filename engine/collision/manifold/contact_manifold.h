@@ -31,13 +31,13 @@ struct ContactManifold {
 static_assert(2 * kMaxCorners <= kNoFace);
 
 /// Computes the manifold of two rounded convex shapes. The corners of `a` are in the frame of a's body, those
-/// of `b` in the frame of b's body, which lies at `b_in_a`. Points separated by more than `reach` (m, >= 0)
-/// are left out. `pivot`, in a's frame, is the point about which a contact's impulses do not turn the bodies
-/// relative to each other: the mean of their centres of mass, weighted by inverse inertia. On outlines with
-/// nearly parallel edges, the two points are chosen on both sides of it.
+/// of `b` in the frame of b's body, which lies at `b_in_a`. Points separated by more than `max_separation`
+/// (m, >= 0) are left out. `pivot`, in a's frame, is the point about which a contact's impulses do not turn
+/// the bodies relative to each other: the mean of their centres of mass, weighted by inverse inertia. On
+/// outlines with nearly parallel edges, the two points are chosen on both sides of it.
 template <class Real>
 ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                     Real reach, Vec2<Real> pivot);
+                                     Real max_separation, Vec2<Real> pivot);
 
 /// Does the same for one segment of a chain. Only its front collides: the right side of the direction from
 /// its first corner to its second. `before` and `after` are the neighbouring vertices of the chain, in a's
@@ -45,7 +45,7 @@ ContactManifold<Real> collide_convex(const Convex<Real>& a, const Convex<Real>& 
 /// neighbour are left to that neighbour.
 template <class Real>
 ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Real> before, Vec2<Real> after,
-                                            const Convex<Real>& b, const Pose<Real>& b_in_a, Real reach,
-                                            Vec2<Real> pivot);
+                                            const Convex<Real>& b, const Pose<Real>& b_in_a,
+                                            Real max_separation, Vec2<Real> pivot);
 
 }  // namespace plumb

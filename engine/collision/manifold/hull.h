@@ -134,10 +134,10 @@ struct FacingEdges {
 /// other shape, `distance` away, radii not counted.
 template <class Real>
 ContactManifold<Real> single_point(Vec2<Real> on_a, Vec2<Real> normal, Real distance, Real radius_a,
-                                   Real radius_b, Real reach, std::uint16_t feature) {
+                                   Real radius_b, Real max_separation, std::uint16_t feature) {
   ContactManifold<Real> out;
   const Real separation = distance - (radius_a + radius_b);
-  if (!(separation <= reach)) return out;
+  if (!(separation <= max_separation)) return out;
   out.normal = normal;
   out.count = 1;
   out.points[0] = {on_a + Real(0.5) * (distance + (radius_a - radius_b)) * normal, separation, feature};
@@ -183,8 +183,8 @@ inline Span<Real> clip(const FacingEdges<Real>& edges) {
 /// Returns the manifold at the ends of a span that are near enough. `origin` is the origin of the edges'
 /// frame in a's frame.
 template <class Real>
-inline ContactManifold<Real> points_of(const Span<Real>& span, const FacingEdges<Real>& edges, Real reach,
-                                       Vec2<Real> origin) {
+inline ContactManifold<Real> points_of(const Span<Real>& span, const FacingEdges<Real>& edges,
+                                       Real max_separation, Vec2<Real> origin) {
   ContactManifold<Real> out;
   if (!span.overlaps) return out;
   const Vec2<Real> tangent = perpendicular(edges.normal);
@@ -194,7 +194,7 @@ inline ContactManifold<Real> points_of(const Span<Real>& span, const FacingEdges
   const int reference_shift = edges.reference_is_b ? 0 : 6;  // as in corner_pair
   for (int i = 0; i < 2; ++i) {
     const Real separation = span.gap[i] - radii;
-    if (separation > reach) continue;
+    if (separation > max_separation) continue;
     const Real height = span.base[i] + Real(0.5) * (span.gap[i] + lift);
     out.points[out.count++] = {base + span.x[i] * tangent + height * edges.normal, separation,
                                static_cast<std::uint16_t>(span.reference_id[i] << reference_shift |
@@ -221,20 +221,20 @@ ContactManifold<Real> swapped(const ContactManifold<Real>& found, const Pose<Rea
 /// Collides two discs along the line of centres. Coinciding centres give no direction: it uses a's y axis.
 template <class Real>
 ContactManifold<Real> collide_discs(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                    Real reach);
+                                    Real max_separation);
 
 /// Collides a hull of two corners or more with a disc.
 template <class Real>
 ContactManifold<Real> collide_hull_disc(const Convex<Real>& a, const Convex<Real>& b,
-                                        const Pose<Real>& b_in_a, Real reach);
+                                        const Pose<Real>& b_in_a, Real max_separation);
 
 template <class Real>
 ContactManifold<Real> collide_capsules(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                       Real reach);
+                                       Real max_separation);
 
 /// Collides any two hulls of which one has three corners or more.
 template <class Real>
 ContactManifold<Real> collide_polygons(const Convex<Real>& a, const Convex<Real>& b, const Pose<Real>& b_in_a,
-                                       Real reach, Vec2<Real> pivot);
+                                       Real max_separation, Vec2<Real> pivot);
 
 }  // namespace plumb::narrow

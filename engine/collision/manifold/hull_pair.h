@@ -220,8 +220,9 @@ struct Faces {
 /// Returns the manifold of two hulls that touch with the deepest corner only: their edges miss each other
 /// because of rounding or of kPreference.
 template <class Real>
-ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
-                                   const FacingEdges<Real>& edges, Real reach, Vec2<Real> origin) {
+ContactManifold<Real> corner_manifold(const Hull<Real>& a, const Hull<Real>& b, const Face<Real>& face,
+                                      const FacingEdges<Real>& edges, Real max_separation,
+                                      Vec2<Real> origin) {
   const bool reference_is_b = edges.reference_is_b;
   const Hull<Real>&reference = reference_is_b ? b : a, &other = reference_is_b ? a : b;
   const Vec2<Real> normal = reference.normal(face.edge);
@@ -229,50 +230,50 @@ ContactManifold<Real> touch_corner(const Hull<Real>& a, const Hull<Real>& b, con
   const Vec2<Real> point = other.point(corner);
   const int end = along(reference, face.edge, point) < 0 ? face.edge : reference.next(face.edge);
   if (reference_is_b)
-    return single_point(origin + point, -normal, face.separation, a.radius, b.radius, reach,
+    return single_point(origin + point, -normal, face.separation, a.radius, b.radius, max_separation,
                         corner_pair(corner, end));
   return single_point(origin + point - face.separation * normal, normal, face.separation, a.radius, b.radius,
-                      reach, corner_pair(end, corner));
+                      max_separation, corner_pair(end, corner));
 }
 
 template <bool kOpen, class Real>
 inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real>& b,
                                             const Faces<Real>& faces, const FacingEdges<Real>& edges,
-                                            Real reach, Vec2<Real> origin) {
+                                            Real max_separation, Vec2<Real> origin) {
   const Hull<Real>&reference = edges.reference_is_b ? b : a, &other = edges.reference_is_b ? a : b;
-  const Span<Real> span = span_of(edges, reference, other, faces.pivot, reach + a.radius + b.radius);
-  ContactManifold<Real> out = points_of(span, edges, reach, origin);
+  const Span<Real> span = span_of(edges, reference, other, faces.pivot, max_separation + a.radius + b.radius);
+  ContactManifold<Real> out = points_of(span, edges, max_separation, origin);
   if (kOpen && out.count == 0)
-    out = touch_corner(a, b, edges.reference_is_b ? faces.b : faces.a, edges, reach, origin);
+    out = corner_manifold(a, b, edges.reference_is_b ? faces.b : faces.a, edges, max_separation, origin);
   return out;
 }
 
 /// Returns the manifold of two hulls that touch at a face of one of them.
 template <class Real, class Admit>
-inline ContactManifold<Real> touch_face(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
-                                        FacingEdges<Real>& edges, Real reach, Vec2<Real> origin,
-                                        const Admit& admit) {
+inline ContactManifold<Real> face_manifold(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
+                                           FacingEdges<Real>& edges, Real max_separation, Vec2<Real> origin,
+                                           const Admit& admit) {
   if (edges.reference_is_b) {
     const Normal answer = admit(-edges.normal);
     if (answer == Normal::Skip) return {};
     if (answer == Normal::Snap) edges = facing_edges<kAny>(a, faces.a.edge, b, false);
   }
   if (!edges.reference_is_b) admit.widen(edges);
-  return clip_or_corner<Admit::kOpen>(a, b, faces, edges, reach, origin);
+  return clip_or_corner<Admit::kOpen>(a, b, faces, edges, max_separation, origin);
 }
 
 /// Returns the manifold of separated hulls whose nearest features are not two faces. While the same corners
 /// stay in support, the separation along a normal is the distance times the cosine of the angle to the
 /// nearest direction. So the face of greatest separation ends at, or is, the nearest feature of its hull.
 template <class Real, class Admit>
-ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
-                                  bool prefer_b, Real size, Real reach, Vec2<Real> origin,
-                                  const Admit& admit) {
+ContactManifold<Real> separated_manifold(const Hull<Real>& a, const Hull<Real>& b, const Faces<Real>& faces,
+                                         bool prefer_b, Real size, Real max_separation, Vec2<Real> origin,
+                                         const Admit& admit) {
   const bool nearer_b = faces.b.separation > faces.a.separation;
   const Hull<Real>&reference = nearer_b ? b : a, &other = nearer_b ? a : b;
   const int edge = nearer_b ? faces.b.edge : faces.a.edge;
   // Of two equally deep ends of parallel edges side by side, take the nearer one if the far one may be within
-  // reach: neither the thickness of a segment nor the edge of a rounded shape would separate it.
+  // `max_separation`: neither the thickness of a segment nor the edge of a rounded shape would separate it.
   const bool either = a.count == 2 || b.count == 2 || a.radius + b.radius > 0;
   const int deepest = support<kAny>(other, reference.normal(edge));
   const int corner =
@@ -282,22 +283,22 @@ ContactManifold<Real> touch_apart(const Hull<Real>& a, const Hull<Real>& b, cons
   if (place != 0) {
     const int end = place < 0 ? edge : reference.next(edge);
     const int on_a = nearer_b ? corner : end, on_b = nearer_b ? end : corner;
-    const Vec2<Real> way = b.point(on_b) - a.point(on_a);
-    const Real distance = std::sqrt(length_squared(way));
+    const Vec2<Real> offset = b.point(on_b) - a.point(on_a);
+    const Real distance = std::sqrt(length_squared(offset));
     use_b = prefer_b;
     if (distance > kDirection<Real> * size) {
-      const Vec2<Real> normal{way.x / distance, way.y / distance};
+      const Vec2<Real> normal{offset.x / distance, offset.y / distance};
       const Normal answer = admit(normal);
       if (answer == Normal::Skip) return {};
       if (answer == Normal::Admit)
-        return single_point(origin + a.point(on_a), normal, distance, a.radius, b.radius, reach,
+        return single_point(origin + a.point(on_a), normal, distance, a.radius, b.radius, max_separation,
                             corner_pair(on_a, on_b));
       use_b = false;
     }
   }
   FacingEdges<Real> edges =
       use_b ? facing_edges<kAny>(b, faces.b.edge, a, true) : facing_edges<kAny>(a, faces.a.edge, b, false);
-  return touch_face(a, b, faces, edges, reach, origin, admit);
+  return face_manifold(a, b, faces, edges, max_separation, origin, admit);
 }
 
 /// Returns a manifold without points for shapes that a face separates.
@@ -314,9 +315,9 @@ ContactManifold<Real> separated_by(int face) {
 /// of corners.
 template <int kA, int kB, class Real, class Size, class Admit>
 inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>& b, const Size& size,
-                                           Real reach, Vec2<Real> origin, Vec2<Real> pivot,
+                                           Real max_separation, Vec2<Real> origin, Vec2<Real> pivot,
                                            const Admit& admit) {
-  const Real limit = reach + a.radius + b.radius;
+  const Real limit = max_separation + a.radius + b.radius;
   Faces<Real> faces;
   faces.pivot = pivot;
   faces.a = farthest_face<kA, kB>(a, b, limit);
@@ -332,8 +333,9 @@ inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>
   FacingEdges<Real> edges =
       facing_edges<kOther>(reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);
   const bool apart = faces.a.separation > 0 || faces.b.separation > 0;
-  if (apart && !over_edge(edges)) return touch_apart(a, b, faces, prefer_b, size(), reach, origin, admit);
-  return touch_face(a, b, faces, edges, reach, origin, admit);
+  if (apart && !over_edge(edges))
+    return separated_manifold(a, b, faces, prefer_b, size(), max_separation, origin, admit);
+  return face_manifold(a, b, faces, edges, max_separation, origin, admit);
 }
 
 }  // namespace plumb::narrow

@@ -24,7 +24,7 @@ Row<double> sum(const Row<double>& a, double factor, const Row<double>& b) {
 
 }  // namespace
 
-void EquationsOfMotion::hold_contacts(std::vector<ActiveContact> patches) {
+void EquationsOfMotion::set_contacts(std::vector<ActiveContact> patches) {
   assert(std::all_of(patches.begin(), patches.end(), [](const ActiveContact& patch) {
     return patch.a != nullptr && patch.b != nullptr && patch.count >= 1 && patch.count <= 2 &&
            std::abs(patch.mode) <= 1;
@@ -32,14 +32,15 @@ void EquationsOfMotion::hold_contacts(std::vector<ActiveContact> patches) {
   patches_ = std::move(patches);
   for (const ActiveContact& patch : patches_) {
     for (const std::size_t body : {patch.a->body, patch.b->body}) {
-      if (flight_.holds(body)) guides_.push_back(body);
+      if (ballistic_.contains(body)) ballistic_bodies_.push_back(body);
     }
   }
-  std::sort(guides_.begin(), guides_.end());
-  guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
+  std::sort(ballistic_bodies_.begin(), ballistic_bodies_.end());
+  ballistic_bodies_.erase(std::unique(ballistic_bodies_.begin(), ballistic_bodies_.end()),
+                          ballistic_bodies_.end());
 }
 
-/// Computes the responses of rows, at the poses of the last `place` and with the joints' last factorisation.
+/// Computes the responses of rows, at the poses of the last `held` and with the joints' last factorisation.
 void EquationsOfMotion::find_response(std::vector<Row<double>> rows, ContactResponse& out) {
   out.rows = std::move(rows);
   const std::size_t bodies = poses_.size();
@@ -61,24 +62,25 @@ void EquationsOfMotion::find_response(std::vector<Row<double>> rows, ContactResp
     // The joints' reaction keeps the anchors' velocities: J dv = 0.
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], all);
     solve_joints();
-    pull(all);
+    add_joint_response(all);
   }
 }
 
-double EquationsOfMotion::gain(const Row<double>& row, const ContactResponse& response, std::size_t k) const {
+double EquationsOfMotion::row_response(const Row<double>& row, const ContactResponse& response,
+                                       std::size_t k) const {
   const Twist<double> a = response.at(k, row.a, poses_.size()), b = response.at(k, row.b, poses_.size());
   return dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity + dot(row.linear_b, b.velocity) +
          row.angular_b * b.angular_velocity;
 }
 
 /// Computes the rates of the rows, row after row, by a unit of each response.
-void EquationsOfMotion::find_gains(std::span<const Row<double>> rows, const ContactResponse& response,
-                                   std::vector<double>& matrix) const {
+void EquationsOfMotion::response_matrix(std::span<const Row<double>> rows, const ContactResponse& response,
+                                        std::vector<double>& matrix) const {
   const std::size_t n = response.rows.size();
   matrix.assign(rows.size() * n, 0.0);
   if (has_joints_) {
     for (std::size_t i = 0; i < rows.size(); ++i)
-      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = gain(rows[i], response, k);
+      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = row_response(rows[i], response, k);
     return;
   }
   // Without joints, a row is affected only by responses on its own bodies.
@@ -91,7 +93,7 @@ void EquationsOfMotion::find_gains(std::span<const Row<double>> rows, const Cont
     for (const int body : {rows[i].a, rows[i].b}) {
       if (body == kFixedFrame) continue;
       for (const std::size_t k : acting_on[static_cast<std::size_t>(body)])
-        matrix[i * n + k] = gain(rows[i], response, k);
+        matrix[i * n + k] = row_response(rows[i], response, k);
     }
   }
 }
@@ -120,35 +122,35 @@ void EquationsOfMotion::add_response(const ContactResponse& response, std::span<
 /// need.
 void EquationsOfMotion::linearise_contacts(bool forces) {
   constraints_.clear();
-  std::vector<Row<double>> pushes, tangents;
-  points_ = 0;
+  std::vector<Row<double>> responses, tangents;
+  normal_count_ = 0;
   for (const ActiveContact& patch : patches_) {
     for (int i = 0; i < patch.count; ++i) {
       const std::size_t a = patch.a->body, b = patch.b->body;
       const ContactRows rows =
           rows_of(patch.features[i], *patch.a, poses_[a], twists_[a], *patch.b, poses_[b], twists_[b]);
       constraints_.push_back(rows.normal);
-      const bool rubs = forces && patch.rubs();
-      pushes.push_back(rubs ? sum(rows.normal, -patch.mode * patch.sliding_friction, rows.tangent)
-                            : rows.normal);
+      const bool slides = forces && patch.slides();
+      responses.push_back(slides ? sum(rows.normal, -patch.mode * patch.sliding_friction, rows.tangent)
+                                 : rows.normal);
       if (i == 0 && patch.sticks()) tangents.push_back(rows.tangent);
-      ++points_;
+      ++normal_count_;
     }
   }
-  if (held_stops_ > 0) {
-    const std::span<const Row<double>> rows = stop_rows();
+  if (held_limit_motors_ > 0) {
+    const std::span<const Row<double>> rows = limit_motor_rows();
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (stop_modes_[k] == StopMode::Held) tangents.push_back(rows[k]);
+      if (limit_motor_modes_[k] == LimitMotorMode::Held) tangents.push_back(rows[k]);
     }
   }
   constraints_.insert(constraints_.end(), tangents.begin(), tangents.end());
-  pushes.insert(pushes.end(), tangents.begin(), tangents.end());
-  find_response(std::move(pushes), active_response_);
+  responses.insert(responses.end(), tangents.begin(), tangents.end());
+  find_response(std::move(responses), active_response_);
 
   const std::size_t n = constraints_.size();
   std::vector<double> matrix;
   scale_.assign(n, 1.0);
-  find_gains(constraints_, active_response_, matrix);
+  response_matrix(constraints_, active_response_, matrix);
   for (std::size_t i = 0; i < n; ++i) {
     const double own = std::abs(matrix[i * n + i]);
     if (own > 0) scale_[i] = 1 / std::sqrt(own);
@@ -159,7 +161,7 @@ void EquationsOfMotion::linearise_contacts(bool forces) {
   contact_system_.factor(n, matrix, 1e-11);
 }
 
-/// Solves (C R) lambda = right_side for the contacts in place.
+/// Solves (C R) lambda = right_side for the last linearised contacts.
 void EquationsOfMotion::solve_contacts(std::span<double> right_side) {
   for (std::size_t i = 0; i < right_side.size(); ++i) right_side[i] *= scale_[i];
   contact_system_.solve_refined(right_side);
@@ -170,76 +172,77 @@ void EquationsOfMotion::solve_contacts(std::span<double> right_side) {
 std::vector<double> EquationsOfMotion::decided_forces() const {
   std::vector<double> forces;
   for (const ActiveContact& patch : patches_)
-    forces.insert(forces.end(), patch.pushes, patch.pushes + patch.count);
+    forces.insert(forces.end(), patch.normal_forces, patch.normal_forces + patch.count);
   for (const ActiveContact& patch : patches_) {
-    if (patch.sticks()) forces.push_back(patch.grip);
+    if (patch.sticks()) forces.push_back(patch.tangential_force);
   }
   assert(forces.size() <= constraints_.size());
-  forces.resize(constraints_.size(), 0.0);  // held stops
+  forces.resize(constraints_.size(), 0.0);  // held limits and motors
   return forces;
 }
 
 /// Adds the accelerations by contacts to those without them.
-void EquationsOfMotion::press(std::span<Twist<double>> accelerations) {
+void EquationsOfMotion::add_contact_accelerations(std::span<Twist<double>> accelerations) {
   linearise_contacts(true);
   // Forces of redundant contacts are not unique: keep those from the time when the modes were decided, and
   // add the change since then.
   const std::vector<double> decided = decided_forces();
   add_response(active_response_, decided, accelerations);
-  contact_side_.resize(constraints_.size());
+  contact_right_side_.resize(constraints_.size());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    contact_side_[i] = -(row_speed(constraints_[i], accelerations) + constraints_[i].bias_acceleration);
+    contact_right_side_[i] = -(row_speed(constraints_[i], accelerations) + constraints_[i].bias_acceleration);
   }
-  std::size_t place = constraints_.size() - held_stops_;
-  for (std::size_t k = 0; held_stops_ > 0 && k < stop_modes_.size(); ++k) {
-    if (stop_modes_[k] == StopMode::Held)
-      contact_side_[place++] += kind_joints_.stops()[k].speed_at(time_).first;
+  std::size_t held = constraints_.size() - held_limit_motors_;
+  for (std::size_t k = 0; held_limit_motors_ > 0 && k < limit_motor_modes_.size(); ++k) {
+    if (limit_motor_modes_[k] == LimitMotorMode::Held)
+      contact_right_side_[held++] += general_joints_.limits_and_motors()[k].speed_at(time_).first;
   }
-  solve_contacts(contact_side_);
-  add_response(active_response_, contact_side_, accelerations);
-  for (std::size_t i = 0; i < constraints_.size(); ++i) contact_side_[i] += decided[i];
+  solve_contacts(contact_right_side_);
+  add_response(active_response_, contact_right_side_, accelerations);
+  for (std::size_t i = 0; i < constraints_.size(); ++i) contact_right_side_[i] += decided[i];
 
-  contact_forces_.normal.assign(contact_side_.begin(),
-                                contact_side_.begin() + static_cast<std::ptrdiff_t>(points_));
+  contact_forces_.normal.assign(contact_right_side_.begin(),
+                                contact_right_side_.begin() + static_cast<std::ptrdiff_t>(normal_count_));
   contact_forces_.tangent.clear();
-  std::size_t point = 0, stuck = points_;
+  std::size_t point = 0, sticking = normal_count_;
   for (const ActiveContact& patch : patches_) {
     double normal = 0;
-    for (int i = 0; i < patch.count; ++i) normal += contact_side_[point++];
-    contact_forces_.tangent.push_back(patch.sticks() ? contact_side_[stuck++]
+    for (int i = 0; i < patch.count; ++i) normal += contact_right_side_[point++];
+    contact_forces_.tangent.push_back(patch.sticks() ? contact_right_side_[sticking++]
                                                      : -patch.mode * patch.sliding_friction * normal);
   }
-  contact_forces_.stop.assign(contact_side_.begin() + static_cast<std::ptrdiff_t>(stuck),
-                              contact_side_.end());
+  contact_forces_.limit_motor.assign(contact_right_side_.begin() + static_cast<std::ptrdiff_t>(sticking),
+                                     contact_right_side_.end());
 }
 
-void EquationsOfMotion::hold_stops(std::vector<StopMode> modes) {
-  stop_modes_ = std::move(modes);
-  held_stops_ = pushing_stops_ = 0;
-  for (const StopMode mode : stop_modes_) {
-    held_stops_ += mode == StopMode::Held ? 1 : 0;
-    pushing_stops_ += mode == StopMode::Forward || mode == StopMode::Backward ? 1 : 0;
+void EquationsOfMotion::set_limit_motor_modes(std::vector<LimitMotorMode> modes) {
+  limit_motor_modes_ = std::move(modes);
+  held_limit_motors_ = saturated_motors_ = 0;
+  for (const LimitMotorMode mode : limit_motor_modes_) {
+    held_limit_motors_ += mode == LimitMotorMode::Held ? 1 : 0;
+    saturated_motors_ += mode == LimitMotorMode::Forward || mode == LimitMotorMode::Backward ? 1 : 0;
   }
 }
 
-std::span<const Row<double>> EquationsOfMotion::stop_rows() {
-  stop_rows_.resize(kind_joints_.stops().size());
-  kind_joints_.stop_rows(bodies_now(), stop_rows_);
-  return stop_rows_;
+std::span<const Row<double>> EquationsOfMotion::limit_motor_rows() {
+  limit_motor_rows_.resize(general_joints_.limits_and_motors().size());
+  general_joints_.limit_motor_rows(bodies_view(), limit_motor_rows_);
+  return limit_motor_rows_;
 }
 
-std::span<const Row<double>> EquationsOfMotion::stop_rows(double time, std::span<const double> y) {
-  place(time, y);
-  return stop_rows();
+std::span<const Row<double>> EquationsOfMotion::limit_motor_rows(double time, std::span<const double> y) {
+  update_poses(time, y);
+  return limit_motor_rows();
 }
 
 /// Adds the forces of saturated motors.
 void EquationsOfMotion::add_motors() {
-  const std::span<const Row<double>> rows = stop_rows();
+  const std::span<const Row<double>> rows = limit_motor_rows();
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (stop_modes_[k] != StopMode::Forward && stop_modes_[k] != StopMode::Backward) continue;
-    const double most = kind_joints_.stops()[k].max_force;
-    const double force = stop_modes_[k] == StopMode::Forward ? most : -most;
+    if (limit_motor_modes_[k] != LimitMotorMode::Forward && limit_motor_modes_[k] != LimitMotorMode::Backward)
+      continue;
+    const double max_force = general_joints_.limits_and_motors()[k].max_force;
+    const double force = limit_motor_modes_[k] == LimitMotorMode::Forward ? max_force : -max_force;
     const auto add = [&](int body, Vec2d linear, double angular) {
       if (body == kFixedFrame) return;
       wrenches_[body].force += force * linear;
@@ -253,25 +256,27 @@ void EquationsOfMotion::add_motors() {
 /// Adds to `shift` the correction by which velocities (or, with `gaps`, positions) meet the active contacts.
 void EquationsOfMotion::close_contacts(std::span<const Twist<double>> motion, bool gaps,
                                        std::span<Twist<double>> shift) {
-  contact_side_.assign(constraints_.size(), 0.0);
+  contact_right_side_.assign(constraints_.size(), 0.0);
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     if (gaps) {
-      contact_side_[i] = i < points_ ? -(constraints_[i].residual + row_speed(constraints_[i], shift))
-                                     : -row_speed(constraints_[i], shift);
+      contact_right_side_[i] = i < normal_count_
+                                   ? -(constraints_[i].residual + row_speed(constraints_[i], shift))
+                                   : -row_speed(constraints_[i], shift);
     } else {
-      contact_side_[i] = -(row_speed(constraints_[i], motion) + row_speed(constraints_[i], shift));
+      contact_right_side_[i] = -(row_speed(constraints_[i], motion) + row_speed(constraints_[i], shift));
     }
   }
-  std::size_t place = constraints_.size() - held_stops_;
-  for (std::size_t k = 0; held_stops_ > 0 && k < stop_modes_.size(); ++k) {
-    if (stop_modes_[k] != StopMode::Held) continue;
-    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
-    if (gaps && stop.role == RowRole::Limit) contact_side_[place] -= constraints_[place].residual;
-    if (!gaps && stop.role == RowRole::Motor) contact_side_[place] += stop.speed_at(time_).value;
-    ++place;
+  std::size_t held = constraints_.size() - held_limit_motors_;
+  for (std::size_t k = 0; held_limit_motors_ > 0 && k < limit_motor_modes_.size(); ++k) {
+    if (limit_motor_modes_[k] != LimitMotorMode::Held) continue;
+    const GeneralJoints::LimitOrMotor& limit_motor = general_joints_.limits_and_motors()[k];
+    if (gaps && limit_motor.role == RowRole::Limit) contact_right_side_[held] -= constraints_[held].residual;
+    if (!gaps && limit_motor.role == RowRole::Motor)
+      contact_right_side_[held] += limit_motor.speed_at(time_).value;
+    ++held;
   }
-  solve_contacts(contact_side_);
-  add_response(active_response_, contact_side_, shift);
+  solve_contacts(contact_right_side_);
+  add_response(active_response_, contact_right_side_, shift);
 }
 
 const ContactForces& EquationsOfMotion::contact_forces(double time, std::span<const double> y) {
@@ -280,31 +285,32 @@ const ContactForces& EquationsOfMotion::contact_forces(double time, std::span<co
   return contact_forces_;
 }
 
-void EquationsOfMotion::respond(double time, std::span<const double> y, std::vector<Row<double>> rows,
-                                ContactResponse& response, std::vector<double>& matrix) {
-  place(time, y);
+void EquationsOfMotion::compute_response(double time, std::span<const double> y,
+                                         std::vector<Row<double>> rows, ContactResponse& response,
+                                         std::vector<double>& matrix) {
+  update_poses(time, y);
   if (has_joints_) linearise();
   find_response(std::move(rows), response);
-  find_gains(response.rows, response, matrix);
+  response_matrix(response.rows, response, matrix);
 }
 
-void EquationsOfMotion::push(const ContactResponse& response, std::span<const double> impulses,
-                             Compensated& y) const {
+void EquationsOfMotion::apply_impulses(const ContactResponse& response, std::span<const double> impulses,
+                                       Compensated& y) const {
   std::vector<Twist<double>> change(poses_.size());
   add_response(response, impulses, change);
-  kick(change, 1, y);
+  add_velocities(change, 1, y);
 }
 
 std::span<const Twist<double>> EquationsOfMotion::accelerations_without_contacts(double time,
                                                                                  std::span<const double> y) {
   std::vector<ActiveContact> held;
-  std::size_t stops = 0;
+  std::size_t limit_motors = 0;
   std::swap(held, patches_);
-  std::swap(stops, held_stops_);
+  std::swap(limit_motors, held_limit_motors_);
   scratch_.resize(y.size());
   rate(time, y, scratch_);
   std::swap(held, patches_);
-  std::swap(stops, held_stops_);
+  std::swap(limit_motors, held_limit_motors_);
   return accelerations_;
 }
 

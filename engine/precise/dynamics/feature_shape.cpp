@@ -20,7 +20,7 @@ Vec2d world(const Pose<double>& pose, Vec2d point) { return pose.position + pose
 
 /// A feature relative to its edge: corner and edge in either order are one case.
 struct EdgeView {
-  const FeatureShape *edged, *cornered;
+  const FeatureShape *edge_shape, *corner_shape;
   const Pose<double>*pose_e, *pose_c;
   int edge, corner;
 };
@@ -33,27 +33,27 @@ EdgeView edge_view(const Feature& f, const FeatureShape& a, const Pose<double>& 
 
 /// Returns the height of a corner over the edge's line, both without their radii, m.
 double height(const EdgeView& v, int corner) {
-  const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
-  const Vec2d normal = v.pose_e->rotation * v.edged->corners[v.edge].normal;
-  return dot(normal, world(*v.pose_c, v.cornered->corners[corner].point) - start);
+  const Vec2d start = world(*v.pose_e, v.edge_shape->corners[v.edge].point);
+  const Vec2d normal = v.pose_e->rotation * v.edge_shape->corners[v.edge].normal;
+  return dot(normal, world(*v.pose_c, v.corner_shape->corners[corner].point) - start);
 }
 
 double along_edge(const EdgeView& v, int corner) {
-  const Vec2d start = world(*v.pose_e, v.edged->corners[v.edge].point);
-  const Vec2d direction = perpendicular(v.pose_e->rotation * v.edged->corners[v.edge].normal);
-  return dot(direction, world(*v.pose_c, v.cornered->corners[corner].point) - start);
+  const Vec2d start = world(*v.pose_e, v.edge_shape->corners[v.edge].point);
+  const Vec2d direction = perpendicular(v.pose_e->rotation * v.edge_shape->corners[v.edge].normal);
+  return dot(direction, world(*v.pose_c, v.corner_shape->corners[corner].point) - start);
 }
 
-/// The least height of the corners of `cornered` over an edge of `edged`, and that corner.
+/// The least height of the corners of `corner_shape` over an edge of `edge_shape`, and that corner.
 struct Lowest {
   double height = 0;
   int corner = 0;
 };
-Lowest lowest_over(const FeatureShape& edged, const Pose<double>& pose_e, int edge,
-                   const FeatureShape& cornered, const Pose<double>& pose_c) {
-  const EdgeView view{&edged, &cornered, &pose_e, &pose_c, edge, 0};
+Lowest lowest_over(const FeatureShape& edge_shape, const Pose<double>& pose_e, int edge,
+                   const FeatureShape& corner_shape, const Pose<double>& pose_c) {
+  const EdgeView view{&edge_shape, &corner_shape, &pose_e, &pose_c, edge, 0};
   Lowest best{std::numeric_limits<double>::infinity(), 0};
-  for (int k = 0; k < cornered.count(); ++k) {
+  for (int k = 0; k < corner_shape.count(); ++k) {
     const double h = height(view, k);
     if (h < best.height) best = {h, k};
   }
@@ -85,8 +85,8 @@ CornerPair closest_corners(const FeatureShape& a, const Pose<double>& pose_a, co
 }
 
 /// Returns the separation of the hulls along a direction from a to b.
-double apart_along(Vec2d n, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
-                   const Pose<double>& pose_b) {
+double separation_along(Vec2d n, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
+                        const Pose<double>& pose_b) {
   double far_a = -std::numeric_limits<double>::infinity(), near_b = -far_a;
   for (const Corner<double>& c : a.corners) far_a = std::max(far_a, dot(n, world(pose_a, c.point)));
   for (const Corner<double>& c : b.corners) near_b = std::min(near_b, dot(n, world(pose_b, c.point)));
@@ -94,7 +94,7 @@ double apart_along(Vec2d n, const FeatureShape& a, const Pose<double>& pose_a, c
 }
 
 template <class Visit>
-void each_edge(const FeatureShape& a, const FeatureShape& b, const Visit& visit) {
+void for_each_edge(const FeatureShape& a, const FeatureShape& b, const Visit& visit) {
   for (int i = 0; i < a.edges(); ++i) visit(Kind::CornerOfB, i);
   for (int i = 0; i < b.edges(); ++i) visit(Kind::CornerOfA, i);
 }
@@ -133,45 +133,47 @@ struct CornersOf {
 };
 
 /// Returns the segments of a chain.
-std::vector<FeatureShape> links_of(const FeatureShape& common, const Chain& chain, const Pose<double>& pose) {
-  std::vector<FeatureShape> links;
+std::vector<FeatureShape> chain_segments(const FeatureShape& common, const Chain& chain,
+                                         const Pose<double>& pose) {
+  std::vector<FeatureShape> segments;
   const std::size_t points = chain.points.size(), count = chain.closed ? points : points - 1;
   for (std::size_t i = 0; i < count; ++i) {
-    FeatureShape& link = links.emplace_back(common);
+    FeatureShape& segment = segments.emplace_back(common);
     const Vec2d from = world(pose, chain.points[i]), to = world(pose, chain.points[(i + 1) % points]);
-    link.corners = capsule_corners(from, to);  // edge 0 is the front, to the right of the direction of travel
-    link.link.front_only = true;
-    link.link.goes_on[0] = chain.closed || i > 0;
-    link.link.goes_on[1] = chain.closed || i + 1 < count;
+    segment.corners =
+        capsule_corners(from, to);  // edge 0 is the front, to the right of the direction of travel
+    segment.link.front_only = true;
+    segment.link.continues[0] = chain.closed || i > 0;
+    segment.link.continues[1] = chain.closed || i + 1 < count;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!links[i].link.goes_on[1]) continue;
-    const Vec2d own = links[i].corners[0].normal, next = links[(i + 1) % count].corners[0].normal;
-    if (cross(own, next) >= -kAlike) links[i].link.next_normal = next;
+    if (!segments[i].link.continues[1]) continue;
+    const Vec2d own = segments[i].corners[0].normal, next = segments[(i + 1) % count].corners[0].normal;
+    if (cross(own, next) >= -kAlike) segments[i].link.next_normal = next;
   }
-  return links;
+  return segments;
 }
 
 }  // namespace
 
-std::vector<FeatureShape> outlines_of(std::size_t body, const Shape& shape) {
-  FeatureShape outline;
-  outline.body = body;
-  outline.friction = shape.friction;
-  outline.restitution = shape.restitution;
-  outline.filter = shape.filter;
+std::vector<FeatureShape> feature_shapes_of(std::size_t body, const Shape& shape) {
+  FeatureShape feature_shape;
+  feature_shape.body = body;
+  feature_shape.friction = shape.friction;
+  feature_shape.restitution = shape.restitution;
+  feature_shape.filter = shape.filter;
   const Pose<double> pose{shape.position, shape.angle == 0 ? Rotation<double>{} : rotation_of(shape.angle)};
-  std::vector<FeatureShape> outlines;
+  std::vector<FeatureShape> result;
   if (const Chain* chain = std::get_if<Chain>(&shape.geometry)) {
-    outlines = links_of(outline, *chain, pose);
+    result = chain_segments(feature_shape, *chain, pose);
   } else {
-    outline.corners = transformed(std::visit(CornersOf{outline.radius}, shape.geometry), pose);
-    outlines = {outline};
+    feature_shape.corners = transformed(std::visit(CornersOf{feature_shape.radius}, shape.geometry), pose);
+    result = {feature_shape};
   }
-  for (FeatureShape& o : outlines) {
-    for (const Corner<double>& c : o.corners) o.reach = std::max(o.reach, length(c.point));
+  for (FeatureShape& o : result) {
+    for (const Corner<double>& c : o.corners) o.extent = std::max(o.extent, length(c.point));
   }
-  return outlines;
+  return result;
 }
 
 Gap gap_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
@@ -187,25 +189,25 @@ Gap gap_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a, 
     return gap;
   }
   const EdgeView view = edge_view(f, a, pose_a, b, pose_b);
-  const Vec2d outward = view.pose_e->rotation * view.edged->corners[view.edge].normal;
+  const Vec2d outward = view.pose_e->rotation * view.edge_shape->corners[view.edge].normal;
   gap.normal = f.kind == Kind::CornerOfB ? outward : -outward;
   gap.value = height(view, view.corner) - radii;
   gap.along = along_edge(view, view.corner);
-  gap.length = view.edged->edge_length(view.edge);
-  gap.point =
-      world(*view.pose_c, view.cornered->corners[view.corner].point) - view.cornered->radius * outward;
+  gap.length = view.edge_shape->edge_length(view.edge);
+  gap.point = world(*view.pose_c, view.corner_shape->corners[view.corner].point) -
+              view.corner_shape->radius * outward;
   return gap;
 }
 
-bool admits(const Feature& f, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
-            const FeatureShape& b, const Pose<double>& pose_b, double near) {
+bool allows_contact(const Feature& f, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
+                    const FeatureShape& b, const Pose<double>& pose_b, double tolerance) {
   constexpr double kDeep = 64;
   const auto side = [&](const FeatureShape& o, const Pose<double>& pose, bool edge, int index,
                         Vec2d outward) {
     if (!o.link.front_only) return true;
-    if (gap.value < -kDeep * near) return false;
+    if (gap.value < -kDeep * tolerance) return false;
     if (edge) return index == 0;
-    if (!o.link.goes_on[index]) return true;
+    if (!o.link.continues[index]) return true;
     if (index == 0 || o.link.next_normal == Vec2d{}) return false;
     const Vec2d own = pose.rotation * o.corners[0].normal, next = pose.rotation * o.link.next_normal;
     return dot(own + next, outward) > 0 && cross(own, outward) >= -kAlike && cross(outward, next) >= -kAlike;
@@ -262,7 +264,7 @@ Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const F
   const double radii = a.radius + b.radius;
   Separation best;
   best.distance = -std::numeric_limits<double>::infinity();
-  each_edge(a, b, [&](Kind kind, int edge) {
+  for_each_edge(a, b, [&](Kind kind, int edge) {
     const bool of_a = kind == Kind::CornerOfB;
     const Lowest low =
         of_a ? lowest_over(a, pose_a, edge, b, pose_b) : lowest_over(b, pose_b, edge, a, pose_a);
@@ -272,9 +274,9 @@ Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const F
   });
   if (best.distance + radii > 0 || (a.edges() == 0 && b.edges() == 0)) {
     const CornerPair corners = closest_corners(a, pose_a, b, pose_b);
-    const double apart = apart_along(corners.direction, a, pose_a, b, pose_b) - radii;
+    const double apart = separation_along(corners.direction, a, pose_a, b, pose_b) - radii;
     // Sharp corners touch only edges. For two sharp corners this is only a bound on the distance.
-    const bool touches = radii == 0 && corners.distance < 1e-9 * (a.reach + b.reach);
+    const bool touches = radii == 0 && corners.distance < 1e-9 * (a.extent + b.extent);
     if (apart > best.distance && !touches) {
       best.distance = apart;
       best.feature = {Kind::Corners, corners.a, corners.b};
@@ -286,9 +288,9 @@ Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const F
   return best;
 }
 
-Limits limits_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
-                 const Pose<double>& pose_b) {
-  Limits limits;
+FeatureLimits feature_limits_of(const Feature& f, const FeatureShape& a, const Pose<double>& pose_a,
+                                const FeatureShape& b, const Pose<double>& pose_b) {
+  FeatureLimits limits;
   if (f.kind == Kind::Corners) {
     // The normal must stay within the cones of both corners: it points away from their neighbours.
     const Vec2d n = gap_of(f, a, pose_a, b, pose_b).normal;
@@ -307,11 +309,12 @@ Limits limits_of(const Feature& f, const FeatureShape& a, const Pose<double>& po
   const EdgeView view = edge_view(f, a, pose_a, b, pose_b);
   const double along = along_edge(view, view.corner);
   limits.add(along, false);
-  limits.add(view.edged->edge_length(view.edge) - along, false);
-  if (view.cornered->count() < 2) return limits;
+  limits.add(view.edge_shape->edge_length(view.edge) - along, false);
+  if (view.corner_shape->count() < 2) return limits;
   const double radii = a.radius + b.radius;
-  limits.add(height(view, view.cornered->previous(view.corner)) - radii, true);
-  if (view.cornered->count() > 2) limits.add(height(view, view.cornered->next(view.corner)) - radii, true);
+  limits.add(height(view, view.corner_shape->previous(view.corner)) - radii, true);
+  if (view.corner_shape->count() > 2)
+    limits.add(height(view, view.corner_shape->next(view.corner)) - radii, true);
   return limits;
 }
 

@@ -16,17 +16,17 @@ struct FeatureShape {
   std::size_t body = 0;
   std::vector<Corner<double>> corners;
   double radius = 0;  ///< m
-  double reach = 0;   ///< m, of the farthest corner from the body's centre of mass
+  double extent = 0;  ///< m, of the farthest corner from the body's centre of mass
   double friction = 0, restitution = 0;
   Filter filter{};
   /// Data of a chain segment: its back, edge 1, touches nothing. Contacts at ends where the chain continues
-  /// belong to the whole chain (`admits`).
-  struct Link {
+  /// belong to the whole chain (`allows_contact`).
+  struct ChainLink {
     bool front_only = false;
-    bool goes_on[2] = {};  ///< by corner: the chain continues
-    Vec2d next_normal{};   ///< of the next segment if the chain turns away from its front there, else 0
+    bool continues[2] = {};  ///< by corner: the chain continues
+    Vec2d next_normal{};     ///< of the next segment if the chain turns away from its front there, else 0
   };
-  Link link{};
+  ChainLink link{};
 
   int count() const { return static_cast<int>(corners.size()); }
   int edges() const { return corners.size() > 1 ? count() : 0; }
@@ -35,10 +35,10 @@ struct FeatureShape {
   double edge_length(int edge) const;
 };
 
-/// Returns one outline, or one per segment of a chain.
-std::vector<FeatureShape> outlines_of(std::size_t body, const Shape& shape);
+/// Returns one shape, or one per segment of a chain.
+std::vector<FeatureShape> feature_shapes_of(std::size_t body, const Shape& shape);
 
-/// Parts of two outlines that touch, or are closest.
+/// Parts of two shapes that touch, or are closest.
 struct Feature {
   enum class Kind : int {
     Corners,    ///< corner `a` and corner `b`, at least one of them rounded
@@ -63,10 +63,10 @@ Gap gap_of(const Feature& feature, const FeatureShape& a, const Pose<double>& po
 
 /// Returns true if a feature with this gap may push, given the rules for chains. Chains push from the front
 /// only. At a vertex that bends to the back they push along the normals between those of its two segments,
-/// and the contact belongs to the first segment. Gaps below `near` (m) count as touching; a much deeper
+/// and the contact belongs to the first segment. Gaps below `tolerance` (m) count as touching; a much deeper
 /// overlap came from the back.
-bool admits(const Feature& feature, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
-            const FeatureShape& b, const Pose<double>& pose_b, double near);
+bool allows_contact(const Feature& feature, const Gap& gap, const FeatureShape& a, const Pose<double>& pose_a,
+                    const FeatureShape& b, const Pose<double>& pose_b, double tolerance);
 
 /// Returns the feature of an edge and a corner.
 Feature feature(Feature::Kind kind, int edge, int corner);
@@ -81,7 +81,7 @@ ContactRows rows_of(const Feature& feature, const FeatureShape& a, const Pose<do
                     const Twist<double>& twist_a, const FeatureShape& b, const Pose<double>& pose_b,
                     const Twist<double>& twist_b);
 
-/// A direction along which two outlines are separated by at least `distance` (negative: the least overlap of
+/// A direction along which two shapes are separated by at least `distance` (negative: the least overlap of
 /// all directions), and its feature. Of all edge normals and the closest corners it is the one of greatest
 /// separation.
 struct Separation {
@@ -92,24 +92,25 @@ struct Separation {
 Separation separation(const FeatureShape& a, const Pose<double>& pose_a, const FeatureShape& b,
                       const Pose<double>& pose_b);
 
-/// Returns the one or two features at which outlines with a separation of at most `near` touch; two if an
-/// edge lies on an edge. If several edges' normals separate the outlines equally well, to within `near`,
-/// takes the one whose gap opens fastest, which is the first one if all velocities are zero.
+/// Returns the one or two features at which shapes with a separation of at most `tolerance` touch; two if
+/// an edge lies on an edge. If several edges' normals separate the shapes equally well, to within
+/// `tolerance`, takes the one whose gap opens fastest, which is the first one if all velocities are zero.
 std::vector<Feature> touching_features(const FeatureShape& a, const Pose<double>& pose_a,
                                        const Twist<double>& twist_a, const FeatureShape& b,
-                                       const Pose<double>& pose_b, const Twist<double>& twist_b, double near);
+                                       const Pose<double>& pose_b, const Twist<double>& twist_b,
+                                       double tolerance);
 
 /// Distances (m) of a feature from the transitions to other features: zero at the transition.
-struct Limits {
-  static constexpr int kMost = 4;
+struct FeatureLimits {
+  static constexpr int kMaxCount = 4;
   int count = 0;
-  double value[kMost] = {};
-  bool comes_down[kMost] = {};  ///< true: the gap between another corner and the edge; false: the range of
-                                ///< the corner or of the normal
+  double value[kMaxCount] = {};
+  bool is_corner_gap[kMaxCount] = {};  ///< true: the gap between another corner and the edge; false: the
+                                       ///< range of the corner or of the normal
 
-  void add(double distance, bool gap) { value[count] = distance, comes_down[count] = gap, ++count; }
+  void add(double distance, bool gap) { value[count] = distance, is_corner_gap[count] = gap, ++count; }
 };
-Limits limits_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a,
-                 const FeatureShape& b, const Pose<double>& pose_b);
+FeatureLimits feature_limits_of(const Feature& feature, const FeatureShape& a, const Pose<double>& pose_a,
+                                const FeatureShape& b, const Pose<double>& pose_b);
 
 }  // namespace plumb::precise

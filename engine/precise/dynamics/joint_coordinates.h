@@ -9,7 +9,7 @@
 namespace plumb::precise {
 
 /// Pose and motion of a joint's two bodies; derivatives are along `Directions`.
-struct GeneralJoints::Ends {
+struct GeneralJoints::JointMotion {
   JointPose<Dual> pose{};
   Vec2<Dual> velocity_a{}, velocity_b{};
   Dual spin_a{}, spin_b{};
@@ -17,11 +17,11 @@ struct GeneralJoints::Ends {
 
 /// Rates of change of the poses and velocities of both bodies along the direction of differentiation.
 struct GeneralJoints::Directions {
-  Twist<double> place_a{}, place_b{}, motion_a{}, motion_b{};
+  Twist<double> pose_a{}, pose_b{}, motion_a{}, motion_b{};
 };
 
 /// Forces on both bodies.
-struct GeneralJoints::Pull {
+struct GeneralJoints::JointForces {
   Wrench<Dual> a{}, b{};
 
   void add(const JointRow<Dual>& row, Dual lambda) {
@@ -33,7 +33,7 @@ struct GeneralJoints::Pull {
 /// Calls visit.row(row, rule) for each scalar coordinate with each of its rules, and visit.point(point, rule)
 /// for a point whose rule is not rigid. C is the residual of the row.
 template <class Visit>
-void GeneralJoints::each_coordinate(const Entry& e, const Ends& ends, const Visit& visit) {
+void GeneralJoints::for_each_coordinate(const Entry& e, const JointMotion& ends, const Visit& visit) {
   std::visit(
       [&](const auto& kind) {
         using Rows = std::remove_cvref_t<decltype(kind)>;
@@ -48,7 +48,7 @@ void GeneralJoints::each_coordinate(const Entry& e, const Ends& ends, const Visi
         };
         for (int i = 0; i < Rows::kBlock; ++i) visit.row(rows.block[i], RowRule{});
         for (int i = 0; i < Rows::kAxial; ++i) coordinate(rows.axial[i], e.rules.axial[i]);
-        if constexpr (Rows::kTurn) coordinate({{}, {}, -1, 1, ends.pose.angle}, e.rules.turn);
+        if constexpr (Rows::kAngular) coordinate({{}, {}, -1, 1, ends.pose.angle}, e.rules.angular);
         if constexpr (Rows::kPoint) {
           if (e.rules.point.role == RowRole::Rigid) {
             visit.row(rows.point.plain_row({1, 0}), e.rules.point);
@@ -75,7 +75,7 @@ RigidRows(const Take&) -> RigidRows<Take>;
 
 /// Calls `take(row, rule)` for each limit and motor.
 template <class Take>
-struct StopRows {
+struct LimitMotorRows {
   const Take& take;
   void row(const JointRow<Dual>& j, const RowRule& rule) const {
     if (rule.role == RowRole::Limit || rule.role == RowRole::Motor) take(j, rule);
@@ -83,6 +83,6 @@ struct StopRows {
   void point(const AnchorPoint<Dual>&, const RowRule&) const {}
 };
 template <class Take>
-StopRows(const Take&) -> StopRows<Take>;
+LimitMotorRows(const Take&) -> LimitMotorRows<Take>;
 
 }  // namespace plumb::precise

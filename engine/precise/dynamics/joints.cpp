@@ -17,15 +17,16 @@ Rotation<Dual> turning(Rotation<double> q, double change) {
 
 }  // namespace
 
-GeneralJoints::Ends GeneralJoints::ends_of(const Entry& e, const BodiesNow& now, const Directions& along) {
+GeneralJoints::JointMotion GeneralJoints::ends_of(const Entry& e, const BodiesView& now,
+                                                  const Directions& along) {
   const auto pose_of = [&](int body) { return body == kFixedFrame ? Pose<double>{} : now.poses[body]; };
   const auto twist_of = [&](int body) { return body == kFixedFrame ? Twist<double>{} : now.twists[body]; };
   const auto angle_of_body = [&](int body) { return body == kFixedFrame ? 0.0 : now.angles[body]; };
   const Pose<double> a = pose_of(e.a), b = pose_of(e.b);
   const Twist<double> motion_a = twist_of(e.a), motion_b = twist_of(e.b);
-  Ends ends;
-  ends.pose.rotation_a = turning(a.rotation, along.place_a.angular_velocity);
-  ends.pose.rotation_b = turning(b.rotation, along.place_b.angular_velocity);
+  JointMotion ends;
+  ends.pose.rotation_a = turning(a.rotation, along.pose_a.angular_velocity);
+  ends.pose.rotation_b = turning(b.rotation, along.pose_b.angular_velocity);
   ends.velocity_a = moving(motion_a.velocity, along.motion_a.velocity);
   ends.velocity_b = moving(motion_b.velocity, along.motion_b.velocity);
   ends.spin_a = {motion_a.angular_velocity, along.motion_a.angular_velocity};
@@ -34,38 +35,37 @@ GeneralJoints::Ends GeneralJoints::ends_of(const Entry& e, const BodiesNow& now,
       [&](const auto& kind) {
         using Rows = std::remove_cvref_t<decltype(kind)>;
         if constexpr (Rows::kGrounded) {
-          ends.pose.offset = moving(b.position - kind.ground_b, along.place_b.velocity);
-          ends.pose.offset_a = moving(a.position - kind.ground_a, along.place_a.velocity);
+          ends.pose.offset = moving(b.position - kind.ground_b, along.pose_b.velocity);
+          ends.pose.offset_a = moving(a.position - kind.ground_a, along.pose_a.velocity);
         } else {
-          ends.pose.offset = moving(b.position - a.position, along.place_b.velocity - along.place_a.velocity);
+          ends.pose.offset = moving(b.position - a.position, along.pose_b.velocity - along.pose_a.velocity);
         }
         if constexpr (Rows::kAngle != AngleUse::None) {
           const double angle = angle_of_body(e.b) - e.ratio * angle_of_body(e.a) + e.angle_offset;
-          ends.pose.angle = {angle,
-                             along.place_b.angular_velocity - e.ratio * along.place_a.angular_velocity};
+          ends.pose.angle = {angle, along.pose_b.angular_velocity - e.ratio * along.pose_a.angular_velocity};
         }
       },
       e.kind);
   return ends;
 }
 
-GeneralJoints::Pull GeneralJoints::pull_of_springs(const Entry& e, const Ends& ends) {
+GeneralJoints::JointForces GeneralJoints::spring_forces(const Entry& e, const JointMotion& ends) {
   struct Visitor {
     const Entry& e;
-    const Ends& ends;
-    Pull& pull;
+    const JointMotion& ends;
+    JointForces& forces;
 
     void row(const JointRow<Dual>& j, const RowRule& rule) const {
       if (rule.role != RowRole::Spring) return;
       // A spring in the angle moves no centre of mass.
       const bool turns = !(length_squared(j.linear_b) > 0);
-      const SpringConstants of = spring_constants(rule.spring, turns ? e.springs.turn : e.springs.axial);
+      const SpringConstants of = spring_constants(rule.spring, turns ? e.springs.angular : e.springs.axial);
       const Dual rate = dot(j.linear_a, ends.velocity_a) + j.angular_a * ends.spin_a +
                         dot(j.linear_b, ends.velocity_b) + j.angular_b * ends.spin_b;
       Dual force = -(of.stiffness * j.residual + of.damping * rate);
       if (force > rule.max_force) force = rule.max_force;
       if (force < -rule.max_force) force = -rule.max_force;
-      pull.add(j, force);
+      forces.add(j, force);
     }
 
     void point(const AnchorPoint<Dual>& at, const RowRule& rule) const {
@@ -76,22 +76,22 @@ GeneralJoints::Pull GeneralJoints::pull_of_springs(const Entry& e, const Ends& e
       Vec2<Dual> force = Dual(-of.stiffness) * at.gap + Dual(-of.damping) * rate;
       const Dual size = sqrt(length_squared(force));
       if (size > rule.max_force) force *= Dual(rule.max_force) / size;
-      pull.add(at.plain_row({1, 0}), force.x);
-      pull.add(at.plain_row({0, 1}), force.y);
+      forces.add(at.plain_row({1, 0}), force.x);
+      forces.add(at.plain_row({0, 1}), force.y);
     }
   };
-  Pull pull;
-  each_coordinate(e, ends, Visitor{e, ends, pull});
-  return pull;
+  JointForces forces;
+  for_each_coordinate(e, ends, Visitor{e, ends, forces});
+  return forces;
 }
 
-GeneralJoints::Pull GeneralJoints::pull_of_rows(const Entry& e, const Ends& ends,
-                                                std::span<const double> multipliers) {
-  Pull pull;
+GeneralJoints::JointForces GeneralJoints::row_forces(const Entry& e, const JointMotion& ends,
+                                                     std::span<const double> multipliers) {
+  JointForces forces;
   std::size_t next = e.first_row;
-  const auto take = [&](const JointRow<Dual>& j) { pull.add(j, multipliers[next++]); };
-  each_coordinate(e, ends, RigidRows{take});
-  return pull;
+  const auto take = [&](const JointRow<Dual>& j) { forces.add(j, multipliers[next++]); };
+  for_each_coordinate(e, ends, RigidRows{take});
+  return forces;
 }
 
 namespace {
@@ -114,13 +114,13 @@ Row<double> row_of(int a, int b, const JointRow<Dual>& j, double sign, const Twi
           sign * bias};
 }
 
-Twist<double> twist_of(const BodiesNow& now, int body) {
+Twist<double> twist_of(const BodiesView& now, int body) {
   return body == kFixedFrame ? Twist<double>{} : now.twists[body];
 }
 
 }  // namespace
 
-void GeneralJoints::rows(const BodiesNow& now, std::span<Row<double>> out) const {
+void GeneralJoints::rows(const BodiesView& now, std::span<Row<double>> out) const {
   for (const Entry& e : entries_) {
     if (e.rows == 0) continue;
     const Twist<double> motion_a = twist_of(now, e.a), motion_b = twist_of(now, e.b);
@@ -128,60 +128,60 @@ void GeneralJoints::rows(const BodiesNow& now, std::span<Row<double>> out) const
     const auto take = [&](const JointRow<Dual>& j) {
       out[next++] = row_of(e.a, e.b, j, 1, motion_a, motion_b);
     };
-    each_coordinate(e, ends_of(e, now, {.place_a = motion_a, .place_b = motion_b}), RigidRows{take});
+    for_each_coordinate(e, ends_of(e, now, {.pose_a = motion_a, .pose_b = motion_b}), RigidRows{take});
   }
 }
 
-void GeneralJoints::stop_rows(const BodiesNow& now, std::span<Row<double>> out) const {
+void GeneralJoints::limit_motor_rows(const BodiesView& now, std::span<Row<double>> out) const {
   for (const Entry& e : entries_) {
-    if (e.stops == 0) continue;
+    if (e.limit_motors == 0) continue;
     const Twist<double> motion_a = twist_of(now, e.a), motion_b = twist_of(now, e.b);
-    std::size_t next = e.first_stop;
+    std::size_t next = e.first_limit_motor;
     const auto take = [&](const JointRow<Dual>& j, const RowRule& rule) {
       out[next++] = row_of(e.a, e.b, j, rule.sign, motion_a, motion_b);
     };
-    each_coordinate(e, ends_of(e, now, {.place_a = motion_a, .place_b = motion_b}), StopRows{take});
+    for_each_coordinate(e, ends_of(e, now, {.pose_a = motion_a, .pose_b = motion_b}), LimitMotorRows{take});
   }
 }
 
-void GeneralJoints::add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const {
+void GeneralJoints::add_springs(const BodiesView& now, std::span<Wrench<double>> out) const {
   for (const Entry& e : entries_) {
     if (!e.has_springs) continue;
-    const Pull pull = pull_of_springs(e, ends_of(e, now, {}));
+    const JointForces forces = spring_forces(e, ends_of(e, now, {}));
     const auto add = [&](int body, const Wrench<Dual>& w) {
       if (body == kFixedFrame) return;
       out[body].force += Vec2d{w.force.x.value, w.force.y.value};
       out[body].torque += w.torque.value;
     };
-    add(e.a, pull.a);
-    add(e.b, pull.b);
+    add(e.a, forces.a);
+    add(e.b, forces.b);
   }
 }
 
-void GeneralJoints::each_spring(const BodiesNow& now,
-                                const std::function<void(const std::string&, Vec2d, double)>& take) const {
+void GeneralJoints::for_each_spring(
+    const BodiesView& now, const std::function<void(const std::string&, Vec2d, double)>& take) const {
   for (const Entry& e : entries_) {
     if (!e.has_springs) continue;
-    const Wrench<Dual> w = pull_of_springs(e, ends_of(e, now, {})).b;
+    const Wrench<Dual> w = spring_forces(e, ends_of(e, now, {})).b;
     take(e.name, {w.force.x.value, w.force.y.value}, w.torque.value);
   }
 }
 
-/// Adds the derivatives of a pull by the first `directions` of these: x, y and angle of a, then of b; their
-/// velocities in the same order.
+/// Adds the derivatives of the forces by the first `directions` of these: x, y and angle of a, then of b;
+/// their velocities in the same order.
 template <class Evaluate>
-void GeneralJoints::add_blocks(const Entry& e, const BodiesNow& now, int directions, const Evaluate& evaluate,
-                               std::vector<ForceBlock>& out) {
+void GeneralJoints::add_blocks(const Entry& e, const BodiesView& now, int directions,
+                               const Evaluate& evaluate, std::vector<ForceBlock>& out) {
   const int body[2] = {e.a, e.b};
   ForceBlock blocks[2][2];
   for (int k = 0; k < directions; ++k) {
     const int by = (k / 3) % 2, column = k % 3;
     Directions along;
     Twist<double>& unit =
-        k < 6 ? (by == 0 ? along.place_a : along.place_b) : (by == 0 ? along.motion_a : along.motion_b);
+        k < 6 ? (by == 0 ? along.pose_a : along.pose_b) : (by == 0 ? along.motion_a : along.motion_b);
     (column == 0 ? unit.velocity.x : column == 1 ? unit.velocity.y : unit.angular_velocity) = 1;
-    const Pull pull = evaluate(ends_of(e, now, along));
-    const Wrench<Dual> wrench[2] = {pull.a, pull.b};
+    const JointForces forces = evaluate(ends_of(e, now, along));
+    const Wrench<Dual> wrench[2] = {forces.a, forces.b};
     for (int on = 0; on < 2; ++on) {
       auto& matrix = k < 6 ? blocks[on][by].position : blocks[on][by].velocity;
       matrix[0][column] = wrench[on].force.x.change;
@@ -199,20 +199,20 @@ void GeneralJoints::add_blocks(const Entry& e, const BodiesNow& now, int directi
   }
 }
 
-void GeneralJoints::add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const {
+void GeneralJoints::add_spring_blocks(const BodiesView& now, std::vector<ForceBlock>& out) const {
   for (const Entry& e : entries_) {
     if (!e.has_springs) continue;
     add_blocks(
-        e, now, 12, [&](const Ends& ends) { return pull_of_springs(e, ends); }, out);
+        e, now, 12, [&](const JointMotion& ends) { return spring_forces(e, ends); }, out);
   }
 }
 
-void GeneralJoints::add_tension_blocks(const BodiesNow& now, std::span<const double> multipliers,
+void GeneralJoints::add_tension_blocks(const BodiesView& now, std::span<const double> multipliers,
                                        std::vector<ForceBlock>& out) const {
   for (const Entry& e : entries_) {
     if (e.rows == 0) continue;
     add_blocks(
-        e, now, 6, [&](const Ends& ends) { return pull_of_rows(e, ends, multipliers); }, out);
+        e, now, 6, [&](const JointMotion& ends) { return row_forces(e, ends, multipliers); }, out);
   }
 }
 

@@ -30,7 +30,7 @@
 namespace plumb::precise {
 
 /// Poses and velocities of all bodies of the scene, by body.
-struct BodiesNow {
+struct BodiesView {
   std::span<const Pose<double>> poses;
   std::span<const double> angles;  ///< rad, whole turns counted
   std::span<const Twist<double>> twists;
@@ -50,19 +50,19 @@ class GeneralJoints {
   bool has_springs() const { return has_springs_; }
 
   /// Computes the rigid rows; `out` has `row_count` elements.
-  void rows(const BodiesNow& now, std::span<Row<double>> out) const;
+  void rows(const BodiesView& now, std::span<Row<double>> out) const;
 
   /// Unilateral rows: limits, C >= 0 with a force >= 0 along C, and motors, which drive dC/dt to a speed with
   /// a bounded force.
-  struct Stop {
+  struct LimitOrMotor {
     RowRole role = RowRole::Limit;
     double speed = 0, max_force = 0;
     std::optional<Formula> drive{};  ///< of a motor's speed, in place of `speed`
     std::string joint{};
     /// Meaning of C for a limit: an angle; the position of anchor b along a's axis; the distance of the
     /// anchors.
-    enum class Kind { Turn, Line, Distance };
-    Kind kind = Kind::Turn;
+    enum class Kind { Angle, Translation, Distance };
+    Kind kind = Kind::Angle;
     int a = kFixedFrame, b = kFixedFrame;
     Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass; a's only for distances
     /// Returns the motor's speed at `time`, s, and its rate.
@@ -71,26 +71,26 @@ class GeneralJoints {
       return drive ? drive->at(std::span<const Jet>(now)) : Jet(speed);
     }
   };
-  const std::vector<Stop>& stops() const { return stops_; }
-  /// Computes the rows of C; `out` has an element for each stop.
-  void stop_rows(const BodiesNow& now, std::span<Row<double>> out) const;
+  const std::vector<LimitOrMotor>& limits_and_motors() const { return limits_and_motors_; }
+  /// Computes the rows of C; `out` has an element for each limit and motor.
+  void limit_motor_rows(const BodiesView& now, std::span<Row<double>> out) const;
 
   /// Adds the forces of springs, N and N m. With J the row of a coordinate C,
   ///   lambda = -(k C + c J v),
   /// bounded if the joint has a bound; for a point the same along the gap. k and c are constants of the
   /// scene's initial poses (engine/joints/spring_stiffness.h).
-  void add_springs(const BodiesNow& now, std::span<Wrench<double>> out) const;
+  void add_springs(const BodiesView& now, std::span<Wrench<double>> out) const;
 
   /// Calls `take(joint, force, torque)` for each joint with such forces: force and torque on body b, about
   /// its centre.
-  void each_spring(const BodiesNow& now,
-                   const std::function<void(const std::string&, Vec2d, double)>& take) const;
+  void for_each_spring(const BodiesView& now,
+                       const std::function<void(const std::string&, Vec2d, double)>& take) const;
 
   /// Adds the derivatives of those forces by the bodies' positions and velocities.
-  void add_spring_blocks(const BodiesNow& now, std::vector<ForceBlock>& out) const;
+  void add_spring_blocks(const BodiesView& now, std::vector<ForceBlock>& out) const;
 
   /// Adds the derivatives of J^T lambda of the rigid rows by the bodies' positions, for fixed multipliers.
-  void add_tension_blocks(const BodiesNow& now, std::span<const double> multipliers,
+  void add_tension_blocks(const BodiesView& now, std::span<const double> multipliers,
                           std::vector<ForceBlock>& out) const;
 
  private:
@@ -107,27 +107,28 @@ class GeneralJoints {
     bool has_springs = false;
     SpringMobility springs{};
     std::size_t first_row = 0, rows = 0;
-    std::size_t first_stop = 0, stops = 0;
+    std::size_t first_limit_motor = 0, limit_motors = 0;
     std::string name{};
   };
-  struct Ends;
+  struct JointMotion;
   struct Directions;
-  struct Pull;
+  struct JointForces;
 
   static void add(const Scene& scene, const Joint& joint, std::vector<Entry>& entries);
-  static void place_stop(const Entry& entry, bool moves, Stop& stop);
-  static Ends ends_of(const Entry& entry, const BodiesNow& now, const Directions& along);
+  static void set_limit_anchors(const Entry& entry, bool moves, LimitOrMotor& limit_motor);
+  static JointMotion ends_of(const Entry& entry, const BodiesView& now, const Directions& along);
   template <class Visit>
-  static void each_coordinate(const Entry& entry, const Ends& ends, const Visit& visit);
-  static Pull pull_of_springs(const Entry& entry, const Ends& ends);
-  static Pull pull_of_rows(const Entry& entry, const Ends& ends, std::span<const double> multipliers);
+  static void for_each_coordinate(const Entry& entry, const JointMotion& ends, const Visit& visit);
+  static JointForces spring_forces(const Entry& entry, const JointMotion& ends);
+  static JointForces row_forces(const Entry& entry, const JointMotion& ends,
+                                std::span<const double> multipliers);
   template <class Evaluate>
-  static void add_blocks(const Entry& entry, const BodiesNow& now, int directions, const Evaluate& evaluate,
+  static void add_blocks(const Entry& entry, const BodiesView& now, int directions, const Evaluate& evaluate,
                          std::vector<ForceBlock>& out);
 
   std::vector<Entry> entries_;
   std::vector<std::string> row_names_;
-  std::vector<Stop> stops_;
+  std::vector<LimitOrMotor> limits_and_motors_;
   bool has_springs_ = false;
 };
 

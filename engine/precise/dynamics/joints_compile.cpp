@@ -42,7 +42,7 @@ void GeneralJoints::add(const Scene& scene, const Joint& joint, std::vector<Entr
         } else if constexpr (std::is_same_v<Definition, RevoluteDefinition>) {
           e.kind = RevoluteRows<Dual>(definition, {}, {});
           e.rigid_elsewhere = true;
-          plain = e.rules.turn.count == 0;
+          plain = e.rules.angular.count == 0;
         } else if constexpr (std::is_same_v<Definition, PrismaticDefinition>) {
           e.kind = PrismaticRows<Dual>(definition, {}, {});
         } else if constexpr (std::is_same_v<Definition, WheelDefinition>) {
@@ -86,17 +86,19 @@ void GeneralJoints::add(const Scene& scene, const Joint& joint, std::vector<Entr
   entries.push_back(std::move(e));
 }
 
-/// Sets the anchors of a stop whose coordinate is not an angle.
-void GeneralJoints::place_stop(const Entry& e, bool moves, Stop& stop) {
+/// Sets the anchors of a limit or motor whose coordinate is not an angle.
+void GeneralJoints::set_limit_anchors(const Entry& e, bool moves, LimitOrMotor& limit_motor) {
   if (!moves) return;
   const auto value = [](Vec2<Dual> v) { return Vec2d{v.x.value, v.y.value}; };
   if (const auto* rod = std::get_if<DistanceRows<Dual>>(&e.kind)) {
-    stop.kind = Stop::Kind::Distance;
-    stop.anchor_a = value(rod->anchor_a), stop.anchor_b = value(rod->anchor_b);
+    limit_motor.kind = LimitOrMotor::Kind::Distance;
+    limit_motor.anchor_a = value(rod->anchor_a), limit_motor.anchor_b = value(rod->anchor_b);
   } else {
-    stop.kind = Stop::Kind::Line;
-    if (const auto* rail = std::get_if<PrismaticRows<Dual>>(&e.kind)) stop.anchor_b = value(rail->anchor_b);
-    if (const auto* wheel = std::get_if<WheelRows<Dual>>(&e.kind)) stop.anchor_b = value(wheel->anchor_b);
+    limit_motor.kind = LimitOrMotor::Kind::Translation;
+    if (const auto* rail = std::get_if<PrismaticRows<Dual>>(&e.kind))
+      limit_motor.anchor_b = value(rail->anchor_b);
+    if (const auto* wheel = std::get_if<WheelRows<Dual>>(&e.kind))
+      limit_motor.anchor_b = value(wheel->anchor_b);
   }
 }
 
@@ -109,7 +111,7 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
     angles.push_back(state.angle);
   }
   const std::vector<Twist<double>> twists(scene.bodies.size());
-  const BodiesNow start{poses, angles, twists};
+  const BodiesView start{poses, angles, twists};
   for (const Joint& joint : scene.joints) {
     const std::size_t before = entries_.size();
     add(scene, joint, entries_);
@@ -123,7 +125,7 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
           using Rows = std::remove_cvref_t<decltype(kind)>;
           if constexpr (Rows::kAngle != AngleUse::None) {
             const double angle = angle_b - e.ratio * angle_a;
-            const Range range = limits_of(e.rules.turn);
+            const Range range = limits_of(e.rules.angular);
             e.angle_offset = angle_at_creation(angle - kind.reference, range.lower, range.upper) - angle;
           }
           if constexpr (kPulley<Rows>) {
@@ -136,26 +138,27 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
         e.kind);
     e.first_row = row_names_.size();
     const auto count = [&](const JointRow<Dual>&) { ++e.rows; };
-    if (!e.rigid_elsewhere) each_coordinate(e, ends_of(e, start, {}), RigidRows{count});
+    if (!e.rigid_elsewhere) for_each_coordinate(e, ends_of(e, start, {}), RigidRows{count});
     row_names_.insert(row_names_.end(), e.rows, std::visit([](const auto& j) { return j.name; }, joint));
-    e.first_stop = stops_.size();
+    e.first_limit_motor = limits_and_motors_.size();
     const auto& name = std::visit([](const auto& j) -> const std::string& { return j.name; }, joint);
-    const auto add_stop = [&](const JointRow<Dual>& row, const RowRule& rule) {
-      Stop stop{.role = rule.role,
-                .speed = rule.speed,
-                .max_force = rule.max_force,
-                .joint = name,
-                .a = e.a,
-                .b = e.b};
+    const auto add_limit_motor = [&](const JointRow<Dual>& row, const RowRule& rule) {
+      LimitOrMotor limit_motor{.role = rule.role,
+                               .speed = rule.speed,
+                               .max_force = rule.max_force,
+                               .joint = name,
+                               .a = e.a,
+                               .b = e.b};
       for (const Drive& drive : scene.drives) {
         if (rule.role == RowRole::Motor && drive.joint == name)
-          stop.drive = Formula(drive.speed, kTimeVariable);
+          limit_motor.drive = Formula(drive.speed, kTimeVariable);
       }
-      place_stop(e, length_squared(Vec2d{row.linear_b.x.value, row.linear_b.y.value}) > 0, stop);
-      stops_.push_back(stop);
+      set_limit_anchors(e, length_squared(Vec2d{row.linear_b.x.value, row.linear_b.y.value}) > 0,
+                        limit_motor);
+      limits_and_motors_.push_back(limit_motor);
     };
-    each_coordinate(e, ends_of(e, start, {}), StopRows{add_stop});
-    e.stops = stops_.size() - e.first_stop;
+    for_each_coordinate(e, ends_of(e, start, {}), LimitMotorRows{add_limit_motor});
+    e.limit_motors = limits_and_motors_.size() - e.first_limit_motor;
     struct Springs {
       bool& any;
       void row(const JointRow<Dual>&, const RowRule& rule) const {
@@ -165,7 +168,7 @@ GeneralJoints::GeneralJoints(const Scene& scene) {
         any = any || rule.role == RowRole::Spring;
       }
     };
-    each_coordinate(e, ends_of(e, start, {}), Springs{e.has_springs});
+    for_each_coordinate(e, ends_of(e, start, {}), Springs{e.has_springs});
     has_springs_ = has_springs_ || e.has_springs;
   }
 }

@@ -71,9 +71,9 @@ bool has_wide_mass_ratio(std::span<const Row<double>> rows, std::span<const doub
 
 /// Returns the hinges if they are the only joints. Excludes wide mass ratios, which need iterative
 /// refinement; only rows have it.
-HingeLines hinge_lines(const JointSystem<double>& system, const Joints& joints, const GeneralJoints& others,
-                       const std::vector<double>& inverse_mass, const std::vector<double>& inverse_inertia,
-                       bool wide_mass_ratio, const Scene& scene) {
+HingeSystem hinge_system(const JointSystem<double>& system, const Joints& joints, const GeneralJoints& others,
+                         const std::vector<double>& inverse_mass, const std::vector<double>& inverse_inertia,
+                         bool wide_mass_ratio, const Scene& scene) {
   // Excludes prescribed bodies: rows use their acceleration, while hinge lines assume that they are fixed.
   const bool moved = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                  [](const Body& body) { return !body.motion.empty(); });
@@ -90,39 +90,39 @@ std::vector<double> only(const std::vector<double>& values, const std::vector<st
 
 }  // namespace
 
-EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, const Flight& flight,
-                                     bool every_stage, double tolerance)
-    : bodies_(parts.integrated),
+EquationsOfMotion::EquationsOfMotion(const Scene& scene, const ScenePartition& partition,
+                                     const BallisticMotion& ballistic, bool every_stage, double tolerance)
+    : bodies_(partition.integrated),
       slot_(scene.bodies.size(), -1),
-      flight_(flight),
+      ballistic_(ballistic),
       gravity_(scene.gravity),
-      forces_(with_laws_on(scene, parts.integrated)),
+      forces_(with_laws_on(scene, partition.integrated)),
       joints_(compile_joints(scene)),
-      kind_joints_(scene),
-      joint_of_row_(joint_names_by_row(scene, kind_joints_)),
+      general_joints_(scene),
+      joint_of_row_(joint_names_by_row(scene, general_joints_)),
       joint_ends_(ends_of_joints(scene)),
-      rows_(pattern(joints_, kind_joints_, scene.bodies.size())),
+      rows_(pattern(joints_, general_joints_, scene.bodies.size())),
       inverse_mass_(inverse_masses(scene).mass),
       inverse_inertia_(inverse_masses(scene).inertia),
-      joint_inverse_mass_(only(inverse_mass_, parts.integrated)),
-      joint_inverse_inertia_(only(inverse_inertia_, parts.integrated)),
+      joint_inverse_mass_(only(inverse_mass_, partition.integrated)),
+      joint_inverse_inertia_(only(inverse_inertia_, partition.integrated)),
       poses_(scene.bodies.size()),
       angles_(scene.bodies.size()),
       twists_(scene.bodies.size()),
       accelerations_(scene.bodies.size()),
       wrenches_(scene.bodies.size()),
       system_(rows_, joint_inverse_mass_, joint_inverse_inertia_),
-      hinges_(hinge_lines(system_, joints_, kind_joints_, joint_inverse_mass_, joint_inverse_inertia_,
-                          has_wide_mass_ratio(rows_, joint_inverse_mass_), scene)),
+      hinges_(hinge_system(system_, joints_, general_joints_, joint_inverse_mass_, joint_inverse_inertia_,
+                           has_wide_mass_ratio(rows_, joint_inverse_mass_), scene)),
       right_side_(rows_.size()),
       multipliers_(rows_.size()),
-      has_forces_(!forces_.empty() || kind_joints_.has_springs() || !kind_joints_.stops().empty() ||
-                  every_stage),
+      has_forces_(!forces_.empty() || general_joints_.has_springs() ||
+                  !general_joints_.limits_and_motors().empty() || every_stage),
       has_joints_(!rows_.empty() || every_stage),
       has_loops_(find_loops()),
       wide_mass_ratio_(has_wide_mass_ratio(rows_, joint_inverse_mass_)),
-      length_(scales_of(scene, parts).length),
-      speed_(scales_of(scene, parts).speed),
+      length_(scales_of(scene, partition).length),
+      speed_(scales_of(scene, partition).speed),
       tolerance_(tolerance) {
   for (const Body& body : scene.bodies) names_.push_back(body.name);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
@@ -132,21 +132,23 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const Parts& parts, con
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) slot_[bodies_[slot]] = static_cast<int>(slot);
   for (const ForceLaw& law : with_laws_on(scene, bodies_).forces) {
     for (const std::string_view name : ends_of(law)) {
-      if (const auto body = find_body(scene, name); body && flight_.holds(*body)) guides_.push_back(*body);
+      if (const auto body = find_body(scene, name); body && ballistic_.contains(*body))
+        ballistic_bodies_.push_back(*body);
     }
   }
   for (const Joint& joint : scene.joints) {
     std::visit(
         [&](const auto& j) {
           for (const std::string& name : {j.body_a, j.body_b}) {
-            if (const auto body = find_body(scene, name); body && flight_.holds(*body))
-              guides_.push_back(*body);
+            if (const auto body = find_body(scene, name); body && ballistic_.contains(*body))
+              ballistic_bodies_.push_back(*body);
           }
         },
         joint);
   }
-  std::sort(guides_.begin(), guides_.end());
-  guides_.erase(std::unique(guides_.begin(), guides_.end()), guides_.end());
+  std::sort(ballistic_bodies_.begin(), ballistic_bodies_.end());
+  ballistic_bodies_.erase(std::unique(ballistic_bodies_.begin(), ballistic_bodies_.end()),
+                          ballistic_bodies_.end());
 }
 
 BodyState EquationsOfMotion::state(std::span<const double> y, std::size_t slot) {
@@ -162,7 +164,7 @@ void EquationsOfMotion::set_state(Compensated& y, std::size_t slot, const BodySt
   for (std::size_t i = 0; i < kPerBody; ++i) y.set(kPerBody * slot + i, values[i]);
 }
 
-void EquationsOfMotion::place(double time, std::span<const double> y) {
+void EquationsOfMotion::update_poses(double time, std::span<const double> y) {
   time_ = time;
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = state(y, slot);
@@ -174,8 +176,8 @@ void EquationsOfMotion::place(double time, std::span<const double> y) {
     poses_[body].position = now.position;
     twists_[body] = {now.velocity, now.angular_velocity};
   }
-  for (const std::size_t body : guides_) {
-    const BodyState now = flight_.at(body, time).state;
+  for (const std::size_t body : ballistic_bodies_) {
+    const BodyState now = ballistic_.at(body, time).state;
     poses_[body] = {now.position, rotation_of(now.angle)};
     angles_[body] = now.angle;
     twists_[body] = {now.velocity, now.angular_velocity};
@@ -186,19 +188,19 @@ void EquationsOfMotion::place(double time, std::span<const double> y) {
 void EquationsOfMotion::find_rows(std::span<Row<double>> out) const {
   assert(out.size() == rows_.size());
   joints_.rows(poses_, twists_, out);
-  if (kind_joints_.row_count() > 0) kind_joints_.rows(bodies_now(), out.subspan(joints_.row_count()));
+  if (general_joints_.row_count() > 0) general_joints_.rows(bodies_view(), out.subspan(joints_.row_count()));
 }
 
 void EquationsOfMotion::linearise() {
   find_rows(rows_);
   dependent_rows_ = std::max(dependent_rows_, system_.factor(rows_));
-  weakest_ = std::min(weakest_, system_.weakest());
+  min_pivot_ratio_ = std::min(min_pivot_ratio_, system_.min_pivot_ratio());
 }
 
 std::vector<std::string> EquationsOfMotion::redundant_joints(double time, std::span<const double> y) {
   std::vector<std::string> names;
   if (!has_joints_) return names;
-  place(time, y);
+  update_poses(time, y);
   linearise();
   const std::vector<char> dependent = system_.dependent();
   for (std::size_t row = 0; row < dependent.size(); ++row) {
@@ -208,9 +210,9 @@ std::vector<std::string> EquationsOfMotion::redundant_joints(double time, std::s
   return names;
 }
 
-bool EquationsOfMotion::has_hinges_alone() const {
-  return forces_.empty() && !kind_joints_.has_springs() && kind_joints_.stops().empty() &&
-         joints_.distance.empty() && kind_joints_.row_count() == 0;
+bool EquationsOfMotion::has_hinges_only() const {
+  return forces_.empty() && !general_joints_.has_springs() && general_joints_.limits_and_motors().empty() &&
+         joints_.distance.empty() && general_joints_.row_count() == 0;
 }
 
 /// Solves A multipliers = right_side.
@@ -221,7 +223,7 @@ void EquationsOfMotion::solve_joints() {
 }
 
 /// Adds M^-1 J^T multipliers to `motion`.
-void EquationsOfMotion::pull(std::span<Twist<double>> motion) const {
+void EquationsOfMotion::add_joint_response(std::span<Twist<double>> motion) const {
   const auto add = [&](int body, Vec2d linear, double angular, double multiplier) {
     if (body == kFixedFrame) return;
     motion[body].velocity += (joint_inverse_mass_[body] * multiplier) * linear;
@@ -242,20 +244,20 @@ double EquationsOfMotion::row_speed(const Row<double>& row, std::span<const Twis
   return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
 }
 
-void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y,
-                                          std::span<Twist<double>> out) {
+void EquationsOfMotion::free_accelerations(double time, std::span<const double> y,
+                                           std::span<Twist<double>> out) {
   ++evaluations_;
-  place(time, y);
+  update_poses(time, y);
   if (!has_forces_) {
     for (const std::size_t body : bodies_) out[body] = {gravity_, 0};
-    return accelerate_prescribed(time, out);
+    return set_prescribed_accelerations(time, out);
   }
   for (const std::size_t body : bodies_) wrenches_[body] = {};
   {
     const Clock clock(cost.on, cost.forces);
     forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
-    if (kind_joints_.has_springs()) kind_joints_.add_springs(bodies_now(), wrenches_);
-    if (pushing_stops_ > 0) add_motors();
+    if (general_joints_.has_springs()) general_joints_.add_springs(bodies_view(), wrenches_);
+    if (saturated_motors_ > 0) add_motors();
   }
   power_ = 0;
   for (const std::size_t body : bodies_) {
@@ -263,39 +265,39 @@ void EquationsOfMotion::accelerate_freely(double time, std::span<const double> y
     out[body] = {gravity_ + inverse_mass_[body] * w.force, inverse_inertia_[body] * w.torque};
     power_ += dot(w.force, twists_[body].velocity) + w.torque * twists_[body].angular_velocity;
   }
-  accelerate_prescribed(time, out);
+  set_prescribed_accelerations(time, out);
 }
 
-void EquationsOfMotion::accelerate_prescribed(double time, std::span<Twist<double>> out) const {
+void EquationsOfMotion::set_prescribed_accelerations(double time, std::span<Twist<double>> out) const {
   for (const Prescribed& one : prescribed_) {
     const PrescribedPath::Point now = one.path.at(time);
     out[one.body] = {now.acceleration, now.angular_acceleration};
   }
 }
 
-void EquationsOfMotion::keep_prescribed(double time, Compensated& y) const {
+void EquationsOfMotion::set_prescribed(double time, Compensated& y) const {
   for (const Prescribed& one : prescribed_) set_state(y, one.slot, one.path.at(time).state);
 }
 
 void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {
-  accelerate_freely(time, y, accelerations_);
-  if (only_hinges()) {
+  free_accelerations(time, y, accelerations_);
+  if (uses_hinge_system()) {
     const Clock clock(cost.on, cost.joints);
-    hinges_.place(poses_);
-    hinges_.accelerate(twists_, accelerations_);
+    hinges_.update(poses_);
+    hinges_.add_accelerations(twists_, accelerations_);
     dependent_rows_ = std::max(dependent_rows_, hinges_.dependent());
-    weakest_ = std::min(weakest_, hinges_.weakest());
+    min_pivot_ratio_ = std::min(min_pivot_ratio_, hinges_.min_pivot_ratio());
   } else if (has_joints_) {
     accelerate_joints();
   }
-  if (holds_anything()) press(accelerations_);
+  if (has_active_constraints()) add_contact_accelerations(accelerations_);
   write_rate(y, out);
 }
 
 void EquationsOfMotion::rate_with_rows(double time, std::span<const double> y, std::span<double> out) {
-  accelerate_freely(time, y, accelerations_);
+  free_accelerations(time, y, accelerations_);
   if (has_joints_) accelerate_joints();
-  if (holds_anything()) press(accelerations_);
+  if (has_active_constraints()) add_contact_accelerations(accelerations_);
   write_rate(y, out);
 }
 
@@ -307,7 +309,7 @@ void EquationsOfMotion::accelerate_joints() {
     right_side_[i] = -(row_speed(rows_[i], accelerations_) + rows_[i].bias_acceleration);
   }
   solve_joints();
-  pull(accelerations_);
+  add_joint_response(accelerations_);
 }
 
 void EquationsOfMotion::write_rate(std::span<const double> y, std::span<double> out) const {
@@ -323,29 +325,30 @@ void EquationsOfMotion::write_rate(std::span<const double> y, std::span<double> 
   }
 }
 
-void EquationsOfMotion::hold(double time, std::span<const double> y) {
+void EquationsOfMotion::factorise_joints(double time, std::span<const double> y) {
   if (!has_joints_) return;
-  place(time, y);
+  update_poses(time, y);
   linearise();
 }
 
-double EquationsOfMotion::gap_response(double time, std::span<const double> y, std::span<Twist<double>> out) {
+double EquationsOfMotion::position_correction(double time, std::span<const double> y,
+                                              std::span<Twist<double>> out) {
   std::fill(out.begin(), out.end(), Twist<double>{});
   if (!has_joints_) return 0;
-  place(time, y);
-  rows_elsewhere_.resize(rows_.size());
-  find_rows(rows_elsewhere_);
+  update_poses(time, y);
+  trial_rows_.resize(rows_.size());
+  find_rows(trial_rows_);
   double largest = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    right_side_[r] = -rows_elsewhere_[r].residual;
+    right_side_[r] = -trial_rows_[r].residual;
     largest = std::max(largest, std::abs(right_side_[r]));
   }
   solve_joints();
-  pull(out);
+  add_joint_response(out);
   return largest;
 }
 
-void EquationsOfMotion::speed_response(std::span<const double> y, std::span<Twist<double>> out) {
+void EquationsOfMotion::velocity_correction(std::span<const double> y, std::span<Twist<double>> out) {
   std::fill(out.begin(), out.end(), Twist<double>{});
   if (!has_joints_) return;
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
@@ -354,10 +357,11 @@ void EquationsOfMotion::speed_response(std::span<const double> y, std::span<Twis
   }
   for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
   solve_joints();
-  pull(out);
+  add_joint_response(out);
 }
 
-void EquationsOfMotion::kick(std::span<const Twist<double>> response, double scale, Compensated& y) const {
+void EquationsOfMotion::add_velocities(std::span<const Twist<double>> response, double scale,
+                                       Compensated& y) const {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& change = response[bodies_[slot]];
     y.add(kPerBody * slot + 3, scale * change.velocity.x);

@@ -29,15 +29,16 @@ bool EquationsOfMotion::find_loops() const {
   return false;
 }
 
-double EquationsOfMotion::weakness(double time, std::span<const double> y) {
-  place(time, y);
+double EquationsOfMotion::min_pivot_ratio_at(double time, std::span<const double> y) {
+  update_poses(time, y);
   find_rows(rows_);
   const int dependent = system_.factor(rows_);
-  return dependent > system_.kept() ? 0 : system_.weakest();
+  return dependent > system_.frozen_count() ? 0 : system_.min_pivot_ratio();
 }
 
-double EquationsOfMotion::draw_near(double time, std::span<const double> target, std::span<double> y) {
-  place(time, y);
+double EquationsOfMotion::newton_step_towards(double time, std::span<const double> target,
+                                              std::span<double> y) {
+  update_poses(time, y);
   find_rows(rows_);
   system_.factor(rows_);
   std::vector<Twist<double>>& shift = accelerations_;
@@ -49,7 +50,7 @@ double EquationsOfMotion::draw_near(double time, std::span<const double> target,
   for (std::size_t r = 0; r < rows_.size(); ++r)
     right_side_[r] = -(rows_[r].residual + row_speed(rows_[r], shift));
   solve_joints();
-  pull(shift);
+  add_joint_response(shift);
   double moved = 0;
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& s = shift[bodies_[slot]];
@@ -62,15 +63,15 @@ double EquationsOfMotion::draw_near(double time, std::span<const double> target,
   return moved;
 }
 
-void EquationsOfMotion::allow_velocities(double time, std::span<double> y) {
-  place(time, y);
+void EquationsOfMotion::project_velocities(double time, std::span<double> y) {
+  update_poses(time, y);
   find_rows(rows_);
   system_.factor(rows_);
   for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
   solve_joints();
   std::vector<Twist<double>>& shift = accelerations_;
   std::fill(shift.begin(), shift.end(), Twist<double>{});
-  pull(shift);
+  add_joint_response(shift);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& s = shift[bodies_[slot]];
     y[kPerBody * slot + 3] += s.velocity.x;
@@ -79,7 +80,7 @@ void EquationsOfMotion::allow_velocities(double time, std::span<double> y) {
   }
 }
 
-void EquationsOfMotion::keep_allowed(std::span<double> change) {
+void EquationsOfMotion::project_change(std::span<double> change) {
   std::vector<Twist<double>>& shift = accelerations_;
   for (const std::size_t half : {std::size_t{0}, std::size_t{3}}) {
     std::fill(shift.begin(), shift.end(), Twist<double>{});
@@ -89,7 +90,7 @@ void EquationsOfMotion::keep_allowed(std::span<double> change) {
     }
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], shift);
     solve_joints();
-    pull(shift);
+    add_joint_response(shift);
     for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
       double* c = change.data() + kPerBody * slot + half;
       const Twist<double>& s = shift[bodies_[slot]];
@@ -98,21 +99,21 @@ void EquationsOfMotion::keep_allowed(std::span<double> change) {
   }
 }
 
-double EquationsOfMotion::left_open(double time, std::span<double> y, double weak) {
-  constexpr int kMost = 8;
+double EquationsOfMotion::remaining_gap(double time, std::span<double> y, double weak) {
+  constexpr int kMaxIterations = 8;
   std::vector<Twist<double>>& shift = accelerations_;
-  system_.set_least_share(weak);
+  system_.set_pivot_threshold(weak);
   double open = 0;
   for (int i = 0;; ++i) {
-    place(time, y);
+    update_poses(time, y);
     find_rows(rows_);
     open = worst_gap().gap;
-    if (i == kMost) break;
+    if (i == kMaxIterations) break;
     system_.factor(rows_);
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
     solve_joints();
     std::fill(shift.begin(), shift.end(), Twist<double>{});
-    pull(shift);
+    add_joint_response(shift);
     for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
       const Twist<double>& s = shift[bodies_[slot]];
       y[kPerBody * slot] += s.velocity.x;
@@ -120,14 +121,14 @@ double EquationsOfMotion::left_open(double time, std::span<double> y, double wea
       y[kPerBody * slot + 2] += s.angular_velocity;
     }
   }
-  system_.set_least_share(0);
+  system_.set_pivot_threshold(0);
   // Rows that are always redundant must close to the accuracy of `project`, or the linkage could not move.
   constexpr double kOpen = 1e-9;
-  return system_.kept() > 0 ? std::max(open - std::min(kOpen, tolerance_) * length_, 0.0) : open;
+  return system_.frozen_count() > 0 ? std::max(open - std::min(kOpen, tolerance_) * length_, 0.0) : open;
 }
 
 std::string EquationsOfMotion::weakest_joint() const {
-  const std::size_t row = system_.weakest_row();
+  const std::size_t row = system_.min_pivot_row();
   return row < joint_of_row_.size() ? joint_of_row_[row] : std::string();
 }
 

@@ -10,27 +10,27 @@
 namespace plumb::precise {
 
 void EquationsOfMotion::project(double time, Compensated& y) {
-  keep_prescribed(time, y);
-  if (!has_joints_ && !holds_anything()) return;
-  if (only_hinges() && hinges_.rooted()) return hang(time, y);
+  set_prescribed(time, y);
+  if (!has_joints_ && !has_active_constraints()) return;
+  if (uses_hinge_system() && hinges_.is_rooted()) return forward_kinematics(time, y);
   close_gaps(time, y);
   // Apply v += M^-1 J^T lambda with A lambda = -J v, at the corrected positions.
   std::vector<Twist<double>>& shift = accelerations_;
   std::fill(shift.begin(), shift.end(), Twist<double>{});
-  if (only_hinges()) {
-    hinges_.stop(twists_, shift);
+  if (uses_hinge_system()) {
+    hinges_.stop_velocities(twists_, shift);
   } else if (has_joints_) {
     system_.factor(rows_);
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
     solve_joints();
-    pull(shift);
+    add_joint_response(shift);
   }
-  if (holds_anything()) {
+  if (has_active_constraints()) {
     linearise_contacts(false);
     close_contacts(twists_, false, shift);
   }
-  if (has_loops_ && may_stay_open_ == 0) check_speeds(shift);
-  kick(shift, 1, y);
+  if (has_loops_ && allowed_gap_ == 0) check_speeds(shift);
+  add_velocities(shift, 1, y);
 }
 
 /// Throws `Error` (Run) if velocities, with `shift` added, open a joint by more than the tolerance allows: no
@@ -50,37 +50,38 @@ void EquationsOfMotion::check_speeds(std::span<const Twist<double>> shift) const
                   " allows, and no push of the joints ends that: what they ask for contradicts itself here");
 }
 
-bool EquationsOfMotion::held_works() const {
+bool EquationsOfMotion::constraints_do_work() const {
   const auto moves = [&](std::size_t body) {
     return twists_[body].velocity != Vec2d{} || twists_[body].angular_velocity != 0;
   };
-  const auto rubs = [](const ActiveContact& patch) { return patch.rubs(); };
-  bool drives = false;
-  for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
-    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
-    drives = drives || (stop_modes_[k] == StopMode::Held && stop.role == RowRole::Motor &&
-                        (stop.speed != 0 || stop.drive));
+  const auto slides = [](const ActiveContact& patch) { return patch.slides(); };
+  bool driven = false;
+  for (std::size_t k = 0; k < limit_motor_modes_.size(); ++k) {
+    const GeneralJoints::LimitOrMotor& limit_motor = general_joints_.limits_and_motors()[k];
+    driven = driven || (limit_motor_modes_[k] == LimitMotorMode::Held && limit_motor.role == RowRole::Motor &&
+                        (limit_motor.speed != 0 || limit_motor.drive));
   }
-  return drives || !prescribed_.empty() || std::any_of(guides_.begin(), guides_.end(), moves) ||
-         std::any_of(patches_.begin(), patches_.end(), rubs);
+  return driven || !prescribed_.empty() ||
+         std::any_of(ballistic_bodies_.begin(), ballistic_bodies_.end(), moves) ||
+         std::any_of(patches_.begin(), patches_.end(), slides);
 }
 
-void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
+void EquationsOfMotion::apply_hinge_impulses(double time, Compensated& y) {
   // Fraction of the largest velocity below which an error counts as rounding: the velocities already fit.
   constexpr double kRounding = 1e-12;
-  if (only_hinges() ? !hinges_.rooted() : holds_anything() || !has_hinges_alone()) return;
-  place(time, y.value());
+  if (uses_hinge_system() ? !hinges_.is_rooted() : has_active_constraints() || !has_hinges_only()) return;
+  update_poses(time, y.value());
   std::vector<Twist<double>>& shift = accelerations_;
   std::fill(shift.begin(), shift.end(), Twist<double>{});
-  if (only_hinges()) {
-    hinges_.place(poses_);
-    hinges_.stop(twists_, shift);
+  if (uses_hinge_system()) {
+    hinges_.update(poses_);
+    hinges_.stop_velocities(twists_, shift);
   } else {
     find_rows(rows_);
     system_.factor(rows_);
     for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -row_speed(rows_[r], twists_);
     solve_joints();
-    pull(shift);
+    add_joint_response(shift);
   }
   const auto fastest = [&](const std::vector<Twist<double>>& twists) {
     double most = 0;
@@ -89,14 +90,14 @@ void EquationsOfMotion::strike_hinges(double time, Compensated& y) {
           {most, std::sqrt(length_squared(twist.velocity)), std::abs(twist.angular_velocity) * length_});
     return most;
   };
-  if (fastest(shift) > kRounding * fastest(twists_)) kick(shift, 1, y);
+  if (fastest(shift) > kRounding * fastest(twists_)) add_velocities(shift, 1, y);
 }
 
 /// Sets positions and velocities of bodies that hang by hinges on static ones from their angles.
-void EquationsOfMotion::hang(double time, Compensated& y) {
-  place(time, y.value());
-  hinges_.place(poses_);
-  hinges_.hang(poses_, twists_, [&](std::size_t body) {
+void EquationsOfMotion::forward_kinematics(double time, Compensated& y) {
+  update_poses(time, y.value());
+  hinges_.update(poses_);
+  hinges_.forward_kinematics(poses_, twists_, [&](std::size_t body) {
     const std::size_t first = kPerBody * static_cast<std::size_t>(slot_[body]);
     y.set(first, poses_[body].position.x);
     y.set(first + 1, poses_[body].position.y);
@@ -107,49 +108,49 @@ void EquationsOfMotion::hang(double time, Compensated& y) {
 
 /// Closes the gaps by Newton's method, q += M^-1 J^T lambda with A lambda = -C, to rounding.
 void EquationsOfMotion::close_gaps(double time, Compensated& y) {
-  constexpr int kMost = 20;
+  constexpr int kMaxIterations = 20;
   constexpr double kOpen = 1e-9;  // fraction of the scene's length: a larger gap is not due to rounding
   // Newton's method may end with gaps of up to this many rounding errors.
   constexpr double kRoundings = 100;
   std::vector<Twist<double>>& shift = accelerations_;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
-    place(time, y.value());
-    if (only_hinges()) {
-      hinges_.place(poses_);
+    update_poses(time, y.value());
+    if (uses_hinge_system()) {
+      hinges_.update(poses_);
     } else if (has_joints_) {
       find_rows(rows_);
     }
-    if (held_stops_ > 0) stop_rows();
+    if (held_limit_motors_ > 0) limit_motor_rows();
     const WorstGap worst = worst_gap();
-    const bool stuck = worst.gap > 0.5 * before || i == kMost;
+    const bool stuck = worst.gap > 0.5 * before || i == kMaxIterations;
     const double rounding = rounding_of_gaps();
     const double open =
-        std::max({std::min(kOpen, tolerance_) * length_, kRoundings * rounding, may_stay_open_});
+        std::max({std::min(kOpen, tolerance_) * length_, kRoundings * rounding, allowed_gap_});
     if (worst.gap <= rounding || (stuck && worst.gap <= open)) return;
-    if (i == kMost || !std::isfinite(worst.gap)) {
+    if (i == kMaxIterations || !std::isfinite(worst.gap)) {
       throw Error(Error::Kind::Run, worst.subject, "gap", shortest(worst.gap) + " m",
                   "cannot be closed: check the anchors, lengths and positions of the bodies that it joins");
     }
     before = worst.gap;
     std::fill(shift.begin(), shift.end(), Twist<double>{});
-    if (only_hinges()) {
-      hinges_.close(poses_, shift);
+    if (uses_hinge_system()) {
+      hinges_.close_gaps(poses_, shift);
     } else if (has_joints_) {
       system_.factor(rows_);
       for (std::size_t r = 0; r < rows_.size(); ++r) right_side_[r] = -rows_[r].residual;
       solve_joints();
-      pull(shift);
+      add_joint_response(shift);
     }
-    if (holds_anything()) {
+    if (has_active_constraints()) {
       linearise_contacts(false);
       close_contacts(twists_, true, shift);
     }
-    shift_places(shift, y);
+    add_displacement(shift, y);
   }
 }
 
-void EquationsOfMotion::shift_places(std::span<const Twist<double>> shift, Compensated& y) const {
+void EquationsOfMotion::add_displacement(std::span<const Twist<double>> shift, Compensated& y) const {
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Twist<double>& s = shift[bodies_[slot]];
     y.add(kPerBody * slot, s.velocity.x);
@@ -167,8 +168,8 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
     worst.gap = std::abs(gap);
     worst.subject = subject();
   };
-  if (only_hinges()) {
-    const HingeLines::Widest widest = hinges_.widest(poses_);
+  if (uses_hinge_system()) {
+    const HingeSystem::LargestGap widest = hinges_.largest_gap(poses_);
     offer(widest.gap, [&] { return "joint '" + joint_of_row_[2 * widest.hinge] + "'"; });
   } else {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -178,10 +179,10 @@ EquationsOfMotion::WorstGap EquationsOfMotion::worst_gap() const {
             [&] { return "joint '" + joint_of_row_[r] + "'"; });
     }
   }
-  for (std::size_t k = 0, n = held_stops_ > 0 ? stop_modes_.size() : 0; k < n; ++k) {
-    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
-    if (stop_modes_[k] != StopMode::Held || stop.role != RowRole::Limit) continue;
-    offer(stop_rows_[k].residual, [&] { return "joint '" + stop.joint + "'"; });
+  for (std::size_t k = 0, n = held_limit_motors_ > 0 ? limit_motor_modes_.size() : 0; k < n; ++k) {
+    const GeneralJoints::LimitOrMotor& limit_motor = general_joints_.limits_and_motors()[k];
+    if (limit_motor_modes_[k] != LimitMotorMode::Held || limit_motor.role != RowRole::Limit) continue;
+    offer(limit_motor_rows_[k].residual, [&] { return "joint '" + limit_motor.joint + "'"; });
   }
   for (const ActiveContact& patch : patches_) {
     for (int i = 0; i < patch.count; ++i) {

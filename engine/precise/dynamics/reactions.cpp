@@ -21,15 +21,15 @@ std::vector<EquationsOfMotion::JointEnd> EquationsOfMotion::ends_of_joints(const
   return ends;
 }
 
-/// Computes the joints' multipliers under the forces of contacts and stops of the last evaluation. `press`
-/// sums only the responses to these forces, without the multipliers.
-void EquationsOfMotion::find_multipliers_beside_contacts(double time, std::span<const double> y) {
-  accelerate_freely(time, y, accelerations_);
+/// Computes the joints' multipliers under the forces of contacts, limits and motors of the last evaluation.
+/// `add_contact_accelerations` sums only the responses to these forces, without the multipliers.
+void EquationsOfMotion::find_multipliers_with_contacts(double time, std::span<const double> y) {
+  free_accelerations(time, y, accelerations_);
   for (std::size_t k = 0; k < active_response_.rows.size(); ++k) {
     const auto add = [&](int body, const Twist<double>& by_one) {
       if (body == kFixedFrame) return;
-      accelerations_[body].velocity += contact_side_[k] * by_one.velocity;
-      accelerations_[body].angular_velocity += contact_side_[k] * by_one.angular_velocity;
+      accelerations_[body].velocity += contact_right_side_[k] * by_one.velocity;
+      accelerations_[body].angular_velocity += contact_right_side_[k] * by_one.angular_velocity;
     };
     add(active_response_.rows[k].a, active_response_.of_a[k]);
     add(active_response_.rows[k].b, active_response_.of_b[k]);
@@ -43,7 +43,7 @@ Reactions EquationsOfMotion::reactions(double time, std::span<const double> y) {
   const std::int64_t before = evaluations_;
   scratch_.resize(y.size());
   rate_with_rows(time, y, scratch_);
-  if (has_joints_ && holds_anything()) find_multipliers_beside_contacts(time, y);
+  if (has_joints_ && has_active_constraints()) find_multipliers_with_contacts(time, y);
   evaluations_ = before;
 
   Reactions out;
@@ -59,16 +59,16 @@ Reactions EquationsOfMotion::reactions(double time, std::span<const double> y) {
   if (has_joints_) {
     for (std::size_t r = 0; r < rows_.size(); ++r) add_row(joint_of_row_[r], rows_[r], multipliers_[r]);
   }
-  kind_joints_.each_spring(bodies_now(), add);
-  const std::span<const Row<double>> stops = stop_rows();
+  general_joints_.for_each_spring(bodies_view(), add);
+  const std::span<const Row<double>> limit_motors = limit_motor_rows();
   std::size_t held = 0;
-  for (std::size_t k = 0; k < stop_modes_.size(); ++k) {
-    const GeneralJoints::Stop& stop = kind_joints_.stops()[k];
-    if (stop_modes_[k] == StopMode::Free) continue;
-    const double force = stop_modes_[k] == StopMode::Held      ? contact_forces_.stop[held++]
-                         : stop_modes_[k] == StopMode::Forward ? stop.max_force
-                                                               : -stop.max_force;
-    add_row(stop.joint, stops[k], force);
+  for (std::size_t k = 0; k < limit_motor_modes_.size(); ++k) {
+    const GeneralJoints::LimitOrMotor& limit_motor = general_joints_.limits_and_motors()[k];
+    if (limit_motor_modes_[k] == LimitMotorMode::Free) continue;
+    const double force = limit_motor_modes_[k] == LimitMotorMode::Held ? contact_forces_.limit_motor[held++]
+                         : limit_motor_modes_[k] == LimitMotorMode::Forward ? limit_motor.max_force
+                                                                            : -limit_motor.max_force;
+    add_row(limit_motor.joint, limit_motors[k], force);
   }
   for (std::size_t k = 0; k < joint_ends_.size(); ++k) {
     const JointEnd& end = joint_ends_[k];

@@ -15,13 +15,13 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 Pose<double> pose_of(const BodyState& s) { return {s.position, rotation_of(s.angle)}; }
 Twist<double> twist_of(const BodyState& s) { return {s.velocity, s.angular_velocity}; }
 
-Aabb<double> tight_aabb(const FeatureShape& outline, const Pose<double>& pose, double margin) {
+Aabb<double> tight_aabb(const FeatureShape& shape, const Pose<double>& pose, double margin) {
   Aabb<double> box{{1e300, 1e300}, {-1e300, -1e300}};
-  for (const Corner<double>& corner : outline.corners) {
+  for (const Corner<double>& corner : shape.corners) {
     const Vec2d p = pose.position + pose.rotation * corner.point;
     box = merged(box, {p, p});
   }
-  return box.grown(outline.radius + margin);
+  return box.grown(shape.radius + margin);
 }
 
 }  // namespace
@@ -31,118 +31,121 @@ double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<d
          row.angular_b * b.angular_velocity;
 }
 
-TouchFinder::TouchFinder(const Scene& scene, const Parts& parts)
-    : parts_(parts), outlines_(parts.outlines), rules_(scene.contact_rules) {
+ContactFinder::ContactFinder(const Scene& scene, const ScenePartition& partition)
+    : partition_(partition), shapes_(partition.shapes), rules_(scene.contact_rules) {
   for (const Body& body : scene.bodies) dynamic_.push_back(body.type == BodyType::Dynamic);
-  const Scales scales = scales_of(scene, parts);
+  const Scales scales = scales_of(scene, partition);
   speed_ = scales.speed;
   length_ = scales.length;
 }
 
-bool TouchFinder::may_meet(std::size_t a, std::size_t b) const {
-  const FeatureShape &p = outlines_[a], &q = outlines_[b];
+bool ContactFinder::may_collide(std::size_t a, std::size_t b) const {
+  const FeatureShape &p = shapes_[a], &q = shapes_[b];
   if (p.body == q.body || !(dynamic_[p.body] || dynamic_[q.body]) || !may_touch(p.filter, q.filter))
     return false;
-  return !std::binary_search(parts_.apart.begin(), parts_.apart.end(),
+  return !std::binary_search(partition_.non_colliding.begin(), partition_.non_colliding.end(),
                              std::pair<std::size_t, std::size_t>(std::minmax(p.body, q.body)));
 }
 
-double TouchFinder::friction(const OutlinePair& pair) const {
-  return combine(rules_.friction, outlines_[pair.a].friction, outlines_[pair.b].friction);
+double ContactFinder::friction(const ShapePair& pair) const {
+  return combine(rules_.friction, shapes_[pair.a].friction, shapes_[pair.b].friction);
 }
 
-double TouchFinder::restitution(const OutlinePair& pair) const {
-  return combine(rules_.restitution, outlines_[pair.a].restitution, outlines_[pair.b].restitution);
+double ContactFinder::restitution(const ShapePair& pair) const {
+  return combine(rules_.restitution, shapes_[pair.a].restitution, shapes_[pair.b].restitution);
 }
 
-void TouchFinder::set_coefficients(ContactCandidate& touch) const {
-  touch.friction = friction(touch.pair);
-  touch.sliding_friction = rules_.friction_while_sliding * touch.friction;
-  touch.restitution = restitution(touch.pair);
+void ContactFinder::set_coefficients(ContactCandidate& candidate) const {
+  candidate.friction = friction(candidate.pair);
+  candidate.sliding_friction = rules_.friction_while_sliding * candidate.friction;
+  candidate.restitution = restitution(candidate.pair);
 }
 
-double TouchFinder::restitution_at(const ContactCandidate& touch, int point) const {
-  const double speed = -touch.closing[point];
+double ContactFinder::restitution_at(const ContactCandidate& candidate, int point) const {
+  const double speed = -candidate.gap_rate[point];
   if (speed < rules_.restitution_threshold) return 0;
-  return falling_restitution(touch.restitution, speed, rules_.yield_speed);
+  return falling_restitution(candidate.restitution, speed, rules_.yield_speed);
 }
 
-double TouchFinder::near(std::span<const BodyState> states) const {
+double ContactFinder::gap_rounding(std::span<const BodyState> states) const {
   double extent = 0;
-  for (const FeatureShape& o : outlines_) {
-    extent = std::max(extent, length(states[o.body].position) + o.reach + o.radius);
+  for (const FeatureShape& o : shapes_) {
+    extent = std::max(extent, length(states[o.body].position) + o.extent + o.radius);
   }
   return 32 * kEpsilon * extent;
 }
 
-std::vector<ContactCandidate> TouchFinder::touches(std::span<const BodyState> states, double near,
-                                                   std::vector<OutlinePair>& passing) const {
+std::vector<ContactCandidate> ContactFinder::find_candidates(std::span<const BodyState> states,
+                                                             double tolerance,
+                                                             std::vector<ShapePair>& passing) const {
   passing.clear();
   std::vector<Pose<double>> poses;
   std::vector<Aabb<double>> boxes;
-  for (const FeatureShape& o : outlines_) {
+  for (const FeatureShape& o : shapes_) {
     poses.push_back(pose_of(states[o.body]));
-    boxes.push_back(tight_aabb(o, poses.back(), near));
+    boxes.push_back(tight_aabb(o, poses.back(), tolerance));
   }
   std::vector<ContactCandidate> found;
-  for (const OutlinePair& pair :
-       pairs_of_boxes(boxes, [&](std::size_t a, std::size_t b) { return may_meet(a, b); })) {
-    const FeatureShape &a = outlines_[pair.a], &b = outlines_[pair.b];
-    if (separation(a, poses[pair.a], b, poses[pair.b]).distance > near) continue;
-    ContactCandidate touch;
-    touch.pair = pair;
-    set_coefficients(touch);
+  for (const ShapePair& pair :
+       sweep_and_prune(boxes, [&](std::size_t a, std::size_t b) { return may_collide(a, b); })) {
+    const FeatureShape &a = shapes_[pair.a], &b = shapes_[pair.b];
+    if (separation(a, poses[pair.a], b, poses[pair.b]).distance > tolerance) continue;
+    ContactCandidate candidate;
+    candidate.pair = pair;
+    set_coefficients(candidate);
     for (const Feature& f : touching_features(a, poses[pair.a], twist_of(states[a.body]), b, poses[pair.b],
-                                              twist_of(states[b.body]), near)) {
+                                              twist_of(states[b.body]), tolerance)) {
       const Gap gap = gap_of(f, a, poses[pair.a], b, poses[pair.b]);
-      if (admits(f, gap, a, poses[pair.a], b, poses[pair.b], near)) touch.features[touch.count++] = f;
+      if (allows_contact(f, gap, a, poses[pair.a], b, poses[pair.b], tolerance))
+        candidate.features[candidate.count++] = f;
     }
-    if (touch.count == 0) {
+    if (candidate.count == 0) {
       passing.push_back(pair);
       continue;
     }
-    measure(states, touch);
-    found.push_back(touch);
+    update_rates(states, candidate);
+    found.push_back(candidate);
   }
   return found;
 }
 
-void TouchFinder::measure(std::span<const BodyState> states, ContactCandidate& touch) const {
-  if (touch.stop) return measure_stop(states, touch);
-  const FeatureShape &a = outlines_[touch.pair.a], &b = outlines_[touch.pair.b];
+void ContactFinder::update_rates(std::span<const BodyState> states, ContactCandidate& candidate) const {
+  if (candidate.limit) return update_limit_rate(states, candidate);
+  const FeatureShape &a = shapes_[candidate.pair.a], &b = shapes_[candidate.pair.b];
   const BodyState &state_a = states[a.body], &state_b = states[b.body];
   const Twist<double> twist_a = twist_of(state_a), twist_b = twist_of(state_b);
-  for (int i = 0; i < touch.count; ++i) {
-    touch.rows[i] = rows_of(touch.features[i], a, pose_of(state_a), twist_a, b, pose_of(state_b), twist_b);
-    touch.closing[i] = speed_along(touch.rows[i].normal, twist_a, twist_b);
+  for (int i = 0; i < candidate.count; ++i) {
+    candidate.rows[i] =
+        rows_of(candidate.features[i], a, pose_of(state_a), twist_a, b, pose_of(state_b), twist_b);
+    candidate.gap_rate[i] = speed_along(candidate.rows[i].normal, twist_a, twist_b);
   }
-  touch.slip = speed_along(touch.rows[0].tangent, twist_a, twist_b);
+  candidate.slip_speed = speed_along(candidate.rows[0].tangent, twist_a, twist_b);
   const double around = length(twist_a.velocity) + length(twist_b.velocity) +
-                        std::abs(twist_a.angular_velocity) * (a.reach + a.radius) +
-                        std::abs(twist_b.angular_velocity) * (b.reach + b.radius);
-  touch.quiet = std::max(1e-12 * speed_ + 256 * kEpsilon * around, touch.graze);
+                        std::abs(twist_a.angular_velocity) * (a.extent + a.radius) +
+                        std::abs(twist_b.angular_velocity) * (b.extent + b.radius);
+  candidate.rate_tolerance = std::max(1e-12 * speed_ + 256 * kEpsilon * around, candidate.grazing_speed);
 }
 
 /// Updates the rates of a limit. Its row stays the same while bodies do not move.
-void TouchFinder::measure_stop(std::span<const BodyState> states, ContactCandidate& touch) const {
-  const Row<double>& row = touch.rows[0].normal;
+void ContactFinder::update_limit_rate(std::span<const BodyState> states, ContactCandidate& candidate) const {
+  const Row<double>& row = candidate.rows[0].normal;
   double around = 0;
-  touch.closing[0] = 0;
+  candidate.gap_rate[0] = 0;
   const auto add = [&](int body, Vec2d linear, double angular) {
     if (body == kFixedFrame) return;
     const BodyState& s = states[static_cast<std::size_t>(body)];
-    touch.closing[0] += dot(linear, s.velocity) + angular * s.angular_velocity;
+    candidate.gap_rate[0] += dot(linear, s.velocity) + angular * s.angular_velocity;
     around += length(linear) * length(s.velocity) + std::abs(angular * s.angular_velocity);
   };
   add(row.a, row.linear_a, row.angular_a);
   add(row.b, row.linear_b, row.angular_b);
-  touch.quiet = 1e-12 * speed_ + 256 * kEpsilon * around;
+  candidate.rate_tolerance = 1e-12 * speed_ + 256 * kEpsilon * around;
 }
 
-std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepMotionBounds& paths) {
+std::vector<ShapePair> overlapping_pairs(const ContactFinder& finder, const StepMotionBounds& bounds) {
   std::vector<Aabb<double>> boxes;
-  for (const FeatureShape& o : finder.outlines()) boxes.push_back(paths.swept(o));
-  return pairs_of_boxes(boxes, [&](std::size_t a, std::size_t b) { return finder.may_meet(a, b); });
+  for (const FeatureShape& o : finder.shapes()) boxes.push_back(bounds.swept(o));
+  return sweep_and_prune(boxes, [&](std::size_t a, std::size_t b) { return finder.may_collide(a, b); });
 }
 
 }  // namespace plumb::precise

@@ -7,7 +7,7 @@
 
 #include "engine/precise/dynamics/feature_shape.h"
 #include "engine/precise/dynamics/motion.h"
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/precise/event_search/conservative_advancement.h"
 #include "engine/scene/scene.h"
 
@@ -19,70 +19,70 @@ double speed_along(const Row<double>& row, const Twist<double>& a, const Twist<d
 /// Two shapes that touch at an instant, in one or two points, with their relative motion there; or a limit of
 /// a joint that is reached, with one point.
 struct ContactCandidate {
-  OutlinePair pair{};
-  std::optional<std::size_t> stop{};  ///< index of the limit among the equations' stops; then without shapes
-  double friction = 0;                ///< static, and of impacts
-  double sliding_friction = 0;        ///< kinetic, of a persistent contact that slips
+  ShapePair pair{};
+  std::optional<std::size_t> limit{};  ///< index among `limits_and_motors()`; then without shapes
+  double friction = 0;                 ///< static, and of impacts
+  double sliding_friction = 0;         ///< kinetic, of a persistent contact that slips
   double restitution = 0;
   int count = 0;
   Feature features[2] = {};
   ContactRows rows[2] = {};
-  double closing[2] = {};  ///< m/s, the gap's rate: negative when it closes
-  double slip = 0;         ///< m/s, of b against a along the tangent
-  double quiet = 0;        ///< m/s, rounding error of these rates, or `graze` if larger
-  double graze = 0;        ///< m/s: slower approaches end before the gap changes by more than rounding
+  double gap_rate[2] = {};    ///< m/s, the gap's rate: negative when it closes
+  double slip_speed = 0;      ///< m/s, of b against a along the tangent
+  double rate_tolerance = 0;  ///< m/s, rounding error of these rates, or `grazing_speed` if larger
+  double grazing_speed = 0;   ///< m/s: slower approaches end before the gap changes by more than rounding
 };
 
-/// Returns true if a point of a touch closes, faster than rounding.
-inline bool closes_at(const ContactCandidate& touch, int point) {
-  return touch.closing[point] < -touch.quiet;
+/// Returns true if the gap of a point closes faster than rounding.
+inline bool closes_at(const ContactCandidate& candidate, int point) {
+  return candidate.gap_rate[point] < -candidate.rate_tolerance;
 }
 /// Returns true if any point does.
-inline bool closes(const ContactCandidate& touch) {
-  return std::any_of(touch.closing, touch.closing + touch.count,
-                     [&](double rate) { return rate < -touch.quiet; });
+inline bool closes(const ContactCandidate& candidate) {
+  return std::any_of(candidate.gap_rate, candidate.gap_rate + candidate.count,
+                     [&](double rate) { return rate < -candidate.rate_tolerance; });
 }
 
-/// The outlines of a scene that may touch; finds those that touch at an instant.
-class TouchFinder {
+/// Holds the shapes of a scene that may touch, and finds those that touch at an instant.
+class ContactFinder {
  public:
-  TouchFinder(const Scene& scene, const Parts& parts);
+  ContactFinder(const Scene& scene, const ScenePartition& partition);
 
-  std::span<const FeatureShape> outlines() const { return outlines_; }
-  bool may_meet(std::size_t a, std::size_t b) const;
-  double friction(const OutlinePair& pair) const;
-  double restitution(const OutlinePair& pair) const;
-  /// Sets the coefficients of a touch of two shapes.
-  void set_coefficients(ContactCandidate& touch) const;
+  std::span<const FeatureShape> shapes() const { return shapes_; }
+  bool may_collide(std::size_t a, std::size_t b) const;
+  double friction(const ShapePair& pair) const;
+  double restitution(const ShapePair& pair) const;
+  /// Sets friction and restitution of two shapes.
+  void set_coefficients(ContactCandidate& candidate) const;
   const ContactRules& rules() const { return rules_; }
   /// Returns the restitution of one impact, at the speed of approach that it has.
-  double restitution_at(const ContactCandidate& touch, int point) const;
+  double restitution_at(const ContactCandidate& candidate, int point) const;
   double scale_of_speed() const { return speed_; }
   double scale_of_length() const { return length_; }
 
   /// Returns the rounding error of a gap, m, for bodies in the given states.
-  double near(std::span<const BodyState> states) const;
+  double gap_rounding(std::span<const BodyState> states) const;
 
   /// Returns the shapes that touch, pairs in ascending order. `states` is by body of the scene. Adds to
   /// `passing` the pairs that touch where a chain may not push: at its back, and at an end that belongs to
   /// the next segment.
-  std::vector<ContactCandidate> touches(std::span<const BodyState> states, double near,
-                                        std::vector<OutlinePair>& passing) const;
+  std::vector<ContactCandidate> find_candidates(std::span<const BodyState> states, double tolerance,
+                                                std::vector<ShapePair>& passing) const;
 
-  /// Updates the rates of a touch after velocities have changed.
-  void measure(std::span<const BodyState> states, ContactCandidate& touch) const;
+  /// Updates gap rates and slip speed after velocities have changed.
+  void update_rates(std::span<const BodyState> states, ContactCandidate& candidate) const;
 
  private:
-  void measure_stop(std::span<const BodyState> states, ContactCandidate& touch) const;
+  void update_limit_rate(std::span<const BodyState> states, ContactCandidate& candidate) const;
 
-  Parts parts_;
-  std::vector<FeatureShape> outlines_;
+  ScenePartition partition_;
+  std::vector<FeatureShape> shapes_;
   std::vector<char> dynamic_;  // by body
   ContactRules rules_;
   double speed_ = 1, length_ = 1;
 };
 
 /// Broad phase of a step: returns the pairs whose swept boxes overlap.
-std::vector<OutlinePair> near_pairs(const TouchFinder& finder, const StepMotionBounds& paths);
+std::vector<ShapePair> overlapping_pairs(const ContactFinder& finder, const StepMotionBounds& bounds);
 
 }  // namespace plumb::precise

@@ -8,7 +8,7 @@
 namespace plumb::precise {
 namespace {
 
-/// Returns true if two outlines have the corners and the edge that a feature refers to.
+/// Returns true if two shapes have the corners and the edge that a feature refers to.
 bool is_feature(const Feature& f, const FeatureShape& a, const FeatureShape& b) {
   if (f.a < 0 || f.a >= a.count() || f.b < 0 || f.b >= b.count()) return false;
   switch (f.kind) {
@@ -27,51 +27,52 @@ bool is_feature(const Feature& f, const FeatureShape& a, const FeatureShape& b) 
 void Contacts::save(SnapshotWriter& out) const {
   out.put(static_cast<std::uint64_t>(held_.size()));
   for (std::size_t p = 0; p < held_.size(); ++p) {
-    const ActiveContact& patch = equations_.held()[p];
+    const ActiveContact& patch = equations_.active_contacts()[p];
     out.put(held_[p]);
     out.put(patch.friction);
     out.put(patch.sliding_friction);
     out.put(patch.mode);
     out.put(patch.count);
     out.put(patch.features);
-    out.put(patch.pushes);
-    out.put(patch.grip);
+    out.put(patch.normal_forces);
+    out.put(patch.tangential_force);
   }
   out.put(static_cast<std::uint64_t>(touching_.size()));
-  for (const OutlinePair& pair : touching_) out.put(pair);
+  for (const ShapePair& pair : touching_) out.put(pair);
   out.put(static_cast<std::uint64_t>(passing_.size()));
-  for (const OutlinePair& pair : passing_) out.put(pair);
-  out.put(near_);
+  for (const ShapePair& pair : passing_) out.put(pair);
+  out.put(gap_tolerance_);
   out.put(force_scale_);
-  out.put(std::int64_t{settled_});
+  out.put(std::int64_t{resolved_});
   out.put(last_event_);
   out.put(events_at_once_);
   for (const EventCount& each : events_) out.put(each);
   // The guard of a settled event is obsolete: it may refer to contacts that are no longer held.
-  const bool open = !settled_;
+  const bool open = !resolved_;
   out.put(std::int64_t{open && record_.guard});
   out.put(open ? record_.guard.value_or(Guard{}) : Guard{});
-  out.put(std::int64_t{open && record_.met});
-  out.put(open ? record_.met.value_or(OutlinePair{}) : OutlinePair{});
-  stops_.save(out);
+  out.put(std::int64_t{open && record_.new_pair});
+  out.put(open ? record_.new_pair.value_or(ShapePair{}) : ShapePair{});
+  limits_and_motors_.save(out);
 }
 
 /// Returns true if everything that a guard refers to exists in this scene and its held contacts.
-bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) const {
-  const std::span<const FeatureShape> outlines = finder_.outlines();
+bool Contacts::is_valid(const Guard& guard, std::span<const ActiveContact> patches) const {
+  const std::span<const FeatureShape> shapes = finder_.shapes();
   switch (guard.kind) {
     case Guard::Kind::Gap:
     case Guard::Kind::Rate:
-      return guard.pair.a < outlines.size() && guard.pair.b < outlines.size() &&
-             is_feature(guard.feature, outlines[guard.pair.a], outlines[guard.pair.b]);
+      return guard.pair.a < shapes.size() && guard.pair.b < shapes.size() &&
+             is_feature(guard.feature, shapes[guard.pair.a], shapes[guard.pair.b]);
     case Guard::Kind::Limit:
-      return guard.stop < stops_.count();
+      return guard.limit_motor < limits_and_motors_.count();
     case Guard::Kind::Quantity:
       break;
     default:
       return false;
   }
-  if (guard.monitored == static_cast<int>(Quantity::Stop)) return guard.stop < stops_.count();
+  if (guard.monitored == static_cast<int>(Quantity::LimitMotor))
+    return guard.limit_motor < limits_and_motors_.count();
   if (guard.patch >= patches.size() || guard.point < 0) return false;
   const int points = patches[guard.patch].count;
   switch (static_cast<Quantity>(guard.monitored)) {
@@ -81,10 +82,10 @@ bool Contacts::fits(const Guard& guard, std::span<const ActiveContact> patches) 
     case Quantity::Slip:
       return guard.point == 0;
     case Quantity::Range:
-      return guard.point < Limits::kMost * points;
+      return guard.point < FeatureLimits::kMaxCount * points;
     case Quantity::Height:
-      return guard.point < Limits::kMost;
-    case Quantity::Stop:
+      return guard.point < FeatureLimits::kMaxCount;
+    case Quantity::LimitMotor:
       break;
   }
   return false;
@@ -94,29 +95,29 @@ void Contacts::restore_record(SnapshotReader& in, std::span<const ActiveContact>
   const bool has_guard = in.get<std::int64_t>() != 0;
   const auto guard = in.get<Guard>();
   const bool has_met = in.get<std::int64_t>() != 0;
-  const auto met = in.get<OutlinePair>();
-  const auto is_ours = [&](const OutlinePair& pair) {
-    const std::size_t outlines = finder_.outlines().size();
-    return outlines == 0 ? pair == OutlinePair{} : pair.a < outlines && pair.b < outlines;
+  const auto met = in.get<ShapePair>();
+  const auto is_ours = [&](const ShapePair& pair) {
+    const std::size_t count = finder_.shapes().size();
+    return count == 0 ? pair == ShapePair{} : pair.a < count && pair.b < count;
   };
-  in.expect(is_ours(met) && (!has_guard || fits(guard, patches)));
+  in.expect(is_ours(met) && (!has_guard || is_valid(guard, patches)));
   record_ = {};
   if (has_guard) record_.guard = guard;
-  if (has_met) record_.met = met;
+  if (has_met) record_.new_pair = met;
 }
 
 void Contacts::restore(SnapshotReader& in) {
   const auto pair = [&] {
-    const auto read = in.get<OutlinePair>();
-    in.expect(read.a < finder_.outlines().size() && read.b < finder_.outlines().size());
+    const auto read = in.get<ShapePair>();
+    in.expect(read.a < finder_.shapes().size() && read.b < finder_.shapes().size());
     return read;
   };
-  std::vector<ActiveContact> patches(in.count(sizeof(OutlinePair)));
+  std::vector<ActiveContact> patches(in.count(sizeof(ShapePair)));
   held_.clear();
   for (ActiveContact& patch : patches) {
     held_.push_back(pair());
-    patch.a = &finder_.outlines()[held_.back().a];
-    patch.b = &finder_.outlines()[held_.back().b];
+    patch.a = &finder_.shapes()[held_.back().a];
+    patch.b = &finder_.shapes()[held_.back().b];
     patch.friction = in.get<double>();
     patch.sliding_friction = in.get<double>();
     patch.mode = in.get<int>();
@@ -126,22 +127,22 @@ void Contacts::restore(SnapshotReader& in) {
       feature = in.get<Feature>();
       in.expect(is_feature(feature, *patch.a, *patch.b));
     }
-    for (double& force : patch.pushes) force = in.get<double>();
-    patch.grip = in.get<double>();
+    for (double& force : patch.normal_forces) force = in.get<double>();
+    patch.tangential_force = in.get<double>();
   }
-  touching_.assign(in.count(sizeof(OutlinePair)), {});
-  for (OutlinePair& each : touching_) each = pair();
-  passing_.assign(in.count(sizeof(OutlinePair)), {});
-  for (OutlinePair& each : passing_) each = pair();
-  near_ = in.get<double>();
+  touching_.assign(in.count(sizeof(ShapePair)), {});
+  for (ShapePair& each : touching_) each = pair();
+  passing_.assign(in.count(sizeof(ShapePair)), {});
+  for (ShapePair& each : passing_) each = pair();
+  gap_tolerance_ = in.get<double>();
   force_scale_ = in.get<double>();
-  settled_ = in.get<std::int64_t>() != 0;
+  resolved_ = in.get<std::int64_t>() != 0;
   last_event_ = in.get<double>();
   events_at_once_ = in.get<int>();
   for (EventCount& each : events_) each = in.get<EventCount>();
   restore_record(in, patches);
-  equations_.hold_contacts(std::move(patches));
-  stops_.restore(in);
+  equations_.set_contacts(std::move(patches));
+  limits_and_motors_.restore(in);
 }
 
 }  // namespace plumb::precise

@@ -26,20 +26,20 @@ class Pivoting {
     }
     for (std::size_t p = 0; p < problem.patches.size(); ++p) {
       const std::size_t t = n_ + p;
-      const bool may_stick = problem.patches[p].slip == 0 &&
+      const bool may_stick = problem.patches[p].slip_direction == 0 &&
                              (problem.patches[p].friction > 0 || problem.patches[p].bound > 0) &&
                              problem.response[t * size_ + t] > 0;
-      place_.push_back(may_stick ? static_cast<int>(free_.size()) : -1);
-      if (may_stick) free_.push_back(p);
+      sticking_index_.push_back(may_stick ? static_cast<int>(sticking_.size()) : -1);
+      if (may_stick) sticking_.push_back(p);
     }
   }
 
   CoulombSolution solve() {
     assemble();
     const ComplementaritySolution found = solve_complementarity(matrix_, q_);
-    CoulombSolution out = nothing();
+    CoulombSolution out = empty_solution();
     out.solved = found.status == ComplementaritySolution::Status::Solved;
-    if (!out.solved && !free_.empty()) return solve_split();
+    if (!out.solved && !sticking_.empty()) return solve_split();
     if (out.solved) take(found, out);
     return out;
   }
@@ -54,72 +54,73 @@ class Pivoting {
     return problem_.patches[p].friction * scale_[point] / scale_[n_ + p];
   }
   /// Returns the tangential force per unit normal force, at s = 0.
-  double drawn(std::size_t point) const {
+  double friction_ratio(std::size_t point) const {
     const int p = problem_.patch_of[point];
-    if (place_[p] >= 0) return -cone(point);
-    return -problem_.patches[p].slip * cone(point);
+    if (sticking_index_[p] >= 0) return -cone(point);
+    return -problem_.patches[p].slip_direction * cone(point);
   }
 
-  /// Returns m0 in scaled forces. `set` returns the tangential force at zero normal force and s = 0.
+  /// Returns m0 in scaled forces. `fixed_force` returns the tangential force at zero normal force and s = 0.
   double bound(std::size_t patch) const { return problem_.patches[patch].bound / scale_[n_ + patch]; }
-  double set(std::size_t patch) const {
-    return place_[patch] >= 0 ? -bound(patch) : -problem_.patches[patch].slip * bound(patch);
+  double fixed_force(std::size_t patch) const {
+    return sticking_index_[patch] >= 0 ? -bound(patch)
+                                       : -problem_.patches[patch].slip_direction * bound(patch);
   }
 
   /// Solves the same problem with other unknowns: tau = p - m with parts p, m >= 0, and the slip's magnitude
   /// g (M. Anitescu, F. A. Potra, Nonlinear Dynamics 14, 1997). This has one more unknown per patch, but is
   /// copositive: Lemke's method reaches a solution if all patches may stick, for any width of the cone.
   CoulombSolution solve_split() {
-    const std::size_t f = free_.size(), size = n_ + 3 * f;
+    const std::size_t f = sticking_.size(), size = n_ + 3 * f;
     std::vector<double> matrix(size * size, 0.0), q(size, 0.0);
     const auto fill = [&](std::size_t row, std::size_t of, double sign) {
       for (std::size_t j = 0; j < n_; ++j) {
         const auto patch = static_cast<std::size_t>(problem_.patch_of[j]);
-        const double own = place_[patch] >= 0 ? 0 : drawn(j);
+        const double own = sticking_index_[patch] >= 0 ? 0 : friction_ratio(j);
         matrix[row * size + j] = sign * (response(of, j) + own * response(of, n_ + patch));
       }
       for (std::size_t k = 0; k < f; ++k) {
-        matrix[row * size + n_ + k] = sign * response(of, n_ + free_[k]);
-        matrix[row * size + n_ + f + k] = -sign * response(of, n_ + free_[k]);
+        matrix[row * size + n_ + k] = sign * response(of, n_ + sticking_[k]);
+        matrix[row * size + n_ + f + k] = -sign * response(of, n_ + sticking_[k]);
       }
       q[row] = scale_[of] * problem_.rate[of];
-      for (std::size_t p = 0; p < place_.size(); ++p)
-        q[row] += place_[p] < 0 ? set(p) * response(of, n_ + p) : 0;
+      for (std::size_t p = 0; p < sticking_index_.size(); ++p)
+        q[row] += sticking_index_[p] < 0 ? fixed_force(p) * response(of, n_ + p) : 0;
       q[row] *= sign;
     };
     for (std::size_t i = 0; i < n_; ++i) fill(i, i, 1);
     for (std::size_t k = 0; k < f; ++k) {
       const std::size_t plus = n_ + k, minus = n_ + f + k, slip = n_ + 2 * f + k;
-      fill(plus, n_ + free_[k], 1);
-      fill(minus, n_ + free_[k], -1);
+      fill(plus, n_ + sticking_[k], 1);
+      fill(minus, n_ + sticking_[k], -1);
       matrix[plus * size + slip] = matrix[minus * size + slip] = 1;
       matrix[slip * size + plus] = matrix[slip * size + minus] = -1;
-      q[slip] = bound(free_[k]);
+      q[slip] = bound(sticking_[k]);
       for (std::size_t j = 0; j < n_; ++j) {
-        if (problem_.patch_of[j] == static_cast<int>(free_[k])) matrix[slip * size + j] = cone(j);
+        if (problem_.patch_of[j] == static_cast<int>(sticking_[k])) matrix[slip * size + j] = cone(j);
       }
     }
     unit_ = 0;
     for (const double x : q) unit_ = std::max(unit_, std::abs(x));
     for (double& x : q) x /= unit_;
     const ComplementaritySolution found = solve_complementarity(matrix, q);
-    CoulombSolution out = nothing();
+    CoulombSolution out = empty_solution();
     out.solved = found.status == ComplementaritySolution::Status::Solved;
     if (!out.solved) return out;
     std::vector<double> scaled(size_, 0.0);
     for (std::size_t i = 0; i < n_; ++i) {
       const auto patch = static_cast<std::size_t>(problem_.patch_of[i]);
       scaled[i] = found.z[i];
-      if (place_[patch] < 0) scaled[n_ + patch] += drawn(i) * found.z[i];
-      out.pushes[i] = found.basic[i];
+      if (sticking_index_[patch] < 0) scaled[n_ + patch] += friction_ratio(i) * found.z[i];
+      out.active[i] = found.basic[i];
     }
-    for (std::size_t p = 0; p < place_.size(); ++p) {
-      out.mode[p] = problem_.patches[p].slip;
-      if (place_[p] < 0) {
-        scaled[n_ + p] += set(p) / unit_;
+    for (std::size_t p = 0; p < sticking_index_.size(); ++p) {
+      out.mode[p] = problem_.patches[p].slip_direction;
+      if (sticking_index_[p] < 0) {
+        scaled[n_ + p] += fixed_force(p) / unit_;
         continue;
       }
-      const std::size_t k = static_cast<std::size_t>(place_[p]), slip = n_ + 2 * f + k;
+      const std::size_t k = static_cast<std::size_t>(sticking_index_[p]), slip = n_ + 2 * f + k;
       scaled[n_ + p] += found.z[n_ + k] - found.z[n_ + f + k];
       out.mode[p] = !(found.z[slip] > 0) ? 0 : scaled[n_ + p] > 0 ? -1 : 1;
     }
@@ -127,11 +128,11 @@ class Pivoting {
     return out;
   }
 
-  CoulombSolution nothing() const {
+  CoulombSolution empty_solution() const {
     CoulombSolution out;
     out.force.assign(size_, 0.0);
     out.rate = problem_.rate;
-    out.pushes.assign(n_, 0);
+    out.active.assign(n_, 0);
     out.mode.assign(problem_.patches.size(), 0);
     out.ambiguous = ambiguous_;
     return out;
@@ -145,42 +146,44 @@ class Pivoting {
   }
 
   void assemble() {
-    const std::size_t f = free_.size(), size = n_ + 2 * f;
+    const std::size_t f = sticking_.size(), size = n_ + 2 * f;
     matrix_.assign(size * size, 0.0);
     q_.assign(size, 0.0);
     const auto fill = [&](std::size_t row, std::size_t of) {
       for (std::size_t j = 0; j < n_; ++j) {
-        matrix_[row * size + j] = response(of, j) + drawn(j) * response(of, n_ + problem_.patch_of[j]);
+        matrix_[row * size + j] =
+            response(of, j) + friction_ratio(j) * response(of, n_ + problem_.patch_of[j]);
       }
-      for (std::size_t k = 0; k < f; ++k) matrix_[row * size + n_ + k] = response(of, n_ + free_[k]);
+      for (std::size_t k = 0; k < f; ++k) matrix_[row * size + n_ + k] = response(of, n_ + sticking_[k]);
       q_[row] = scale_[of] * problem_.rate[of];
-      for (std::size_t p = 0; p < place_.size(); ++p) q_[row] += set(p) * response(of, n_ + p);
+      for (std::size_t p = 0; p < sticking_index_.size(); ++p)
+        q_[row] += fixed_force(p) * response(of, n_ + p);
     };
     for (std::size_t i = 0; i < n_; ++i) {
       fill(i, i);
-      ambiguous_ =
-          ambiguous_ || (problem_.patches[problem_.patch_of[i]].slip != 0 && matrix_[i * size + i] < 0);
+      ambiguous_ = ambiguous_ ||
+                   (problem_.patches[problem_.patch_of[i]].slip_direction != 0 && matrix_[i * size + i] < 0);
     }
     for (std::size_t k = 0; k < f; ++k) {
-      fill(n_ + k, n_ + free_[k]);
+      fill(n_ + k, n_ + sticking_[k]);
       matrix_[(n_ + k) * size + n_ + f + k] = 1;
       matrix_[(n_ + f + k) * size + n_ + k] = -1;
-      q_[n_ + f + k] = 2 * bound(free_[k]);
+      q_[n_ + f + k] = 2 * bound(sticking_[k]);
       for (std::size_t j = 0; j < n_; ++j) {
-        if (problem_.patch_of[j] == static_cast<int>(free_[k]))
+        if (problem_.patch_of[j] == static_cast<int>(sticking_[k]))
           matrix_[(n_ + f + k) * size + j] = 2 * cone(j);
       }
     }
     // With wide cones s grows in proportion to their width: scale s and its row by it.
-    wide_.assign(f, 1.0);
+    width_.assign(f, 1.0);
     for (std::size_t k = 0; k < f; ++k) {
       for (std::size_t j = 0; j < n_; ++j) {
-        if (problem_.patch_of[j] == static_cast<int>(free_[k])) wide_[k] = std::max(wide_[k], cone(j));
+        if (problem_.patch_of[j] == static_cast<int>(sticking_[k])) width_[k] = std::max(width_[k], cone(j));
       }
       for (const std::size_t at : {n_ + k, n_ + f + k}) {
-        for (std::size_t i = 0; i < size; ++i) matrix_[i * size + at] *= wide_[k];
-        for (std::size_t j = 0; j < size; ++j) matrix_[at * size + j] /= wide_[k];
-        q_[at] /= wide_[k];
+        for (std::size_t i = 0; i < size; ++i) matrix_[i * size + at] *= width_[k];
+        for (std::size_t j = 0; j < size; ++j) matrix_[at * size + j] /= width_[k];
+        q_[at] /= width_[k];
       }
     }
     for (const double x : q_) unit_ = std::max(unit_, std::abs(x));
@@ -190,19 +193,20 @@ class Pivoting {
   }
 
   void take(const ComplementaritySolution& found, CoulombSolution& out) const {
-    const std::size_t f = free_.size();
+    const std::size_t f = sticking_.size();
     std::vector<double> scaled(size_, 0.0);
     for (std::size_t i = 0; i < n_; ++i) {
       scaled[i] = found.z[i];
-      scaled[n_ + problem_.patch_of[i]] += drawn(i) * found.z[i];
-      out.pushes[i] = found.basic[i];
+      scaled[n_ + problem_.patch_of[i]] += friction_ratio(i) * found.z[i];
+      out.active[i] = found.basic[i];
     }
-    for (std::size_t k = 0; k < f; ++k) scaled[n_ + free_[k]] += wide_[k] * found.z[n_ + k];
-    for (std::size_t p = 0; unit_ > 0 && p < place_.size(); ++p) scaled[n_ + p] += set(p) / unit_;
-    for (std::size_t p = 0; p < place_.size(); ++p) {
-      out.mode[p] = problem_.patches[p].slip;
-      if (place_[p] < 0) continue;
-      const std::size_t s = n_ + static_cast<std::size_t>(place_[p]);
+    for (std::size_t k = 0; k < f; ++k) scaled[n_ + sticking_[k]] += width_[k] * found.z[n_ + k];
+    for (std::size_t p = 0; unit_ > 0 && p < sticking_index_.size(); ++p)
+      scaled[n_ + p] += fixed_force(p) / unit_;
+    for (std::size_t p = 0; p < sticking_index_.size(); ++p) {
+      out.mode[p] = problem_.patches[p].slip_direction;
+      if (sticking_index_[p] < 0) continue;
+      const std::size_t s = n_ + static_cast<std::size_t>(sticking_index_[p]);
       out.mode[p] = found.basic[s + f] ? -1 : found.basic[s] ? 0 : 1;
     }
     finish(scaled, out);
@@ -211,9 +215,9 @@ class Pivoting {
   const CoulombProblem& problem_;
   std::size_t n_, size_;
   std::vector<double> scale_;
-  std::vector<std::size_t> free_;  // patches that may stick
-  std::vector<int> place_;         // by patch: its index among these, or -1
-  std::vector<double> matrix_, q_, wide_;
+  std::vector<std::size_t> sticking_;  // patches that may stick
+  std::vector<int> sticking_index_;    // by patch: its index among these, or -1
+  std::vector<double> matrix_, q_, width_;
   double unit_ = 0;
   bool ambiguous_ = false;
 };

@@ -16,9 +16,9 @@ namespace plumb {
 /// limit.
 struct CoulombProblem {
   struct Patch {
-    double friction = 0;  ///< Coulomb's coefficient
-    int slip = 0;         ///< +1, -1: slips in this direction for any rate; 0: may stick
-    double bound = 0;     ///< m0, N: limit of the tangential force without any normal force
+    double friction = 0;     ///< Coulomb's coefficient
+    int slip_direction = 0;  ///< +1, -1: slips in this direction for any rate; 0: may stick
+    double bound = 0;        ///< m0, N: limit of the tangential force without any normal force
   };
   std::vector<int> patch_of;  ///< by point
   std::vector<Patch> patches;
@@ -35,7 +35,7 @@ struct CoulombSolution {
   bool solved = false;        ///< false: there is no solution, or none was reached
   std::vector<double> force;  ///< by row: normals first, then tangents
   std::vector<double> rate;   ///< by row: with the forces
-  std::vector<char> pushes;   ///< by point: a = 0 determines its force, which may be zero
+  std::vector<char> active;   ///< by point: a = 0 determines its force, which may be zero
   std::vector<int> mode;      ///< by patch: 0 sticks, +1 and -1 slips in that direction
   bool ambiguous = false;     ///< a slipping point responds to its own force in the wrong direction: several
                               ///< solutions may exist

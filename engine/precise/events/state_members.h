@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/encoding/members.h"
-#include "engine/precise/dynamics/flight.h"
+#include "engine/precise/dynamics/ballistic_motion.h"
 #include "engine/precise/event_search/conservative_advancement.h"
 #include "engine/precise/events/contacts.h"
 
@@ -16,9 +16,9 @@ inline constexpr int kEnumerators<precise::Contacts::Guard::Kind> = 4;
 PLUMB_MEMBERS(BodyState, position, angle, velocity, angular_velocity)
 PLUMB_MEMBERS(EventCount, count, last)
 PLUMB_MEMBERS(precise::Motion, state, acceleration, angular_acceleration)
-PLUMB_MEMBERS(precise::Flight::Arc, start, motion)
-PLUMB_MEMBERS(precise::OutlinePair, a, b)
+PLUMB_MEMBERS(precise::BallisticMotion::Arc, start, motion)
+PLUMB_MEMBERS(precise::ShapePair, a, b)
 PLUMB_MEMBERS(precise::Feature, kind, a, b)
-PLUMB_MEMBERS(precise::Contacts::Guard, kind, pair, feature, stop, patch, monitored, point)
+PLUMB_MEMBERS(precise::Contacts::Guard, kind, pair, feature, limit_motor, patch, monitored, point)
 
 }  // namespace plumb

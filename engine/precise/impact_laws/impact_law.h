@@ -6,8 +6,8 @@ namespace plumb::precise {
 
 /// A contact point in an impact. Rates are those before it.
 struct ImpactPoint {
-  double closing = 0;           ///< m/s, of the gap, negative
-  double slip = 0;              ///< m/s, along the tangent
+  double gap_rate = 0;          ///< m/s, of the gap, negative
+  double slip_speed = 0;        ///< m/s, along the tangent
   double normal_response = 1;   ///< 1/kg, of the gap's rate to a normal impulse, > 0
   double cross_response = 0;    ///< 1/kg, of the slip to a normal impulse, and the other way round
   double tangent_response = 1;  ///< 1/kg, of the slip to a tangential impulse, > 0
@@ -55,7 +55,7 @@ ContactImpulse with_tangential_restitution(const ImpactPoint& point, const Impac
 double energy_change(const ImpactPoint& point, const ContactImpulse& impulse);
 
 /// Returns the rate of the gap, or the slip, after an impulse, m/s.
-double closing_after(const ImpactPoint& point, const ContactImpulse& impulse);
-double slip_after(const ImpactPoint& point, const ContactImpulse& impulse);
+double gap_rate_after(const ImpactPoint& point, const ContactImpulse& impulse);
+double slip_speed_after(const ImpactPoint& point, const ContactImpulse& impulse);
 
 }  // namespace plumb::precise

@@ -11,8 +11,7 @@ class SlipPath {
  public:
   SlipPath(const ImpactPoint& point, const ImpactCoefficients& coefficients);
 
-  double bend() const { return bend_; }  ///< N s, infinite if the slip does not stop
-  double closing(double p) const;        ///< m/s, of the gap
+  double gap_rate(double p) const;  ///< m/s, of the gap
   ContactImpulse impulse(double p) const;
 
   /// Returns the normal impulse at which the gap stops closing, N s.
@@ -27,8 +26,8 @@ class SlipPath {
  private:
   double start_;                       ///< m/s, gap rate at p = 0
   double first_slope_, second_slope_;  ///< 1/kg, of the gap rate before and after the bend
-  double first_share_, second_share_;  ///< tangential impulse per normal impulse
-  double bend_;
+  double first_ratio_, second_ratio_;  ///< tangential impulse per normal impulse
+  double slip_end_;                    ///< N s, infinite if the slip does not stop
 };
 
 }  // namespace plumb::precise

@@ -13,19 +13,20 @@ constexpr double kStopped = 1e-9;
 
 ContactImpulse with_tangential_restitution(const ImpactPoint& point, const ImpactCoefficients& c,
                                            const ContactImpulse& impulse) {
-  if (c.tangential_restitution == 0 || std::abs(slip_after(point, impulse)) > kStopped * std::abs(point.slip))
+  if (c.tangential_restitution == 0 ||
+      std::abs(slip_speed_after(point, impulse)) > kStopped * std::abs(point.slip_speed))
     return impulse;
-  const double way = point.slip > 0 ? -1 : 1;
-  double more = c.tangential_restitution * std::abs(point.slip) / point.tangent_response;
+  const double direction = point.slip_speed > 0 ? -1 : 1;
+  double added = c.tangential_restitution * std::abs(point.slip_speed) / point.tangent_response;
   const double cone = std::max(c.friction, c.later_friction) * impulse.normal;
-  more = std::min(more, std::max(0.0, cone - way * impulse.tangential));
+  added = std::min(added, std::max(0.0, cone - direction * impulse.tangential));
   // From zero slip, the added impulse costs the energy tangent_response more^2 / 2, which must not exceed the
   // energy lost so far.
   const double lost = std::max(0.0, -energy_change(point, impulse));
-  more = std::min(more, std::sqrt(2 * lost / point.tangent_response));
-  const double opening = closing_after(point, impulse), change = way * point.cross_response;
-  if (change < 0) more = std::min(more, std::max(0.0, opening) / -change);
-  return {impulse.normal, impulse.tangential + way * more};
+  added = std::min(added, std::sqrt(2 * lost / point.tangent_response));
+  const double opening = gap_rate_after(point, impulse), change = direction * point.cross_response;
+  if (change < 0) added = std::min(added, std::max(0.0, opening) / -change);
+  return {impulse.normal, impulse.tangential + direction * added};
 }
 
 }  // namespace plumb::precise

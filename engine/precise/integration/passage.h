@@ -16,14 +16,14 @@ namespace plumb::precise {
 /// accelerations have errors of d / s. So this flow is dy/dt = f(P(y)), with f the equations of motion and P
 /// the nearest point on the branch. It is as smooth as the branch: a step with stages on both sides of the
 /// crossing keeps its order. The motion so far selects the branch: P starts from its extrapolated polynomial.
-class Passage final : public Flow {
+class SingularityPassage final : public Flow {
  public:
-  explicit Passage(EquationsOfMotion& equations);
+  explicit SingularityPassage(EquationsOfMotion& equations);
 
   /// Sets the expected motion: the extrapolated step from `start` to `end`, with y at its beginning.
-  void expect(const StepPolynomial& path, double start, double end, std::span<const double> y);
+  void set_expected(const StepPolynomial& path, double start, double end, std::span<const double> y);
   /// Sets the expected motion from y at `time` by the rates there.
-  void expect(double time, std::span<const double> y, std::span<const double> rate);
+  void set_expected(double time, std::span<const double> y, std::span<const double> rate);
 
   /// Finds the next crossing on the expected motion, after `from` and up to `to`. The branches meet (`meets`)
   /// unless lengths differ by more than rounding: then they approach each other and turn away.
@@ -39,12 +39,12 @@ class Passage final : public Flow {
  private:
   std::span<const double> expected(double time);
   double strength(double time);
-  double least_between(double low, double high);
+  double minimum_between(double low, double high);
 
   EquationsOfMotion& equations_;
   StepPolynomial path_;
   double start_ = 0, length_ = 1;  // s, along the path
-  std::vector<double> base_, at_, place_;
+  std::vector<double> base_, expected_, nearest_;
 };
 
 }  // namespace plumb::precise

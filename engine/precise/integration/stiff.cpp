@@ -13,12 +13,12 @@ constexpr double kRedundant = 1e-12;
 
 }  // namespace
 
-StiffMotion::StiffMotion(const Scene& scene, const Parts& parts, EquationsOfMotion& equations)
+StiffMotion::StiffMotion(const Scene& scene, const ScenePartition& partition, EquationsOfMotion& equations)
     : equations_(equations),
-      force_jacobian_(with_laws_on(scene, parts.integrated)),
+      force_jacobian_(with_laws_on(scene, partition.integrated)),
       slot_(scene.bodies.size(), -1),
       rate_(equations.dimension()) {
-  for (const std::size_t body : parts.integrated) {
+  for (const std::size_t body : partition.integrated) {
     slot_[body] = static_cast<int>(inverse_mass_.size());
     inverse_mass_.push_back(equations.inverse_mass(body));
     inverse_inertia_.push_back(equations.inverse_inertia(body));
@@ -30,8 +30,8 @@ void StiffMotion::linearise(double time, std::span<const double> y) {
   force_jacobian_.evaluate(time, equations_.poses(), equations_.twists(), blocks_);
   rows_.assign(equations_.rows().begin(), equations_.rows().end());
   add_tension();
-  const BodiesNow now = equations_.bodies_now();
-  const GeneralJoints& others = equations_.kind_joints();
+  const BodiesView now = equations_.bodies_view();
+  const GeneralJoints& others = equations_.general_joints();
   others.add_spring_blocks(now, blocks_);
   others.add_tension_blocks(now, equations_.multipliers().subspan(equations_.joints().row_count()), blocks_);
   if (!order_is_known()) find_order();
@@ -88,7 +88,8 @@ void StiffMotion::add_tension() {
 }
 
 bool StiffMotion::order_is_known() const {
-  if (body_place_.empty() || ordered_rows_.size() != rows_.size() || ordered_blocks_.size() != blocks_.size())
+  if (body_offset_.empty() || ordered_rows_.size() != rows_.size() ||
+      ordered_blocks_.size() != blocks_.size())
     return false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (ordered_rows_[i] != std::array{rows_[i].a, rows_[i].b}) return false;
@@ -144,36 +145,37 @@ void StiffMotion::find_order() {
       }
     }
   }
-  constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-  body_place_.assign(bodies, 0);
-  row_place_.assign(rows_.size(), kNowhere);
-  std::size_t place = 0;
+  constexpr std::size_t kUnset = static_cast<std::size_t>(-1);
+  body_offset_.assign(bodies, 0);
+  row_offset_.assign(rows_.size(), kUnset);
+  std::size_t offset = 0;
   for (const int slot : queue) {
-    body_place_[slot] = place;
-    place += 3;
+    body_offset_[slot] = offset;
+    offset += 3;
     for (const int row : rows_of[slot]) {
-      if (row_place_[row] == kNowhere) row_place_[row] = place++;
+      if (row_offset_[row] == kUnset) row_offset_[row] = offset++;
     }
   }
-  for (std::size_t& row : row_place_) {
-    if (row == kNowhere) row = place++;  // a row between bodies that do not move
+  for (std::size_t& row : row_offset_) {
+    if (row == kUnset) row = offset++;  // a row between bodies that do not move
   }
   for (System& system : systems_) system.stages = 0;
 }
 
 /// Sets the size and the bandwidth of the matrix.
-void StiffMotion::fit(System& system, int stages) const {
+void StiffMotion::resize(System& system, int stages) const {
   std::size_t width = 3;
-  const auto reach = [&](std::size_t a, std::size_t size_a, std::size_t b, std::size_t size_b) {
+  const auto widen = [&](std::size_t a, std::size_t size_a, std::size_t b, std::size_t size_b) {
     width = std::max(width, a < b ? b + size_b - a : a + size_a - b);
   };
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (const int slot : {slot_of(rows_[i].a), slot_of(rows_[i].b)}) {
-      if (slot >= 0) reach(body_place_[slot], 3, row_place_[i], 1);
+      if (slot >= 0) widen(body_offset_[slot], 3, row_offset_[i], 1);
     }
   }
   for (const ForceBlock& b : blocks_) {
-    if (slot_[b.on] >= 0 && slot_[b.by] >= 0) reach(body_place_[slot_[b.on]], 3, body_place_[slot_[b.by]], 3);
+    if (slot_[b.on] >= 0 && slot_[b.by] >= 0)
+      widen(body_offset_[slot_[b.on]], 3, body_offset_[slot_[b.by]], 3);
   }
   const std::size_t s = static_cast<std::size_t>(stages),
                     size = s * (3 * inverse_mass_.size() + rows_.size());
@@ -185,18 +187,18 @@ void StiffMotion::fit(System& system, int stages) const {
 
 bool StiffMotion::factor(Use use, std::span<const double> a, int stages, double h) {
   System& system = systems_[static_cast<int>(use)];
-  if (system.stages != stages) fit(system, stages);
+  if (system.stages != stages) resize(system, stages);
   system.a.assign(a.begin(), a.end());
   system.h = h;
   BandedLu& matrix = system.matrix;
   matrix.clear();
-  const auto at = [&](std::size_t place, int size, int stage, int i) {  // index of an unknown
-    return static_cast<std::size_t>(stages) * place + static_cast<std::size_t>(stage * size + i);
+  const auto at = [&](std::size_t offset, int size, int stage, int i) {  // index of an unknown
+    return static_cast<std::size_t>(stages) * offset + static_cast<std::size_t>(stage * size + i);
   };
   for (std::size_t slot = 0; slot < inverse_mass_.size(); ++slot) {
     for (int s = 0; s < stages; ++s) {
       for (int i = 0; i < 3; ++i)
-        matrix.at(at(body_place_[slot], 3, s, i), at(body_place_[slot], 3, s, i)) = 1;
+        matrix.at(at(body_offset_[slot], 3, s, i), at(body_offset_[slot], 3, s, i)) = 1;
     }
   }
   for (const ForceBlock& b : blocks_) {
@@ -204,13 +206,13 @@ bool StiffMotion::factor(Use use, std::span<const double> a, int stages, double 
     if (on < 0 || by < 0) continue;
     for (int s = 0; s < stages; ++s) {
       for (int t = 0; t < stages; ++t) {
-        double twice = 0;  // (A A)_st
-        for (int k = 0; k < stages; ++k) twice += a[s * stages + k] * a[k * stages + t];
+        double a_squared = 0;  // (A A)_st
+        for (int k = 0; k < stages; ++k) a_squared += a[s * stages + k] * a[k * stages + t];
         for (int i = 0; i < 3; ++i) {
           const double inverse = i < 2 ? inverse_mass_[on] : inverse_inertia_[on];
           for (int j = 0; j < 3; ++j) {
-            matrix.at(at(body_place_[on], 3, s, i), at(body_place_[by], 3, t, j)) -=
-                inverse * (h * h * twice * b.position[i][j] + h * a[s * stages + t] * b.velocity[i][j]);
+            matrix.at(at(body_offset_[on], 3, s, i), at(body_offset_[by], 3, t, j)) -=
+                inverse * (h * h * a_squared * b.position[i][j] + h * a[s * stages + t] * b.velocity[i][j]);
           }
         }
       }
@@ -226,7 +228,7 @@ bool StiffMotion::factor(Use use, std::span<const double> a, int stages, double 
         const double inverse = i < 2 ? inverse_mass_[slot] : inverse_inertia_[slot];
         own += inverse * j[i] * j[i];
         for (int s = 0; s < stages; ++s) {
-          const std::size_t row = at(row_place_[r], 1, s, 0), body_at = at(body_place_[slot], 3, s, i);
+          const std::size_t row = at(row_offset_[r], 1, s, 0), body_at = at(body_offset_[slot], 3, s, i);
           matrix.at(body_at, row) -= inverse * j[i];
           matrix.at(row, body_at) += j[i];
         }
@@ -235,7 +237,7 @@ bool StiffMotion::factor(Use use, std::span<const double> a, int stages, double 
     side(rows_[r].a, rows_[r].linear_a, rows_[r].angular_a);
     side(rows_[r].b, rows_[r].linear_b, rows_[r].angular_b);
     for (int s = 0; s < stages; ++s) {
-      const std::size_t row = at(row_place_[r], 1, s, 0);
+      const std::size_t row = at(row_offset_[r], 1, s, 0);
       matrix.at(row, row) += own > 0 ? kRedundant * own : 1;
     }
   }
@@ -251,14 +253,14 @@ void StiffMotion::solve(Use use, std::span<double> x) {
   std::fill(g.begin(), g.end(), 0.0);
   // Change of positions that follows from the accelerations on the right side: u_j = r_q,j + h sum_k a_jk
   // r_v,k.
-  moved_.resize(stages * n);
+  displacement_.resize(stages * n);
   const auto move = [&] {
     for (int j = 0; j < stages; ++j) {
       for (std::size_t i = 0; i < n; ++i) {
         if (i % EquationsOfMotion::kPerBody >= 3) continue;
         double sum = x[j * n + i];
         for (int k = 0; k < stages; ++k) sum += h * system.a[j * stages + k] * x[k * n + i + 3];
-        moved_[j * n + i] = sum;
+        displacement_[j * n + i] = sum;
       }
     }
   };
@@ -267,14 +269,14 @@ void StiffMotion::solve(Use use, std::span<double> x) {
     const int on = slot_[b.on], by = slot_[b.by];
     if (on < 0 || by < 0) continue;
     for (int j = 0; j < stages; ++j) {
-      const double* q = &moved_[j * n + EquationsOfMotion::kPerBody * by];
+      const double* q = &displacement_[j * n + EquationsOfMotion::kPerBody * by];
       const double* v = &x[j * n + EquationsOfMotion::kPerBody * by + 3];
       for (int i = 0; i < 3; ++i) {
         double force = 0;
         for (int k = 0; k < 3; ++k) force += b.position[i][k] * q[k] + b.velocity[i][k] * v[k];
         const double response = h * (i < 2 ? inverse_mass_[on] : inverse_inertia_[on]) * force;
         for (int s = 0; s < stages; ++s) {
-          g[stages * body_place_[on] + 3 * s + i] += system.a[s * stages + j] * response;
+          g[stages * body_offset_[on] + 3 * s + i] += system.a[s * stages + j] * response;
         }
       }
     }
@@ -283,14 +285,14 @@ void StiffMotion::solve(Use use, std::span<double> x) {
   for (std::size_t slot = 0; slot < inverse_mass_.size(); ++slot) {
     for (int s = 0; s < stages; ++s) {
       for (int i = 0; i < 3; ++i) {
-        x[s * n + EquationsOfMotion::kPerBody * slot + 3 + i] += g[stages * body_place_[slot] + 3 * s + i];
+        x[s * n + EquationsOfMotion::kPerBody * slot + 3 + i] += g[stages * body_offset_[slot] + 3 * s + i];
       }
     }
   }
   move();
   for (int j = 0; j < stages; ++j) {
     for (std::size_t i = 0; i < n; ++i) {
-      if (i % EquationsOfMotion::kPerBody < 3) x[j * n + i] = moved_[j * n + i];
+      if (i % EquationsOfMotion::kPerBody < 3) x[j * n + i] = displacement_[j * n + i];
     }
   }
 }

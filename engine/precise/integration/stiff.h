@@ -9,7 +9,7 @@
 #include "engine/integrate/stiff_flow.h"
 #include "engine/linear_algebra/banded_lu.h"
 #include "engine/precise/dynamics/motion.h"
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/scene/scene.h"
 
 namespace plumb::precise {
@@ -22,7 +22,7 @@ namespace plumb::precise {
 /// whose lever arms turn; the curvature of the joints' paths is left to Newton's iterations.
 class StiffMotion final : public StiffFlow {
  public:
-  StiffMotion(const Scene& scene, const Parts& parts, EquationsOfMotion& equations);
+  StiffMotion(const Scene& scene, const ScenePartition& partition, EquationsOfMotion& equations);
 
   void rate(double time, std::span<const double> y, std::span<double> out) override {
     equations_.rate(time, y, out);
@@ -43,7 +43,7 @@ class StiffMotion final : public StiffFlow {
   void add_tension();
   void find_order();
   bool order_is_known() const;
-  void fit(System& system, int stages) const;
+  void resize(System& system, int stages) const;
   ForceBlock& block(int on, int by);
   int slot_of(int body) const { return body == kFixedFrame ? -1 : slot_[body]; }
 
@@ -56,10 +56,10 @@ class StiffMotion final : public StiffFlow {
   std::vector<ForceBlock> blocks_;
 
   // Index of a body's or row's first unknown, for one stage.
-  std::vector<std::size_t> body_place_, row_place_;
+  std::vector<std::size_t> body_offset_, row_offset_;
   std::vector<std::array<int, 2>> ordered_rows_, ordered_blocks_;  // structure for which the order was found
   std::array<System, 2> systems_;                                  // by Use
-  std::vector<double> moved_;                                      // work space of `solve`
+  std::vector<double> displacement_;                               // work space of `solve`
 };
 
 }  // namespace plumb::precise

@@ -4,7 +4,7 @@
 #include <limits>
 #include <variant>
 
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/scene/error.h"
 
 namespace plumb::precise {
@@ -21,11 +21,11 @@ constexpr double kMiddle = -0.60550853383003451169892108;
 }  // namespace
 
 SymplecticMotion::SymplecticMotion(EquationsOfMotion& equations)
-    : equations_(equations), acceleration_(equations.body_count()), push_(equations.body_count()) {}
+    : equations_(equations), acceleration_(equations.body_count()), correction_(equations.body_count()) {}
 
 void SymplecticMotion::step(double time, double h, Compensated& y) {
-  equations_.accelerate_freely(time, y.value(), acceleration_);
-  equations_.hold(time, y.value());
+  equations_.free_accelerations(time, y.value(), acceleration_);
+  equations_.factorise_joints(time, y.value());
   double at = 0;
   const auto go = [&](double gamma) {
     stage(time + at * h, gamma * h, y);
@@ -42,33 +42,33 @@ void SymplecticMotion::step(double time, double h, Compensated& y) {
 void SymplecticMotion::stage(double time, double h, Compensated& y) {
   kick(0.5 * h, acceleration_, y);
   drift(time, h, y);
-  equations_.accelerate_freely(time + h, y.value(), acceleration_);
+  equations_.free_accelerations(time + h, y.value(), acceleration_);
   kick(0.5 * h, acceleration_, y);
-  equations_.hold(time + h, y.value());
-  equations_.speed_response(y.value(), push_);
-  kick(1, push_, y);
+  equations_.factorise_joints(time + h, y.value());
+  equations_.velocity_correction(y.value(), correction_);
+  kick(1, correction_, y);
 }
 
 /// Sets q += h v, then q += M^-1 J^T lambda with J at the start until C(q) = 0, and corrects v accordingly.
 void SymplecticMotion::drift(double time, double h, Compensated& y) {
-  constexpr int kMost = 50;
+  constexpr int kMaxIterations = 50;
   const std::span<const std::size_t> bodies = equations_.bodies();
   for (std::size_t slot = 0; slot < bodies.size(); ++slot) {
     for (std::size_t i = 0; i < 3; ++i)
       y.add(EquationsOfMotion::kPerBody * slot + i, h * y[EquationsOfMotion::kPerBody * slot + 3 + i]);
   }
   double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMost; ++i) {
-    const double gap = equations_.gap_response(time + h, y.value(), push_);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const double gap = equations_.position_correction(time + h, y.value(), correction_);
     if (gap == 0 || (gap >= 0.5 * before && gap <= equations_.rounding_of_gaps())) return;
     before = gap;
     for (std::size_t slot = 0; slot < bodies.size(); ++slot) {
-      const Twist<double>& p = push_[bodies[slot]];
+      const Twist<double>& p = correction_[bodies[slot]];
       y.add(EquationsOfMotion::kPerBody * slot, p.velocity.x);
       y.add(EquationsOfMotion::kPerBody * slot + 1, p.velocity.y);
       y.add(EquationsOfMotion::kPerBody * slot + 2, p.angular_velocity);
     }
-    kick(1 / h, push_, y);
+    kick(1 / h, correction_, y);
   }
   throw Error(
       Error::Kind::Run, "precise", "step", "",
@@ -76,7 +76,7 @@ void SymplecticMotion::drift(double time, double h, Compensated& y) {
 }
 
 void SymplecticMotion::kick(double scale, std::span<const Twist<double>> change, Compensated& y) const {
-  equations_.kick(change, scale, y);
+  equations_.add_velocities(change, scale, y);
 }
 
 }  // namespace plumb::precise

@@ -25,7 +25,7 @@ class SymplecticMotion {
   void kick(double scale, std::span<const Twist<double>> change, Compensated& y) const;
 
   EquationsOfMotion& equations_;
-  std::vector<Twist<double>> acceleration_, push_;  // by body
+  std::vector<Twist<double>> acceleration_, correction_;  // by body
 };
 
 }  // namespace plumb::precise

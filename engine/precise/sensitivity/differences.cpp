@@ -19,15 +19,15 @@ constexpr double kReduction = 0.1;
 
 /// Derives a function of the scene's own laws along a direction, at `from`. Keeps the function's values in
 /// `values_`. Returns one step as a fraction of the direction.
-double Sensitivities::derive_by_state(const Function& function, const Point& from, const Direction& along,
-                                      std::span<double> out, double step) {
+double Sensitivities::differentiate_state(const Function& function, const Point& from, const Direction& along,
+                                          std::span<double> out, double step) {
   std::fill(out.begin(), out.end(), 0.0);
-  const double size = std::max(norm(along.state), std::abs(along.time) / own_time_);
+  const double size = std::max(norm(along.state), std::abs(along.time) / time_scale_);
   if (!(size > 0)) return 0;
   const double width = step / size;
   at_.resize(along.state.size());
   for (std::size_t k = 0; k < values_.size(); ++k) {
-    const double share = Variation::kPlaces[k] * width;
+    const double share = Variation::kOffsets[k] * width;
     for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = from.y[i] + share * along.state[i];
     values_[k].resize(out.size());
     function(*own_, from.time + share * along.time, at_, values_[k]);
@@ -38,11 +38,11 @@ double Sensitivities::derive_by_state(const Function& function, const Point& fro
 }
 
 /// Derives a function by a parameter, at `from`.
-void Sensitivities::derive_by_parameter(std::size_t parameter, const Function& function, const Point& from,
-                                        std::span<double> out) {
+void Sensitivities::differentiate_parameter(std::size_t parameter, const Function& function,
+                                            const Point& from, std::span<double> out) {
   for (std::size_t k = 0; k < values_.size(); ++k) {
     values_[k].resize(out.size());
-    function(*beside_[parameter][k], from.time, from.y, values_[k]);
+    function(*perturbed_[parameter][k], from.time, from.y, values_[k]);
   }
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = (values_[0][i] - values_[3][i] + 8 * (values_[2][i] - values_[1][i])) / (12 * steps_[parameter]);
@@ -51,8 +51,8 @@ void Sensitivities::derive_by_parameter(std::size_t parameter, const Function& f
 /// Derives a function along a direction and by a parameter together, at the current state. Returns false if
 /// the function has a kink there. For a smooth function, second differences of two widths have a ratio of
 /// four; at a kink they have not.
-bool Sensitivities::derive(std::size_t parameter, const Function& function, const Direction& along,
-                           std::span<const double> scale, std::span<double> out) {
+bool Sensitivities::differentiate(std::size_t parameter, const Function& function, const Direction& along,
+                                  std::span<const double> scale, std::span<double> out) {
   middle_.resize(out.size());
   part_.resize(out.size());
   function(*own_, now_.time, now_.y, middle_);
@@ -69,17 +69,17 @@ bool Sensitivities::derive(std::size_t parameter, const Function& function, cons
     return kink <= kKink * largest;
   };
   std::fill(out.begin(), out.end(), 0.0);
-  const double size = std::max(norm(along.state), std::abs(along.time) / own_time_);
+  const double size = std::max(norm(along.state), std::abs(along.time) / time_scale_);
   if (size > 0) {
     double step = Variation::kStep;
     for (int i = 0;; ++i, step *= kReduction) {
-      const double width = derive_by_state(function, present(), along, out, step);
+      const double width = differentiate_state(function, present(), along, out, step);
       if (is_smooth(out, width, size)) break;
       if (i == kReductions) return false;
     }
   }
-  if (of_start_[parameter]) return true;
-  derive_by_parameter(parameter, function, present(), part_);
+  if (initial_only_[parameter]) return true;
+  differentiate_parameter(parameter, function, present(), part_);
   if (!is_smooth(part_, steps_[parameter], Variation::kStep / steps_[parameter])) return false;
   for (std::size_t i = 0; i < out.size(); ++i) out[i] += part_[i];
   return true;

@@ -16,7 +16,7 @@ constexpr std::size_t kPerBody = EquationsOfMotion::kPerBody;
 
 /// Limits on the error of a step of the variational equations, relative to the derivatives' size. The lower
 /// one is the rounding of their differences.
-constexpr double kLeastTolerance = 1e-11, kMostTolerance = 1e-9;
+constexpr double kMinTolerance = 1e-11, kMaxTolerance = 1e-9;
 /// Number of impacts at one instant that count as a cascade.
 constexpr std::int64_t kCascade = 100;
 /// The parameter shifts two impacts at one instant together if the shifts of their times differ by less than
@@ -25,7 +25,7 @@ constexpr double kTogether = 1e-7;
 /// Zeros of two guards count as one instant if they are closer than this fraction of the scene's own time.
 /// Events are located to about 1e-12 of it.
 constexpr double kSameTime = 1e-9;
-constexpr int kMostSteps = 100000;
+constexpr int kMaxSteps = 100000;
 
 Compensated as_state(std::span<const double> y) {
   Compensated state(y.size());
@@ -36,56 +36,56 @@ Compensated as_state(std::span<const double> y) {
 }  // namespace
 
 Sensitivities::Sensitivities(const Scene& scene, std::vector<Variation> variations, const Precise& precise)
-    : tolerance_(std::clamp(1e-3 * precise.tolerance, kLeastTolerance, kMostTolerance)),
-      own_(std::make_unique<Neighbour>(scene, precise)),
+    : tolerance_(std::clamp(1e-3 * precise.tolerance, kMinTolerance, kMaxTolerance)),
+      own_(std::make_unique<SceneModel>(scene, precise)),
       failures_(variations.size()),
-      values_(Variation::kPlaces.size()) {
+      values_(Variation::kOffsets.size()) {
   for (const Variation& variation : variations) {
     names_.push_back(variation.name);
     steps_.push_back(variation.step);
-    of_start_.push_back(variation.of_start);
-    auto& around = beside_.emplace_back();
+    initial_only_.push_back(variation.initial_only);
+    auto& around = perturbed_.emplace_back();
     for (std::size_t i = 0; i < around.size(); ++i) {
-      around[i] = std::make_unique<Neighbour>(variation.scenes[i], precise);
-      const Parts &parts = around[i]->parts, &own = own_->parts;
-      if (parts.integrated == own.integrated && parts.flying == own.flying &&
-          parts.outlines.size() == own.outlines.size() && parts.ballistic == own.ballistic)
+      around[i] = std::make_unique<SceneModel>(variation.scenes[i], precise);
+      const ScenePartition &partition = around[i]->partition, &own = own_->partition;
+      if (partition.integrated == own.integrated && partition.ballistic == own.ballistic &&
+          partition.shapes.size() == own.shapes.size() && partition.constant_forces == own.constant_forces)
         continue;
       throw Error(Error::Kind::Value, "parameter", "", variation.name,
                   "its value is the one at which a force or a contact is left out of the scene: a derivative "
                   "there has one side only; give it a value beside that");
     }
   }
-  const Scales scales = scales_of(scene, own_->parts);
-  own_time_ = scales.length / scales.speed;
+  const Scales scales = scales_of(scene, own_->partition);
+  time_scale_ = scales.length / scales.speed;
   const std::size_t n = own_->equations.dimension();
   for (std::size_t i = 0; i < n; ++i) {
     const double lengths[kPerBody] = {scales.length, scales.length, 1, scales.length, scales.length, 1};
-    scale_.push_back(lengths[i % kPerBody] / (i % kPerBody < 3 ? 1 : own_time_));
+    scale_.push_back(lengths[i % kPerBody] / (i % kPerBody < 3 ? 1 : time_scale_));
   }
   const std::span<const double> start = own_->start.value();
   now_.y.assign(start.begin(), start.end());
   now_.by.assign(size(), Values(n, 0.0));
   for (std::size_t j = 0; j < size(); ++j) {
-    derive_by_parameter(
+    differentiate_parameter(
         j,
-        [](Neighbour& beside, double, std::span<const double>, std::span<double> out) {
-          std::copy(beside.start.value().begin(), beside.start.value().end(), out.begin());
+        [](SceneModel& perturbed, double, std::span<const double>, std::span<double> out) {
+          std::copy(perturbed.start.value().begin(), perturbed.start.value().end(), out.begin());
         },
         present(), now_.by[j]);
   }
 }
 
 template <class Change>
-void Sensitivities::each_neighbour(const Change& change) {
+void Sensitivities::for_each_model(const Change& change) {
   change(*own_);
-  for (auto& around : beside_) {
-    for (auto& beside : around) change(*beside);
+  for (auto& around : perturbed_) {
+    for (auto& perturbed : around) change(*perturbed);
   }
 }
 
 void Sensitivities::set_windows(double time) {
-  each_neighbour([&](Neighbour& any) { any.set_window(time); });
+  for_each_model([&](SceneModel& any) { any.set_window(time); });
 }
 
 void Sensitivities::fail(std::size_t parameter, NoDerivative reason) {
@@ -98,7 +98,7 @@ void Sensitivities::fail_all(NoDerivative reason, double time) {
   }
 }
 
-void Sensitivities::refuse(std::size_t parameter, NoDerivative reason, double time) const {
+void Sensitivities::throw_not_differentiable(std::size_t parameter, NoDerivative reason, double time) const {
   const Failure failure = failures_[parameter].value_or(Failure{reason, time});
   throw NotDifferentiable(names_[parameter], failure.reason, failure.time);
 }
@@ -124,9 +124,9 @@ class Sensitivities::VariationalFlow final : public Flow {
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
       const std::span<const double> by = y.subspan((k + 1) * n, n);
       const std::span<double> change = out.subspan((k + 1) * n, n);
-      all_.derive_by_state(law_, from, {0, by}, change);
-      if (!all_.of_start_[parameters_[k]]) {
-        all_.derive_by_parameter(parameters_[k], law_, from, part_);
+      all_.differentiate_state(law_, from, {0, by}, change);
+      if (!all_.initial_only_[parameters_[k]]) {
+        all_.differentiate_parameter(parameters_[k], law_, from, part_);
         for (std::size_t i = 0; i < n; ++i) change[i] += part_[i];
       }
       // The derivative of a position is the velocity, under any laws.
@@ -140,7 +140,7 @@ class Sensitivities::VariationalFlow final : public Flow {
   Sensitivities& all_;
   std::span<const std::size_t> parameters_;
   Values part_;
-  const Function law_ = [](Neighbour& any, double time, std::span<const double> y, std::span<double> rate) {
+  const Function law_ = [](SceneModel& any, double time, std::span<const double> y, std::span<double> rate) {
     any.equations.rate(time, y, rate);
   };
 };
@@ -178,7 +178,7 @@ std::vector<std::size_t> Sensitivities::integrate(Present& present, std::span<co
     const double h = std::min(proposed, end - time);
     method.step(flow, time, h, y);
     const double error = method.error(h, error_scale);
-    lost = steps == kMostSteps || !(h > 4 * std::numeric_limits<double>::epsilon() * time);
+    lost = steps == kMaxSteps || !(h > 4 * std::numeric_limits<double>::epsilon() * time);
     if (!(error <= 1)) {
       proposed = h * control.after_rejection(error);
       continue;
@@ -207,15 +207,15 @@ void Sensitivities::start(double time, const Compensated& given, const Compensat
   now_.time = time;
   now_.y.assign(given.value().begin(), given.value().end());
   set_windows(time);
-  const auto close = [](Neighbour& any, double t, std::span<const double> y, std::span<double> out) {
+  const auto close = [](SceneModel& any, double t, std::span<const double> y, std::span<double> out) {
     Compensated state = as_state(y);
     any.close_joints(t, state);
     std::copy(state.value().begin(), state.value().end(), out.begin());
   };
   Values by(scale_.size());
   for (std::size_t j = 0; j < size(); ++j) {
-    if (!lives(j)) continue;
-    if (!derive(j, close, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
+    if (!is_valid(j)) continue;
+    if (!differentiate(j, close, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
     now_.by[j] = by;
   }
   now_.y.assign(closed.value().begin(), closed.value().end());
@@ -223,22 +223,22 @@ void Sensitivities::start(double time, const Compensated& given, const Compensat
 }
 
 void Sensitivities::advance(double time, const Compensated& y) {
-  std::vector<std::size_t> living;
+  std::vector<std::size_t> valid;
   for (std::size_t j = 0; j < size(); ++j) {
-    if (lives(j)) living.push_back(j);
+    if (is_valid(j)) valid.push_back(j);
   }
-  for (const std::size_t j : integrate(now_, living, time)) fail(j, NoDerivative::Singular);
+  for (const std::size_t j : integrate(now_, valid, time)) fail(j, NoDerivative::Singular);
   now_.y.assign(y.value().begin(), y.value().end());
 }
 
 void Sensitivities::switch_forces(double time) {
-  each_neighbour([&](Neighbour& any) { any.flight.switch_forces(time); });
+  for_each_model([&](SceneModel& any) { any.ballistic.switch_forces(time); });
 }
 
 void Sensitivities::write(std::size_t body, std::optional<std::size_t> slot, double time,
                           const BodyState& state) {
   if (!slot) {
-    each_neighbour([&](Neighbour& any) { any.flight.restart(body, time, state); });
+    for_each_model([&](SceneModel& any) { any.ballistic.restart(body, time, state); });
     return;
   }
   for (Values& by : now_.by)
@@ -247,15 +247,15 @@ void Sensitivities::write(std::size_t body, std::optional<std::size_t> slot, dou
 
 /// Returns the guard of an event; nullopt if it has none that depends on the motion.
 std::optional<Contacts::Guard> Sensitivities::guard_of(const Contacts::Record& record) const {
-  if (!record.met) return record.guard;
-  for (const ContactCandidate& touch : record.touches) {
-    if (touch.stop || touch.pair != *record.met) continue;
+  if (!record.new_pair) return record.guard;
+  for (const ContactCandidate& candidate : record.candidates) {
+    if (candidate.limit || candidate.pair != *record.new_pair) continue;
     int fastest = 0;
-    for (int i = 1; i < touch.count; ++i) {
-      if (touch.closing[i] < touch.closing[fastest]) fastest = i;
+    for (int i = 1; i < candidate.count; ++i) {
+      if (candidate.gap_rate[i] < candidate.gap_rate[fastest]) fastest = i;
     }
     return Contacts::Guard{
-        .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[fastest]};
+        .kind = Contacts::Guard::Kind::Gap, .pair = candidate.pair, .feature = candidate.features[fastest]};
   }
   return std::nullopt;
 }
@@ -264,7 +264,7 @@ namespace {
 
 /// Returns a function that evaluates a guard.
 auto value_of(const Contacts::Guard& guard) {
-  return [guard](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+  return [guard](SceneModel& any, double time, std::span<const double> y, std::span<double> out) {
     out[0] = any.contacts.guard_value(guard, time, y);
   };
 }
@@ -272,20 +272,20 @@ auto value_of(const Contacts::Guard& guard) {
 }  // namespace
 
 /// Returns true if a parameter opens contacts that exist at the start, or presses their shapes together.
-bool Sensitivities::opens_start(std::size_t j, const Contacts::Record& record) {
+bool Sensitivities::opens_initial_contacts(std::size_t j, const Contacts::Record& record) {
   const double size = std::max(Variation::kStep / steps_[j], norm(now_.by[j]));
   const double length[1] = {scale_[0]}, speed[1] = {scale_[kPerBody / 2]};
-  for (const ContactCandidate& touch : record.touches) {
-    for (int i = 0; i < touch.count && !touch.stop; ++i) {
+  for (const ContactCandidate& candidate : record.candidates) {
+    for (int i = 0; i < candidate.count && !candidate.limit; ++i) {
       const Contacts::Guard guard{
-          .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[i]};
+          .kind = Contacts::Guard::Kind::Gap, .pair = candidate.pair, .feature = candidate.features[i]};
       double change[1] = {0};
-      if (!derive(j, value_of(guard), {0, now_.by[j]}, length, change)) return true;
+      if (!differentiate(j, value_of(guard), {0, now_.by[j]}, length, change)) return true;
       if (std::abs(change[0]) > kTogether * length[0] * size) return true;
-      if (std::abs(touch.closing[i]) > touch.quiet) continue;
+      if (std::abs(candidate.gap_rate[i]) > candidate.rate_tolerance) continue;
       const Contacts::Guard rate{
-          .kind = Contacts::Guard::Kind::Rate, .pair = touch.pair, .feature = touch.features[i]};
-      if (!derive(j, value_of(rate), {0, now_.by[j]}, speed, change)) return true;
+          .kind = Contacts::Guard::Kind::Rate, .pair = candidate.pair, .feature = candidate.features[i]};
+      if (!differentiate(j, value_of(rate), {0, now_.by[j]}, speed, change)) return true;
       if (std::abs(change[0]) > kTogether * speed[0] * size) return true;
     }
   }
@@ -295,66 +295,70 @@ bool Sensitivities::opens_start(std::size_t j, const Contacts::Record& record) {
 /// Removes the slips that a parameter gives to contacts which stick or roll at the start. Friction ends an
 /// infinitesimal slip at once, by the impulse that stops it.
 void Sensitivities::stop_slips(std::size_t j) {
-  const auto project = [](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+  const auto project = [](SceneModel& any, double time, std::span<const double> y, std::span<double> out) {
     Compensated state = as_state(y);
     any.equations.project(time, state);
     std::copy(state.value().begin(), state.value().end(), out.begin());
   };
   Values by(scale_.size());
-  if (!derive(j, project, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
+  if (!differentiate(j, project, {0, now_.by[j]}, scale_, by)) fail(j, NoDerivative::Singular);
   now_.by[j] = by;
 }
 
 /// Carries one parameter's derivative through the event, up to the impacts; returns the change of the event's
 /// time.
-double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::span<const double> before_rate,
-                           const std::optional<Contacts::Guard>& guard, double guard_rate,
-                           std::span<const Zero> others) {
+double Sensitivities::propagate(std::size_t j, const Contacts::Record& record,
+                                std::span<const double> before_rate,
+                                const std::optional<Contacts::Guard>& guard, double guard_rate,
+                                std::span<const Zero> others) {
   const std::size_t n = scale_.size();
   const double unit = Variation::kStep / steps_[j];
-  const double size_of_guard[1] = {std::abs(guard_rate) * own_time_};
-  double later = 0;
+  const double size_of_guard[1] = {std::abs(guard_rate) * time_scale_};
+  double time_shift = 0;
   if (guard) {
     double change[1] = {0};
-    if (!derive(j, value_of(*guard), {0, now_.by[j]}, size_of_guard, change)) fail(j, NoDerivative::Kink);
-    later = -change[0] / guard_rate;
+    if (!differentiate(j, value_of(*guard), {0, now_.by[j]}, size_of_guard, change))
+      fail(j, NoDerivative::Kink);
+    time_shift = -change[0] / guard_rate;
   }
-  if (started_ && !guard && opens_start(j, record)) fail(j, NoDerivative::Start);
-  for (const ContactCandidate& touch : record.touches) {
-    if (!guard || touch.stop || own_->contacts.holds(touch.pair)) continue;
-    for (int i = 0; i < touch.count; ++i) {
-      if (!closes_at(touch, i) || (touch.pair == guard->pair && touch.features[i] == guard->feature))
+  if (started_ && !guard && opens_initial_contacts(j, record)) fail(j, NoDerivative::Start);
+  for (const ContactCandidate& candidate : record.candidates) {
+    if (!guard || candidate.limit || own_->contacts.has_contact(candidate.pair)) continue;
+    for (int i = 0; i < candidate.count; ++i) {
+      if (!closes_at(candidate, i) ||
+          (candidate.pair == guard->pair && candidate.features[i] == guard->feature))
         continue;
       const Contacts::Guard other{
-          .kind = Contacts::Guard::Kind::Gap, .pair = touch.pair, .feature = touch.features[i]};
+          .kind = Contacts::Guard::Kind::Gap, .pair = candidate.pair, .feature = candidate.features[i]};
       double change[1] = {0};
-      const double size[1] = {std::abs(touch.closing[i]) * own_time_};
-      if (!derive(j, value_of(other), {0, now_.by[j]}, size, change)) fail(j, NoDerivative::Kink);
-      const double its = -change[0] / touch.closing[i];
-      if (std::abs(its - later) > kTogether * (own_time_ * unit + std::abs(later)))
+      const double size[1] = {std::abs(candidate.gap_rate[i]) * time_scale_};
+      if (!differentiate(j, value_of(other), {0, now_.by[j]}, size, change)) fail(j, NoDerivative::Kink);
+      const double shift = -change[0] / candidate.gap_rate[i];
+      if (std::abs(shift - time_shift) > kTogether * (time_scale_ * unit + std::abs(time_shift)))
         fail(j, NoDerivative::Simultaneous);
     }
   }
   for (const Zero& zero : others) {
     double change[1] = {0};
-    const double size[1] = {std::abs(zero.rate) * own_time_};
-    if (!derive(j, value_of(zero.guard), {0, now_.by[j]}, size, change)) fail(j, NoDerivative::Kink);
-    if (std::abs(-change[0] / zero.rate - later) > kTogether * (own_time_ * unit + std::abs(later)))
+    const double size[1] = {std::abs(zero.rate) * time_scale_};
+    if (!differentiate(j, value_of(zero.guard), {0, now_.by[j]}, size, change)) fail(j, NoDerivative::Kink);
+    if (std::abs(-change[0] / zero.rate - time_shift) >
+        kTogether * (time_scale_ * unit + std::abs(time_shift)))
       fail(j, NoDerivative::Simultaneous);
   }
-  if (!lives(j)) return 0;
+  if (!is_valid(j)) return 0;
   Values& by = now_.by[j];
-  for (std::size_t i = 0; i < n; ++i) by[i] += later * before_rate[i];
-  if (!record.impacts) return later;
-  const auto impacts = [&](Neighbour& any, double time, std::span<const double> y, std::span<double> out) {
+  for (std::size_t i = 0; i < n; ++i) by[i] += time_shift * before_rate[i];
+  if (!record.impacts) return time_shift;
+  const auto impacts = [&](SceneModel& any, double time, std::span<const double> y, std::span<double> out) {
     Compensated state = as_state(y);
-    any.contacts.impacts_at(time, record.touches, state);
+    any.contacts.impacts_at(time, record.candidates, state);
     std::copy(state.value().begin(), state.value().end(), out.begin());
   };
   Values after(n);
-  if (!derive(j, impacts, {later, by}, scale_, after)) fail(j, NoDerivative::Kink);
+  if (!differentiate(j, impacts, {time_shift, by}, scale_, after)) fail(j, NoDerivative::Kink);
   by = after;
-  return later;
+  return time_shift;
 }
 
 /// Computes the rate of a guard along the motion, `rate`. Returns true if it is uncertain that the guard
@@ -362,7 +366,7 @@ double Sensitivities::pass(std::size_t j, const Contacts::Record& record, std::s
 bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guard,
                            std::span<const double> rate, double& guard_rate) {
   double found[1];
-  const double width = derive_by_state(value_of(guard), present(), {1, rate}, found);
+  const double width = differentiate_state(value_of(guard), present(), {1, rate}, found);
   guard_rate = found[0];
   if (!(std::abs(guard_rate) > 0)) return true;
   if (guard.kind == Contacts::Guard::Kind::Quantity) return false;
@@ -375,20 +379,20 @@ bool Sensitivities::grazes(const Contacts& contacts, const Contacts::Guard& guar
     value_of(guard)(*own_, now_.time + s, at_, std::span<double>(gap + 1 + place, 1));
   }
   const double bend = (gap[0] + gap[2] - 2 * gap[1]) / (width * width);
-  return !(guard_rate < 0) || guard_rate * guard_rate <= 2 * bend * contacts.near();
+  return !(guard_rate < 0) || guard_rate * guard_rate <= 2 * bend * contacts.gap_tolerance();
 }
 
 /// Returns the other guards that are zero together with the event's guard: their modes change at the same
 /// instant, without events of their own.
-std::vector<Sensitivities::Zero> Sensitivities::zeros_beside(const Contacts::Guard& guard,
-                                                             std::span<const double> rate) {
+std::vector<Sensitivities::Zero> Sensitivities::coincident_zeros(const Contacts::Guard& guard,
+                                                                 std::span<const double> rate) {
   std::vector<Zero> zeros;
   for (const Contacts::Guard& other : own_->contacts.guards_of_modes()) {
     if (other == guard) continue;
     double value[1], found[1];
     value_of(other)(*own_, now_.time, now_.y, value);
-    derive_by_state(value_of(other), present(), {1, rate}, found);
-    if (found[0] < 0 && std::abs(value[0]) <= kSameTime * own_time_ * -found[0])
+    differentiate_state(value_of(other), present(), {1, rate}, found);
+    if (found[0] < 0 && std::abs(value[0]) <= kSameTime * time_scale_ * -found[0])
       zeros.push_back({other, found[0]});
   }
   return zeros;
@@ -400,24 +404,24 @@ void Sensitivities::pass_event(const Compensated& before, const Compensated& aft
   const std::size_t n = scale_.size();
   now_.y.assign(before.value().begin(), before.value().end());
   set_windows(now_.time);
-  if (record.rests || record.struck > kCascade) fail_all(NoDerivative::Zeno, now_.time);
+  if (record.zeno || record.impact_count > kCascade) fail_all(NoDerivative::Zeno, now_.time);
   if (record.paradox) fail_all(NoDerivative::Paradox, now_.time);
   const std::optional<Contacts::Guard> guard = guard_of(record);
   Values rate(n);
   own_->equations.rate(now_.time, now_.y, rate);
   double guard_rate = 0;
   if (guard && grazes(contacts, *guard, rate, guard_rate)) fail_all(NoDerivative::Grazing, now_.time);
-  const std::vector<Zero> others = guard ? zeros_beside(*guard, rate) : std::vector<Zero>{};
-  std::vector<double> later(size(), 0.0);
+  const std::vector<Zero> others = guard ? coincident_zeros(*guard, rate) : std::vector<Zero>{};
+  std::vector<double> time_shift(size(), 0.0);
   for (std::size_t j = 0; j < size(); ++j) {
-    if (lives(j)) later[j] = pass(j, record, rate, guard, guard_rate, others);
+    if (is_valid(j)) time_shift[j] = propagate(j, record, rate, guard, guard_rate, others);
   }
-  each_neighbour([&](Neighbour& any) { any.contacts.follow(contacts); });
+  for_each_model([&](SceneModel& any) { any.contacts.copy_modes(contacts); });
   now_.y.assign(after.value().begin(), after.value().end());
   own_->equations.rate(now_.time, now_.y, rate);
   for (std::size_t j = 0; j < size(); ++j) {
-    for (std::size_t i = 0; i < n && later[j] != 0; ++i) now_.by[j][i] -= later[j] * rate[i];
-    if (started_ && lives(j) && own_->equations.holds_anything()) stop_slips(j);
+    for (std::size_t i = 0; i < n && time_shift[j] != 0; ++i) now_.by[j][i] -= time_shift[j] * rate[i];
+    if (started_ && is_valid(j) && own_->equations.has_active_constraints()) stop_slips(j);
   }
   started_ = false;
 }
@@ -425,17 +429,17 @@ void Sensitivities::pass_event(const Compensated& before, const Compensated& aft
 std::vector<BodyState> Sensitivities::at(std::size_t parameter, double time, std::size_t bodies) {
   Present there = now_;
   const std::size_t asked[] = {parameter};
-  if (!lives(parameter) || !integrate(there, asked, time).empty())
-    refuse(parameter, NoDerivative::Singular, time);
+  if (!is_valid(parameter) || !integrate(there, asked, time).empty())
+    throw_not_differentiable(parameter, NoDerivative::Singular, time);
   std::vector<BodyState> out(bodies);
-  for (std::size_t slot = 0; slot < own_->parts.integrated.size(); ++slot)
-    out[own_->parts.integrated[slot]] = EquationsOfMotion::state(there.by[parameter], slot);
+  for (std::size_t slot = 0; slot < own_->partition.integrated.size(); ++slot)
+    out[own_->partition.integrated[slot]] = EquationsOfMotion::state(there.by[parameter], slot);
   Values by(kPerBody);
-  for (const std::size_t body : own_->parts.flying) {
-    derive_by_parameter(
+  for (const std::size_t body : own_->partition.ballistic) {
+    differentiate_parameter(
         parameter,
-        [&](Neighbour& beside, double, std::span<const double>, std::span<double> y) {
-          const BodyState s = beside.flight.at(body, time).state;
+        [&](SceneModel& perturbed, double, std::span<const double>, std::span<double> y) {
+          const BodyState s = perturbed.ballistic.at(body, time).state;
           const double numbers[kPerBody] = {s.position.x, s.position.y, s.angle,
                                             s.velocity.x, s.velocity.y, s.angular_velocity};
           std::copy(std::begin(numbers), std::end(numbers), y.begin());
@@ -454,11 +458,11 @@ void Sensitivities::save(SnapshotWriter& out) const {
     out.put(failures_[j] ? static_cast<std::int64_t>(failures_[j]->reason) : std::int64_t{-1});
     out.put(failures_[j] ? failures_[j]->time : 0.0);
     for (const double number : now_.by[j]) out.put(number);
-    for (const auto& beside : beside_[j]) {
-      for (const Flight::Arc& arc : beside->flight.arcs()) out.put(arc);
+    for (const auto& perturbed : perturbed_[j]) {
+      for (const BallisticMotion::Arc& arc : perturbed->ballistic.arcs()) out.put(arc);
     }
   }
-  for (const Flight::Arc& arc : own_->flight.arcs()) out.put(arc);
+  for (const BallisticMotion::Arc& arc : own_->ballistic.arcs()) out.put(arc);
 }
 
 void Sensitivities::restore(SnapshotReader& in, const Contacts& contacts) {
@@ -472,12 +476,12 @@ void Sensitivities::restore(SnapshotReader& in, const Contacts& contacts) {
     failures_[j].reset();
     if (reason >= 0) failures_[j] = Failure{static_cast<NoDerivative>(reason), time};
     for (double& number : now_.by[j]) number = in.get<double>();
-    for (auto& beside : beside_[j]) {
-      for (Flight::Arc& arc : beside->flight.arcs()) arc = in.get<Flight::Arc>();
+    for (auto& perturbed : perturbed_[j]) {
+      for (BallisticMotion::Arc& arc : perturbed->ballistic.arcs()) arc = in.get<BallisticMotion::Arc>();
     }
   }
-  for (Flight::Arc& arc : own_->flight.arcs()) arc = in.get<Flight::Arc>();
-  each_neighbour([&](Neighbour& any) { any.contacts.follow(contacts); });
+  for (BallisticMotion::Arc& arc : own_->ballistic.arcs()) arc = in.get<BallisticMotion::Arc>();
+  for_each_model([&](SceneModel& any) { any.contacts.copy_modes(contacts); });
 }
 
 }  // namespace plumb::precise

@@ -14,7 +14,7 @@
 #include "engine/driver/snapshot.h"
 #include "engine/integrate/compensated.h"
 #include "engine/precise/events/contacts.h"
-#include "engine/precise/sensitivity/neighbour.h"
+#include "engine/precise/sensitivity/scene_model.h"
 #include "engine/precise/sensitivity/variation.h"
 #include "engine/scene/scene.h"
 
@@ -62,7 +62,7 @@ class Sensitivities {
 
   /// Throws `NotDifferentiable` with the recorded reason why the derivative ended, or else with `reason` and
   /// `time`, s.
-  [[noreturn]] void refuse(std::size_t parameter, NoDerivative reason, double time) const;
+  [[noreturn]] void throw_not_differentiable(std::size_t parameter, NoDerivative reason, double time) const;
 
   void save(SnapshotWriter& out) const;
   /// `contacts` are the run's, restored.
@@ -81,7 +81,7 @@ class Sensitivities {
     std::vector<Values> by;  // by parameter
   };
   /// A function of a scene's laws, the time and the state; fills its last argument.
-  using Function = std::function<void(Neighbour&, double, std::span<const double>, std::span<double>)>;
+  using Function = std::function<void(SceneModel&, double, std::span<const double>, std::span<double>)>;
   /// A time and a state at which functions are derived.
   struct Point {
     double time = 0;  // s
@@ -94,15 +94,15 @@ class Sensitivities {
   };
   class VariationalFlow;
 
-  bool lives(std::size_t parameter) const { return !failures_[parameter]; }
+  bool is_valid(std::size_t parameter) const { return !failures_[parameter]; }
   void fail(std::size_t parameter, NoDerivative reason);
   Point present() const { return {now_.time, now_.y}; }
-  double derive_by_state(const Function& function, const Point& from, const Direction& along,
-                         std::span<double> out, double step = Variation::kStep);
-  void derive_by_parameter(std::size_t parameter, const Function& function, const Point& from,
-                           std::span<double> out);
-  bool derive(std::size_t parameter, const Function& function, const Direction& along,
-              std::span<const double> scale, std::span<double> out);
+  double differentiate_state(const Function& function, const Point& from, const Direction& along,
+                             std::span<double> out, double step = Variation::kStep);
+  void differentiate_parameter(std::size_t parameter, const Function& function, const Point& from,
+                               std::span<double> out);
+  bool differentiate(std::size_t parameter, const Function& function, const Direction& along,
+                     std::span<const double> scale, std::span<double> out);
   double norm(std::span<const double> direction) const;
   std::vector<std::size_t> integrate(Present& present, std::span<const std::size_t> parameters, double end);
   void set_windows(double time);
@@ -111,25 +111,27 @@ class Sensitivities {
     Contacts::Guard guard;
     double rate = 0;
   };
-  double pass(std::size_t parameter, const Contacts::Record& record, std::span<const double> before_rate,
-              const std::optional<Contacts::Guard>& guard, double guard_rate, std::span<const Zero> others);
-  std::vector<Zero> zeros_beside(const Contacts::Guard& guard, std::span<const double> rate);
+  double propagate(std::size_t parameter, const Contacts::Record& record, std::span<const double> before_rate,
+                   const std::optional<Contacts::Guard>& guard, double guard_rate,
+                   std::span<const Zero> others);
+  std::vector<Zero> coincident_zeros(const Contacts::Guard& guard, std::span<const double> rate);
   bool grazes(const Contacts& contacts, const Contacts::Guard& guard, std::span<const double> rate,
               double& guard_rate);
   std::optional<Contacts::Guard> guard_of(const Contacts::Record& record) const;
-  bool opens_start(std::size_t parameter, const Contacts::Record& record);
+  bool opens_initial_contacts(std::size_t parameter, const Contacts::Record& record);
   void stop_slips(std::size_t parameter);
   template <class Change>
-  void each_neighbour(const Change& change);
+  void for_each_model(const Change& change);
 
   const double tolerance_;
   std::vector<std::string> names_;
-  std::vector<double> steps_;       // by parameter, in its unit
-  std::vector<char> of_start_;      // by parameter
-  std::unique_ptr<Neighbour> own_;  // of the scene itself
-  std::vector<std::array<std::unique_ptr<Neighbour>, Variation::kPlaces.size()>> beside_;  // by parameter
-  Values scale_;         // by component of y: m, rad, m/s, rad/s
-  double own_time_ = 1;  // s, the scene's length over its speed
+  std::vector<double> steps_;        // by parameter, in its unit
+  std::vector<char> initial_only_;   // by parameter
+  std::unique_ptr<SceneModel> own_;  // of the scene itself
+  std::vector<std::array<std::unique_ptr<SceneModel>, Variation::kOffsets.size()>>
+      perturbed_;          // by parameter
+  Values scale_;           // by component of y: m, rad, m/s, rad/s
+  double time_scale_ = 1;  // s, the scene's length over its speed
   Present now_;
   bool started_ = false;  // `start` was called after the last event
   std::vector<std::optional<Failure>> failures_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/precise/dynamics/parts.h"
+#include "engine/precise/dynamics/scene_partition.h"
 #include "engine/scene/number.h"
 
 namespace plumb::precise {
@@ -35,22 +35,23 @@ std::vector<Variation> variations_of(const Scene& scene, const std::vector<std::
                                      const std::function<Scene(const Scene&)>& prepared) {
   std::vector<Variation> variations;
   if (names.empty()) return variations;
-  const Scene middle = prepared(scene);
-  const Parts parts = divide(middle);
-  const double length = scales_of(middle, parts).length;
+  const Scene base = prepared(scene);
+  const ScenePartition partition = partition_scene(base);
+  const double length = scales_of(base, partition).length;
   for (const std::string& name : names) {
     Variation& variation = variations.emplace_back();
     variation.name = name;
     Scene copy = scene;
     variation.step =
         Variation::kStep * scale_of(kind_of_number(copy, name), *numbers_at(copy, name)[0], length);
-    const auto body = body_of_start(scene, name);
-    variation.of_start = body && !is_joined(scene, scene.bodies[*body].name) &&
-                         std::binary_search(parts.integrated.begin(), parts.integrated.end(), *body);
-    for (std::size_t i = 0; i < Variation::kPlaces.size(); ++i) {
-      Scene beside = scene;
-      for (double* number : numbers_at(beside, name)) *number += Variation::kPlaces[i] * variation.step;
-      variation.scenes[i] = prepared(beside);
+    const auto body = body_of_initial_state(scene, name);
+    variation.initial_only =
+        body && !is_joined(scene, scene.bodies[*body].name) &&
+        std::binary_search(partition.integrated.begin(), partition.integrated.end(), *body);
+    for (std::size_t i = 0; i < Variation::kOffsets.size(); ++i) {
+      Scene perturbed = scene;
+      for (double* number : numbers_at(perturbed, name)) *number += Variation::kOffsets[i] * variation.step;
+      variation.scenes[i] = prepared(perturbed);
     }
   }
   return variations;

@@ -125,8 +125,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool end_object() override {
     if (const Node* twice = find_duplicate(*open_.back())) {
-      refuse(excerpt(*twice), "is given twice under this key", twice->key_line, Error::Kind::Syntax);
-      out_.refusal->path.push_back(twice);
+      set_error(excerpt(*twice), "is given twice under this key", twice->key_line, Error::Kind::Syntax);
+      out_.error->path.push_back(twice);
       return false;
     }
     open_.pop_back();
@@ -142,12 +142,12 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     constexpr int kNumberOverflow = 406;
     if (exception.id == kNumberOverflow) {
       const Node& number = add(Kind::Number);
-      refuse(printable(token), "must be a number that a double can hold: at most 1.8e308", number.line,
-             Error::Kind::Value);
-      out_.refusal->path.push_back(&number);
+      set_error(printable(token), "must be a number that a double can hold: at most 1.8e308", number.line,
+                Error::Kind::Value);
+      out_.error->path.push_back(&number);
     } else {
-      refuse("", explain(exception.what()), cursor_.token_line, Error::Kind::Syntax);
-      out_.refusal->path.clear();
+      set_error("", explain(exception.what()), cursor_.token_line, Error::Kind::Syntax);
+      out_.error->path.clear();
     }
     return false;
   }
@@ -167,15 +167,15 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   /// of them is open.
   bool open(Kind kind) {
     open_.push_back(&add(kind));
-    if (open_.size() <= kDeepest) return true;
-    refuse("", "nests arrays and objects deeper than " + std::to_string(kDeepest), cursor_.token_line,
-           Error::Kind::Syntax);
-    out_.refusal->path.clear();
+    if (open_.size() <= kMaxNesting) return true;
+    set_error("", "nests arrays and objects deeper than " + std::to_string(kMaxNesting), cursor_.token_line,
+              Error::Kind::Syntax);
+    out_.error->path.clear();
     return false;
   }
 
-  void refuse(std::string value, std::string problem, int line, Error::Kind kind) {
-    out_.refusal = {{open_.begin(), open_.end()}, std::move(value), std::move(problem), line, kind};
+  void set_error(std::string value, std::string problem, int line, Error::Kind kind) {
+    out_.error = {{open_.begin(), open_.end()}, std::move(value), std::move(problem), line, kind};
   }
 
   Document& out_;
@@ -189,8 +189,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 /// string. Sets `at` to its position.
 std::string find_foreign_bytes(std::string_view text, std::size_t& at) {
   at = 0;
-  if (text.size() > kLongestText) {
-    return "is too long: " + std::to_string(text.size()) + " bytes where " + std::to_string(kLongestText) +
+  if (text.size() > kMaxTextSize) {
+    return "is too long: " + std::to_string(text.size()) + " bytes where " + std::to_string(kMaxTextSize) +
            " are allowed";
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
@@ -233,7 +233,7 @@ void parse(std::string_view text, Document& out) {
   std::size_t at = 0;
   if (std::string problem = find_foreign_bytes(text, at); !problem.empty()) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    out.refusal = {{}, "", std::move(problem), static_cast<int>(line), Error::Kind::Syntax};
+    out.error = {{}, "", std::move(problem), static_cast<int>(line), Error::Kind::Syntax};
     return;
   }
   Cursor cursor;

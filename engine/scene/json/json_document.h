@@ -30,8 +30,8 @@ struct Node {
   const Node* find(std::string_view name) const;
 };
 
-/// The reason and the place of a refused text.
-struct Refusal {
+/// Reason and position of an error in the text.
+struct ParseError {
   std::vector<const Node*> path;  ///< from the root to the value being read
   std::string value;              ///< the offending text
   std::string problem;
@@ -42,17 +42,17 @@ struct Refusal {
 /// The values read, and the reason if reading stopped before the end.
 struct Document {
   Node root;
-  std::optional<Refusal> refusal;
+  std::optional<ParseError> error;
 };
 
 /// Maximum nesting depth of arrays and objects.
-inline constexpr std::size_t kDeepest = 64;
+inline constexpr std::size_t kMaxNesting = 64;
 
 /// Maximum length of a text, bytes.
-inline constexpr std::size_t kLongestText = std::size_t{1} << 30;
+inline constexpr std::size_t kMaxTextSize = std::size_t{1} << 30;
 
 /// Parses RFC 8259 JSON. Also refuses duplicate keys, numbers that a double cannot hold, nesting deeper than
-/// `kDeepest` and byte order marks. Numbers are rounded to the nearest double; "-0" keeps its sign.
+/// `kMaxNesting` and byte order marks. Numbers are rounded to the nearest double; "-0" keeps its sign.
 void parse(std::string_view text, Document& out);
 
 /// Returns `node` as short JSON for messages.

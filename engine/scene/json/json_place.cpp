@@ -37,11 +37,11 @@ bool is_vector(const Node& list) {
          list.key != "drives" && list.key != "shapes" && list.key != "points";
 }
 
-const char* list_key(Place::List list) {
-  return list == Place::List::Bodies   ? "bodies"
-         : list == Place::List::Joints ? "joints"
-         : list == Place::List::Forces ? "forces"
-                                       : "drives";
+const char* list_key(SceneLocation::List list) {
+  return list == SceneLocation::List::Bodies   ? "bodies"
+         : list == SceneLocation::List::Joints ? "joints"
+         : list == SceneLocation::List::Forces ? "forces"
+                                               : "drives";
 }
 
 /// Removes the first name or index from `field` and returns it: "shapes[1].radius" is shapes, 1, radius.
@@ -83,11 +83,11 @@ Naming naming_of(const std::vector<const Node*>& path) {
   return naming;
 }
 
-int line_of(const Node& root, const Place& place, std::string_view field) {
+int line_of(const Node& root, const SceneLocation& location, std::string_view field) {
   const Node* node = &root;
-  if (place.list != Place::List::None) {
-    const Node* list = root.find(list_key(place.list));
-    if (list != nullptr && place.index < list->items.size()) node = &list->items[place.index];
+  if (location.list != SceneLocation::List::None) {
+    const Node* list = root.find(list_key(location.list));
+    if (list != nullptr && location.index < list->items.size()) node = &list->items[location.index];
   }
   while (!field.empty()) {
     const Node* next = child(*node, next_step(field));

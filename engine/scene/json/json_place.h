@@ -19,8 +19,8 @@ struct Naming {
 /// Returns the naming of the last node of `path`, which starts at the root.
 Naming naming_of(const std::vector<const Node*>& path);
 
-/// Returns the line of `field` of the thing at `place`; the line of its parent if the text does not contain
-/// the field.
-int line_of(const Node& root, const Place& place, std::string_view field);
+/// Returns the line of `field` of the thing at `location`; the line of its parent if the text does not
+/// contain the field.
+int line_of(const Node& root, const SceneLocation& location, std::string_view field);
 
 }  // namespace plumb::json

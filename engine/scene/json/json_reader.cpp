@@ -198,18 +198,17 @@ Scene read_scene(const View& view) {
 Scene scene_from_json(std::string_view text) {
   json::Document document;
   json::parse(text, document);
-  if (document.refusal) {
-    json::Refusal& refusal = *document.refusal;
-    const auto [subject, field] = json::naming_of(refusal.path);
-    throw Error(refusal.kind, subject, field, std::move(refusal.value), std::move(refusal.problem),
-                refusal.line);
+  if (document.error) {
+    json::ParseError& error = *document.error;
+    const auto [subject, field] = json::naming_of(error.path);
+    throw Error(error.kind, subject, field, std::move(error.value), std::move(error.problem), error.line);
   }
   Scene scene = read_scene(View(document.root));
-  Place place;
+  SceneLocation location;
   try {
-    check(scene, place);
+    check(scene, location);
   } catch (const Error& error) {
-    throw error.at_line(json::line_of(document.root, place, error.field()));
+    throw error.at_line(json::line_of(document.root, location, error.field()));
   }
   return scene;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/math/trigonometry.h"
-#include "engine/world/character/mover_senses.h"
+#include "engine/world/character/mover_queries.h"
 #include "engine/world/character/plane_solver.h"
 #include "engine/world/state/validate.h"
 
@@ -13,17 +13,17 @@ namespace plumb {
 namespace {
 
 // Maximum number of surfaces hit in one move, and of iterations to resolve overlaps. Corners need fewer.
-constexpr int kMostRounds = 16;
-constexpr int kMostPushes = 8;
+constexpr int kMaxSlides = 16;
+constexpr int kMaxPushes = 8;
 
 // Half planes of one move.
 struct Planes {
-  std::array<HalfPlane, 2 * kMostRounds> items{};
+  std::array<HalfPlane, 2 * kMaxSlides> items{};
   std::size_t count = 0;
   void add(HalfPlane plane) {
     if (count < items.size()) items[count++] = plane;
   }
-  Vec2d nearest(Vec2d wanted) const { return solve_planes(std::span(items.data(), count), wanted).point; }
+  Vec2d nearest(Vec2d target) const { return solve_planes(std::span(items.data(), count), target).point; }
 };
 
 // One move. Position and velocity are the current ones.
@@ -31,51 +31,51 @@ template <class Real>
 class Move {
  public:
   Move(const BasicWorld<Real>& world, const Capsule& capsule, const MoverOptions& options, double dt)
-      : world_(world), options_(options), senses_(world, capsule, options), dt_(dt) {}
+      : world_(world), options_(options), queries_(world, capsule, options), dt_(dt) {}
 
   MoverResult run(Vec2d position, Vec2d velocity) {
     position_ = position, velocity_ = velocity;
     push_out();
-    feel_ground();
-    const double press = std::max(0.0, -dot(velocity_, senses_.up()));
+    detect_ground();
+    const double press_speed = std::max(0.0, -dot(velocity_, queries_.up()));
     remaining_ = dt_;
-    for (int round = 0; round < kMostRounds && remaining_ > 0; ++round) {
-      const bool goes_on = ground_ ? walk() : fly();
-      if (!goes_on) break;
+    for (int slide = 0; slide < kMaxSlides && remaining_ > 0; ++slide) {
+      const bool unfinished = ground_ ? walk() : fly();
+      if (!unfinished) break;
     }
-    if (!ground_) touch_down();
-    if (ground_) stay_on_ground(press);
-    if (ground_) ride();
+    if (!ground_) try_to_land();
+    if (ground_) snap_to_ground(press_speed);
+    if (ground_) move_with_ground();
     finish();
     return std::move(result_);
   }
 
  private:
   void push_out();
-  void feel_ground();
+  void detect_ground();
   bool walk();
   bool fly();
   bool step_up(double speed);
   void change_ground(const MoverGround& ground);
   void land(const MoverGround& ground);
-  void touch_down();
-  void stay_on_ground(double press);
-  void ride();
+  void try_to_land();
+  void snap_to_ground(double press_speed);
+  void move_with_ground();
   void finish();
 
   Vec2d velocity_of(const MoverContact& contact) const;
-  double note_hit(const MoverContact& contact, Vec2d velocity);
-  void block(const MoverContact& contact, Vec2d velocity);
+  double record_hit(const MoverContact& contact, Vec2d velocity);
+  void add_obstacle(const MoverContact& contact, Vec2d velocity);
 
   const BasicWorld<Real>& world_;
   const MoverOptions& options_;
-  MoverSenses<Real> senses_;
+  MoverQueries<Real> queries_;
   double dt_, remaining_ = 0;
   Vec2d position_{}, velocity_{};
   std::optional<MoverGround> ground_{};
-  Planes held_{};     // overlaps that it could not leave
-  Planes touched_{};  // current contacts, for the displacement
-  Planes met_{};      // all contacts of the move, for the velocity
+  Planes overlap_planes_{};  // overlaps that it could not leave
+  Planes contact_planes_{};  // current contacts, for the displacement
+  Planes hit_planes_{};      // all contacts of the move, for the velocity
   MoverResult result_{};
 };
 
@@ -93,27 +93,27 @@ template <class Real>
 void Move<Real>::push_out() {
   const Vec2d start = position_;
   Planes all;
-  for (int push = 0; push < kMostPushes; ++push) {
-    const std::optional<MoverContact> deepest = senses_.deepest(position_, velocity_);
+  for (int push = 0; push < kMaxPushes; ++push) {
+    const std::optional<MoverContact> deepest = queries_.deepest(position_, velocity_);
     if (!deepest) return;
-    const double least = dot(deepest->normal, position_ - start) + senses_.skin() - deepest->gap;
-    all.add({deepest->normal, least});
-    const MoverPath path = senses_.squeeze(position_, start + all.nearest({}) - position_);
-    position_ = path.position;
+    const double offset = dot(deepest->normal, position_ - start) + queries_.skin() - deepest->gap;
+    all.add({deepest->normal, offset});
+    const MoverCast cast = queries_.cast_quarter_skin(position_, start + all.nearest({}) - position_);
+    position_ = cast.position;
     // No further into the obstacle.
-    if (path.stop) all.add({path.stop->normal, dot(path.stop->normal, position_ - start)});
+    if (cast.hit) all.add({cast.hit->normal, dot(cast.hit->normal, position_ - start)});
   }
-  const std::optional<MoverContact> left = senses_.deepest(position_, velocity_);
-  if (!left || left->gap >= 0) return;
+  const std::optional<MoverContact> remaining_overlap = queries_.deepest(position_, velocity_);
+  if (!remaining_overlap || remaining_overlap->gap >= 0) return;
   result_.squeezed = true;
-  held_.add({left->normal, 0});
+  overlap_planes_.add({remaining_overlap->normal, 0});
 }
 
 template <class Real>
-void Move<Real>::feel_ground() {
-  const bool leaves = dot(velocity_, senses_.up()) > 0;
+void Move<Real>::detect_ground() {
+  const bool leaves = dot(velocity_, queries_.up()) > 0;
   Vec2d standing = position_;
-  const std::optional<MoverGround> ground = senses_.find_ground(standing, 2 * senses_.skin());
+  const std::optional<MoverGround> ground = queries_.find_ground(standing, 2 * queries_.skin());
   if (!ground) return;
   if (leaves) {
     velocity_ += velocity_of(ground->contact);
@@ -122,81 +122,83 @@ void Move<Real>::feel_ground() {
   }
 }
 
-// Records a hit at `velocity` (relative to the world), with its impulse. Returns the surface's speed along
-// the normal afterwards.
+// Records a hit at `velocity` (relative to the world) and its impulse. Returns the surface's speed along the
+// normal after the hit.
 template <class Real>
-double Move<Real>::note_hit(const MoverContact& contact, Vec2d velocity) {
+double Move<Real>::record_hit(const MoverContact& contact, Vec2d velocity) {
   const Vec2d normal = contact.normal;
   const double surface = dot(normal, world_.velocity_at(contact.body, contact.point));
-  const double closing = surface - dot(normal, velocity);
+  const double approach_speed = surface - dot(normal, velocity);
   for (const MoverHit& hit : result_.hits) {
     if (hit.shape == contact.shape && dot(hit.normal, normal) > 0.999) return surface;
   }
-  double impulse = 0, gained = 0;
-  if (options_.mass > 0 && closing > 0 && world_.type(contact.body) == BodyType::Dynamic) {
+  double impulse = 0, velocity_change = 0;
+  if (options_.mass > 0 && approach_speed > 0 && world_.type(contact.body) == BodyType::Dynamic) {
     // The hit is inelastic: both continue at one speed, within the force limit.
     const double lever = cross(contact.point - world_.centre(contact.body), normal);
     const double inertia = world_.inertia(contact.body);
-    const double gives = 1 / world_.mass(contact.body) + (inertia > 0 ? lever * lever / inertia : 0);
-    impulse = std::min(options_.push_force * dt_, closing / (1 / options_.mass + gives));
-    gained = impulse * gives;
+    const double inverse_effective_mass =
+        1 / world_.mass(contact.body) + (inertia > 0 ? lever * lever / inertia : 0);
+    impulse =
+        std::min(options_.push_force * dt_, approach_speed / (1 / options_.mass + inverse_effective_mass));
+    velocity_change = impulse * inverse_effective_mass;
   }
   result_.hits.push_back({contact.shape, contact.body, contact.point, normal, impulse});
-  return surface - gained;
+  return surface - velocity_change;
 }
 
 template <class Real>
-void Move<Real>::block(const MoverContact& contact, Vec2d velocity) {
-  const double speed = std::min(0.0, note_hit(contact, velocity));
-  touched_.add({contact.normal, 0});
-  met_.add({contact.normal, speed});
+void Move<Real>::add_obstacle(const MoverContact& contact, Vec2d velocity) {
+  const double speed = std::min(0.0, record_hit(contact, velocity));
+  contact_planes_.add({contact.normal, 0});
+  hit_planes_.add({contact.normal, speed});
   // A surface that is too steep to walk on must not be climbed in the air either, so it also acts as a
   // vertical wall.
-  const double rise = dot(contact.normal, senses_.up());
-  const Vec2d across = contact.normal - rise * senses_.up();
-  if (rise > 0 && !senses_.is_walkable(contact.normal) && length(across) > 0) {
+  const double rise = dot(contact.normal, queries_.up());
+  const Vec2d across = contact.normal - rise * queries_.up();
+  if (rise > 0 && !queries_.is_walkable(contact.normal) && length(across) > 0) {
     const double flat = length(across);
-    touched_.add({(1 / flat) * across, 0});
-    met_.add({(1 / flat) * across, speed / flat});
+    contact_planes_.add({(1 / flat) * across, 0});
+    hit_planes_.add({(1 / flat) * across, speed / flat});
   }
 }
 
 template <class Real>
 void Move<Real>::land(const MoverGround& ground) {
   const Vec2d ground_velocity = velocity_of(ground.contact);
-  note_hit(ground.contact, velocity_);
-  velocity_ = met_.nearest(velocity_) - ground_velocity;
-  velocity_ = dot(velocity_, senses_.right()) * senses_.right();
+  record_hit(ground.contact, velocity_);
+  velocity_ = hit_planes_.nearest(velocity_) - ground_velocity;
+  velocity_ = dot(velocity_, queries_.right()) * queries_.right();
   ground_ = ground;
-  touched_.count = met_.count = 0;
+  contact_planes_.count = hit_planes_.count = 0;
 }
 
-// Lands on ground within the distance that feel_ground() searches.
+// Lands if there is ground within the distance that detect_ground() searches.
 template <class Real>
-void Move<Real>::touch_down() {
-  if (dot(velocity_, senses_.up()) > 0) return;
-  const std::optional<MoverGround> ground = senses_.find_ground(position_, 2 * senses_.skin());
+void Move<Real>::try_to_land() {
+  if (dot(velocity_, queries_.up()) > 0) return;
+  const std::optional<MoverGround> ground = queries_.find_ground(position_, 2 * queries_.skin());
   if (ground) land(*ground);
 }
 
 // Moves in the air: straight, or along current contacts. Returns false at the end of the move.
 template <class Real>
 bool Move<Real>::fly() {
-  Vec2d going = touched_.nearest(velocity_);
-  if (held_.count > 0) going = held_.nearest(going);
-  const double whole = remaining_ * length(going);
-  if (!(whole > 1e-9 * senses_.skin())) return false;
-  const MoverPath path = senses_.go(position_, remaining_ * going);
-  position_ = path.position;
-  if (!path.stop) return false;
-  remaining_ *= 1 - path.travelled / whole;
-  if (path.travelled > senses_.skin()) touched_.count = 0;
-  const bool rises = dot(going, senses_.up()) > 0;
-  const std::optional<MoverGround> ground = rises ? std::nullopt : senses_.ground_at(position_, *path.stop);
+  Vec2d clipped_velocity = contact_planes_.nearest(velocity_);
+  if (overlap_planes_.count > 0) clipped_velocity = overlap_planes_.nearest(clipped_velocity);
+  const double max_distance = remaining_ * length(clipped_velocity);
+  if (!(max_distance > 1e-9 * queries_.skin())) return false;
+  const MoverCast cast = queries_.cast(position_, remaining_ * clipped_velocity);
+  position_ = cast.position;
+  if (!cast.hit) return false;
+  remaining_ *= 1 - cast.travelled / max_distance;
+  if (cast.travelled > queries_.skin()) contact_planes_.count = 0;
+  const bool rises = dot(clipped_velocity, queries_.up()) > 0;
+  const std::optional<MoverGround> ground = rises ? std::nullopt : queries_.ground_at(position_, *cast.hit);
   if (ground) {
     land(*ground);
   } else {
-    block(*path.stop, going);
+    add_obstacle(*cast.hit, clipped_velocity);
   }
   return true;
 }
@@ -204,35 +206,35 @@ bool Move<Real>::fly() {
 // Moves along the ground and up steps, until an obstacle stops it. Returns false at the end of the move.
 template <class Real>
 bool Move<Real>::walk() {
-  const double speed = dot(velocity_, senses_.right());
+  const double speed = dot(velocity_, queries_.right());
   const Vec2d direction = (speed < 0 ? 1.0 : -1.0) * perpendicular(ground_->floor);
-  const double whole = remaining_ * std::abs(speed);
-  if (!(whole > 1e-9 * senses_.skin())) return false;
-  if (held_.count > 0 && dot(held_.items[0].normal, direction) < 0) {
+  const double max_distance = remaining_ * std::abs(speed);
+  if (!(max_distance > 1e-9 * queries_.skin())) return false;
+  if (overlap_planes_.count > 0 && dot(overlap_planes_.items[0].normal, direction) < 0) {
     velocity_ = {};
     return false;
   }
-  const MoverPath path = senses_.go(position_, whole * direction);
-  position_ = path.position;
-  remaining_ *= 1 - path.travelled / whole;
-  if (!path.stop) return false;
-  const std::optional<MoverGround> ground = senses_.ground_at(position_, *path.stop);
-  const bool slope = senses_.is_walkable(path.stop->normal);
+  const MoverCast cast = queries_.cast(position_, max_distance * direction);
+  position_ = cast.position;
+  remaining_ *= 1 - cast.travelled / max_distance;
+  if (!cast.hit) return false;
+  const std::optional<MoverGround> ground = queries_.ground_at(position_, *cast.hit);
+  const bool slope = queries_.is_walkable(cast.hit->normal);
   if (ground && !ground->edge) {
     change_ground(*ground);
     return true;
   }
   if (step_up(speed)) return true;
   if (slope) {
-    change_ground({*path.stop, path.stop->normal, false});
+    change_ground({*cast.hit, cast.hit->normal, false});
     return true;
   }
   // If the surface recedes, the mover follows it at that speed.
   const Vec2d ground_velocity = velocity_of(ground_->contact);
-  const double surface = note_hit(*path.stop, std::abs(speed) * direction + ground_velocity);
-  const double receding = std::max(0.0, dot(path.stop->normal, ground_velocity) - surface);
-  const double allowed = receding / std::max(-dot(path.stop->normal, direction), 1e-3);
-  if (allowed < std::abs(speed)) velocity_ = (speed < 0 ? -allowed : allowed) * senses_.right();
+  const double surface = record_hit(*cast.hit, std::abs(speed) * direction + ground_velocity);
+  const double receding = std::max(0.0, dot(cast.hit->normal, ground_velocity) - surface);
+  const double allowed = receding / std::max(-dot(cast.hit->normal, direction), 1e-3);
+  if (allowed < std::abs(speed)) velocity_ = (speed < 0 ? -allowed : allowed) * queries_.right();
   return false;
 }
 
@@ -240,17 +242,17 @@ bool Move<Real>::walk() {
 // there and returns true.
 template <class Real>
 bool Move<Real>::step_up(double speed) {
-  const double whole = remaining_ * std::abs(speed), height = senses_.step_height();
-  if (!(height > 0) || !(whole > 0)) return false;
-  const MoverPath rise = senses_.go(position_, height * senses_.up());
-  const MoverPath ahead = senses_.go(rise.position, remaining_ * speed * senses_.right());
-  if (!(ahead.travelled > 1e-3 * senses_.skin())) return false;
+  const double max_distance = remaining_ * std::abs(speed), height = queries_.step_height();
+  if (!(height > 0) || !(max_distance > 0)) return false;
+  const MoverCast rise = queries_.cast(position_, height * queries_.up());
+  const MoverCast ahead = queries_.cast(rise.position, remaining_ * speed * queries_.right());
+  if (!(ahead.travelled > 1e-3 * queries_.skin())) return false;
   Vec2d standing = ahead.position;
   const std::optional<MoverGround> ground =
-      senses_.find_ground(standing, rise.travelled + 2 * senses_.skin());
-  if (!ground || !senses_.is_within_step(ground->contact.point, position_)) return false;
+      queries_.find_ground(standing, rise.travelled + 2 * queries_.skin());
+  if (!ground || !queries_.is_within_step(ground->contact.point, position_)) return false;
   position_ = standing;
-  remaining_ *= 1 - ahead.travelled / whole;
+  remaining_ *= 1 - ahead.travelled / max_distance;
   change_ground(*ground);
   return true;
 }
@@ -266,30 +268,31 @@ void Move<Real>::change_ground(const MoverGround& ground) {
 
 // Follows the ground down by up to a step's height, or leaves it.
 template <class Real>
-void Move<Real>::stay_on_ground(double press) {
+void Move<Real>::snap_to_ground(double press_speed) {
   const std::optional<MoverGround> ground =
-      senses_.find_ground(position_, senses_.step_height() + 2 * senses_.skin());
+      queries_.find_ground(position_, queries_.step_height() + 2 * queries_.skin());
   if (!ground) {
-    velocity_ = dot(velocity_, senses_.right()) * senses_.right() + velocity_of(ground_->contact);
+    velocity_ = dot(velocity_, queries_.right()) * queries_.right() + velocity_of(ground_->contact);
     ground_.reset();
     return;
   }
   change_ground(*ground);
-  velocity_ = dot(velocity_, senses_.right()) * senses_.right();
-  note_hit(ground->contact, velocity_of(ground->contact) - press * senses_.up());
+  velocity_ = dot(velocity_, queries_.right()) * queries_.right();
+  record_hit(ground->contact, velocity_of(ground->contact) - press_speed * queries_.up());
 }
 
 // Carries the mover with the ground's motion during dt. The contact point moves on a circle about the body's
 // centre, which moves on a line. Every other body stops the mover.
 template <class Real>
-void Move<Real>::ride() {
+void Move<Real>::move_with_ground() {
   const MoverContact& contact = ground_->contact;
   const Vec2d centre = world_.centre(contact.body), arm = contact.point - centre;
   const Vec2d centre_velocity = world_.velocity(contact.body);
   const Vec2d at_point = world_.velocity_at(contact.body, contact.point);
   const Vec2d on_surface = velocity_of(contact) - at_point;
-  const Vec2d turned = rotation_of(dt_ * world_.angular_velocity(contact.body)) * arm - arm;
-  position_ = senses_.go(position_, dt_ * (centre_velocity + on_surface) + turned, contact.body).position;
+  const Vec2d by_rotation = rotation_of(dt_ * world_.angular_velocity(contact.body)) * arm - arm;
+  position_ =
+      queries_.cast(position_, dt_ * (centre_velocity + on_surface) + by_rotation, contact.body).position;
 }
 
 template <class Real>
@@ -303,8 +306,8 @@ void Move<Real>::finish() {
     result_.ground_velocity = velocity_of(ground_->contact);
     return;
   }
-  if (held_.count > 0) met_.add(held_.items[0]);
-  result_.velocity = met_.nearest(velocity_);
+  if (overlap_planes_.count > 0) hit_planes_.add(overlap_planes_.items[0]);
+  result_.velocity = hit_planes_.nearest(velocity_);
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 
 namespace plumb {
 
-/// The half plane of displacements d with dot(normal, d) >= least.
+/// The half plane of displacements d with dot(normal, d) >= offset.
 struct HalfPlane {
-  Vec2d normal{};    ///< unit
-  double least = 0;  ///< m (or m/s, for velocities)
+  Vec2d normal{};     ///< unit
+  double offset = 0;  ///< m (or m/s, for velocities)
 };
 
 struct PlaneSolution {
@@ -17,9 +17,9 @@ struct PlaneSolution {
   bool feasible = true;  ///< false: no point is inside all; this is the one least outside
 };
 
-/// Returns the point inside all half planes that is nearest to `wanted`, exact to rounding and without
-/// iteration. It is `wanted` itself, or lies on one border or at the intersection of two, so a character in a
+/// Returns the point inside all half planes that is nearest to `target`, exact to rounding and without
+/// iteration. It is `target` itself, or lies on one border or at the intersection of two, so a character in a
 /// corner stays there.
-PlaneSolution solve_planes(std::span<const HalfPlane> planes, Vec2d wanted);
+PlaneSolution solve_planes(std::span<const HalfPlane> planes, Vec2d target);
 
 }  // namespace plumb

@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "engine/math/lane_rows.h"
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/lane_bodies.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
@@ -98,7 +98,7 @@ template <class Number>
 
 /// Fills a block from its contacts, which are all of one kind.
 template <class Number, class Real>
-[[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const BodyMotion<Real>* motion) {
+[[gnu::always_inline]] inline void gather(ContactBlock<Number>& block, const SolverBody<Real>* motion) {
   using Block = ContactBlock<Number>;
   using Constraint = ContactConstraint<Real>;
   constexpr std::size_t kFirst = offsetof(Constraint, normal), kFirstRow = offsetof(Block, normal);

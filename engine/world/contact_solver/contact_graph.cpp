@@ -28,7 +28,8 @@ auto ContactGraph<Real>::add(const ContactConstraint<Real>& constraint, bool giv
     break;
   }
   // Allocate first, so that a failure changes nothing.
-  if (chosen != kOverflow) bodies_[chosen].ensure(std::max(gives_way_a ? a + 1 : 0, gives_way_b ? b + 1 : 0));
+  if (chosen != kOverflow)
+    bodies_[chosen].reserve(std::max(gives_way_a ? a + 1 : 0, gives_way_b ? b + 1 : 0));
   colours_[chosen].push_back(constraint);
   if (chosen != kOverflow) {
     if (gives_way_a) bodies_[chosen].set(a);

@@ -16,14 +16,14 @@ struct ImpactRows {
   double response[3][3] = {};  // 1/kg
   double rate[3] = {};         // m/s, without impulses
 
-  double after(int row, const ContactImpulses& by) const {
+  double after(int row, const ImpactImpulses& by) const {
     return rate[row] + response[row][0] * by.normal[0] + response[row][1] * by.normal[1] +
            response[row][2] * by.friction;
   }
 };
 
 template <class Real>
-ImpactRows rows_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const ContactConstraint<Real>& c) {
+ImpactRows rows_of(const SolverBody<Real>& a, const SolverBody<Real>& b, const ContactConstraint<Real>& c) {
   const double arm_a[3] = {double(c.arm_a[0]), double(c.arm_a[1]), double(c.arm_tangent_a)},
                arm_b[3] = {double(c.arm_b[0]), double(c.arm_b[1]), double(c.arm_tangent_b)};
   const Vec2d between = b.velocity.template as<double>() - a.velocity.template as<double>(),
@@ -49,7 +49,7 @@ class Impact {
   Impact(const ImpactRows& rows, const bool (&strikes)[2], const double (&wanted)[2], double friction)
       : rows_(rows), strikes_(strikes), wanted_(wanted), friction_(friction) {}
 
-  ContactImpulses solve() {
+  ImpactImpulses solve() {
     double speed = 0;
     for (int i = 0; i < 2; ++i) {
       if (strikes_[i]) speed = std::max({speed, std::abs(rows_.rate[i]), std::abs(wanted_[i])});
@@ -83,7 +83,7 @@ class Impact {
       for (int j = 0; j < 2; ++j)
         m[i][j] = k[i][j] + (sticks ? -k[i][2] * k[2][j] / k[2][2] : share * k[i][2]);
     }
-    ContactImpulses found;
+    ImpactImpulses found;
     if (pushes[0] && pushes[1]) {
       const double product = m[0][0] * m[1][1], determinant = product - m[0][1] * m[1][0];
       if (std::abs(determinant) > kRounding * std::abs(product)) {
@@ -119,18 +119,18 @@ class Impact {
   const bool (&strikes_)[2];
   const double (&wanted_)[2];
   double friction_;
-  ContactImpulses best_;
+  ImpactImpulses best_;
   double missed_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
 
 template <class Real>
-ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
-                          const ContactConstraint<Real>& c, const bool (&strikes)[2],
-                          const double (&wanted)[2]) {
+ImpactImpulses impact_of(const SolverBody<Real>& a, const SolverBody<Real>& b,
+                         const ContactConstraint<Real>& c, const bool (&strikes)[2],
+                         const double (&wanted)[2]) {
   const ImpactRows rows = rows_of(a, b, c);
-  ContactImpulses found = Impact(rows, strikes, wanted, c.tangent_mass > 0 ? double(c.friction) : 0).solve();
+  ImpactImpulses found = Impact(rows, strikes, wanted, c.tangent_mass > 0 ? double(c.friction) : 0).solve();
   for (double& normal : found.normal) normal = std::max(normal, 0.0);
   const double impulses[3] = {found.normal[0], found.normal[1], found.friction};
   // If all impulses are scaled by k, they do the work k `first` + k^2 `second`.
@@ -144,9 +144,9 @@ ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
   return {{scale * found.normal[0], scale * found.normal[1]}, scale * found.friction};
 }
 
-#define PLUMB_FOR(Real)                                                                \
-  template ContactImpulses impact_of(const BodyMotion<Real>&, const BodyMotion<Real>&, \
-                                     const ContactConstraint<Real>&, const bool(&)[2], const double(&)[2]);
+#define PLUMB_FOR(Real)                                                               \
+  template ImpactImpulses impact_of(const SolverBody<Real>&, const SolverBody<Real>&, \
+                                    const ContactConstraint<Real>&, const bool(&)[2], const double(&)[2]);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

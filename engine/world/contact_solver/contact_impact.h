@@ -1,12 +1,12 @@
 #pragma once
 
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
-/// Impulses of a contact, N s.
-struct ContactImpulses {
+/// Impulses of an impact at a contact, N s.
+struct ImpactImpulses {
   double normal[2] = {}, friction = 0;
 };
 
@@ -23,8 +23,8 @@ struct ContactImpulses {
 /// Only points in `strikes` may have an impulse: points that touch, and either approach or are pressed by the
 /// impulse at the other point. `wanted`: m/s.
 template <class Real>
-ContactImpulses impact_of(const BodyMotion<Real>& a, const BodyMotion<Real>& b,
-                          const ContactConstraint<Real>& c, const bool (&strikes)[2],
-                          const double (&wanted)[2]);
+ImpactImpulses impact_of(const SolverBody<Real>& a, const SolverBody<Real>& b,
+                         const ContactConstraint<Real>& c, const bool (&strikes)[2],
+                         const double (&wanted)[2]);
 
 }  // namespace plumb

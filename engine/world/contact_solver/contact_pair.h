@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "engine/math/lanes.h"
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/locked_axes.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 /// Building blocks of the passes over contacts: for one contact, or for several in SIMD lanes if `Number` has
 /// lanes. They are inlined into each pass, which costs little more than the latency of its few operations.

@@ -65,7 +65,8 @@ template <class Number, class Pair, class Contact, class Real>
 [[gnu::always_inline]] inline Demand<Number> demand_now(const Pair& pair, Contact& c, int i,
                                                         const Number& closed, Real inverse_h) {
   using std::max;
-  const Number s = c.separation[i] + (closed + (c.arm_b[i] * pair.b.turned - c.arm_a[i] * pair.a.turned));
+  const Number s =
+      c.separation[i] + (closed + (c.arm_b[i] * pair.b.delta_angle - c.arm_a[i] * pair.a.delta_angle));
   c.now[i] = s;
   const Number gap = max(s, Number(0));
   return {gap * inverse_h, 1, 0, select(c.normal_impulse[i] > Number(0), Number(0), gap)};
@@ -131,7 +132,7 @@ template <class Number, class Real, class Pair, class Contact, class Mask>
 template <class Number, class Pair, class Contact, class Real>
 [[gnu::always_inline]] inline void relax_contact(Pair& pair, Contact& c, const ContactStep<Real>& step) {
   using std::max, std::min;
-  const Number closed = dot(pair.n, pair.b.moved - pair.a.moved);
+  const Number closed = dot(pair.n, pair.b.delta_position - pair.a.delta_position);
   const Demand<Number> at_p = demand_now<Number>(pair, c, 0, closed, step.inverse_h);
   Demand<Number> at_q{};
   if (c.count == 2) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/locked_axes.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
@@ -13,12 +13,13 @@ namespace plumb {
 /// and contact_pair.h).
 template <class Real>
 struct ContactPair {
-  ContactPair(BodyMotion<Real>* motion, ContactConstraint<Real>& contact)
+  ContactPair(SolverBody<Real>* motion, ContactConstraint<Real>& contact)
       : c(contact), a(motion[contact.body_a]), b(motion[contact.body_b]) {}
 
   /// Returns the separation of a point, m, updated from the start of the step to first order.
   Real separation(int i) const {
-    return c.separation[i] + dot(c.normal, b.moved - a.moved) + c.arm_b[i] * b.turned - c.arm_a[i] * a.turned;
+    return c.separation[i] + dot(c.normal, b.delta_position - a.delta_position) + c.arm_b[i] * b.delta_angle -
+           c.arm_a[i] * a.delta_angle;
   }
   /// Returns the velocity of a point along the normal, m/s; negative: closing.
   Real normal_rate(int i) const {
@@ -97,7 +98,7 @@ struct ContactPair {
   }
 
   ContactConstraint<Real>& c;
-  BodyMotion<Real>&a, &b;
+  SolverBody<Real>&a, &b;
 
  private:
   Vec2<Real> tangent() const { return {c.normal.y, -c.normal.x}; }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 

@@ -1,20 +1,20 @@
 #pragma once
 
-#include "engine/math/small_turn.h"
-#include "engine/world/contact_solver/body_motion.h"
+#include "engine/math/small_rotation.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
 /// Updates a position by h times the change of velocity since `velocity_before` and `spin_before`
 /// (position-based dynamics).
 template <class Real>
-void follow(BodyMotion<Real>& motion, Rotation<Real>& rotation, Vec2<Real> velocity_before, Real spin_before,
+void follow(SolverBody<Real>& motion, Rotation<Real>& rotation, Vec2<Real> velocity_before, Real spin_before,
             Real h) {
-  motion.moved += h * (motion.velocity - velocity_before);
+  motion.delta_position += h * (motion.velocity - velocity_before);
   const Real turn = h * (motion.angular_velocity - spin_before);
   if (turn == 0) return;
-  motion.turned += turn;
-  rotation = turned_by(rotation, turn);
+  motion.delta_angle += turn;
+  rotation = rotated_by(rotation, turn);
 }
 
 }  // namespace plumb

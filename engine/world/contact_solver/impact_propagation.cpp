@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/contact_solver/impact_round.h"
 
@@ -31,9 +31,10 @@ constexpr int kAtOneTime = 64, kAtOneTimeEach = 8;
 
 // Returns the present separation of a point, m.
 template <class Real>
-Real separation_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i) {
-  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
-  return c.separation[i] + dot(c.normal, b.moved - a.moved) + (c.arm_b[i] * b.turned - c.arm_a[i] * a.turned);
+Real separation_of(const SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i) {
+  const SolverBody<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  return c.separation[i] + dot(c.normal, b.delta_position - a.delta_position) +
+         (c.arm_b[i] * b.delta_angle - c.arm_a[i] * a.delta_angle);
 }
 
 template <class Real>
@@ -49,9 +50,9 @@ int looks_for(Real restitution) {
 
 // Finds the contacts that have impacts, their fastest approach and their largest restitution.
 template <class Real>
-void find_strikes(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+void find_strikes(const SolverBody<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                   ImpactScratch<Real>& room) {
-  room.strikes.clear(), ensure_room(room.strikes, bounces.size());
+  room.strikes.clear(), ensure_capacity(room.strikes, bounces.size());
   room.struck_points = 0, room.fastest = room.most_restitution = 0;
   for (std::size_t at = 0; at < bounces.size(); ++at) {
     const RestitutionContact<Real>& bounce = bounces[at];
@@ -79,28 +80,28 @@ void clear_room(const std::vector<RestitutionContact<Real>>& bounces, ImpactScra
     bodies = std::max({bodies, bounce.contact->body_a + 1, bounce.contact->body_b + 1});
   const int contacts = static_cast<int>(bounces.size());
   for (std::vector<char>* const flags : {&room.marked, &room.struck_now}) {
-    if (static_cast<int>(flags->size()) < bodies) make_room(*flags, bodies);
+    if (static_cast<int>(flags->size()) < bodies) resize_with_growth(*flags, bodies);
     std::fill_n(flags->begin(), bodies, char(0));
   }
   for (std::vector<int>* const places : {&room.first_contact, &room.struck_at}) {
-    if (static_cast<int>(places->size()) < bodies) make_room(*places, bodies);
+    if (static_cast<int>(places->size()) < bodies) resize_with_growth(*places, bodies);
     std::fill_n(places->begin(), bodies, -1);
   }
-  if (static_cast<int>(room.earliest.size()) < bodies) make_room(room.earliest, bodies);
-  if (static_cast<int>(room.last.size()) < bodies) make_room(room.last, bodies);
+  if (static_cast<int>(room.earliest.size()) < bodies) resize_with_growth(room.earliest, bodies);
+  if (static_cast<int>(room.last.size()) < bodies) resize_with_growth(room.last, bodies);
   std::fill_n(room.last.begin(), bodies, Real(0));
   if (static_cast<int>(room.way.size()) < bodies) {
-    make_room(room.way, bodies), make_room(room.turn, bodies);
-    ensure_room(room.displaced, room.way.size());
+    resize_with_growth(room.way, bodies), resize_with_growth(room.turn, bodies);
+    ensure_capacity(room.displaced, room.way.size());
   }
   if (static_cast<int>(room.in_list.size()) < contacts) {
-    make_room(room.in_list, contacts), make_room(room.seen, contacts);
-    make_room(room.next, 2 * contacts), make_room(room.coming, contacts);
+    resize_with_growth(room.in_list, contacts), resize_with_growth(room.seen, contacts);
+    resize_with_growth(room.next, 2 * contacts), resize_with_growth(room.coming, contacts);
     const std::size_t points = room.next.size();
-    ensure_room(room.struck, points), ensure_room(room.grouped, points);
-    ensure_room(room.following, points), ensure_room(room.latest, points);
-    ensure_room(room.looked, room.in_list.size()), ensure_room(room.all_seen, room.in_list.size());
-    ensure_room(room.groups, points);
+    ensure_capacity(room.struck, points), ensure_capacity(room.grouped, points);
+    ensure_capacity(room.following, points), ensure_capacity(room.latest, points);
+    ensure_capacity(room.looked, room.in_list.size()), ensure_capacity(room.all_seen, room.in_list.size());
+    ensure_capacity(room.groups, points);
   }
   std::fill_n(room.in_list.begin(), contacts, char(0)), std::fill_n(room.seen.begin(), contacts, char(0));
   for (int i = 0; i < contacts; ++i) room.coming[i].time[0] = room.coming[i].time[1] = kNever<Real>;
@@ -122,7 +123,7 @@ inline void note(std::vector<int>& list, std::vector<char>& noted, int item) {
 
 // Finds the time of the next impact of each point of a contact, for the present motion of its bodies.
 template <class Real>
-void look_at(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real least, Real h,
+void look_at(const SolverBody<Real>* motion, RestitutionContact<Real>& bounce, Real least, Real h,
              const ImpactScratch<Real>& room, ComingImpact<Real>& coming) {
   ContactConstraint<Real>& c = *bounce.contact;
   const Real start = std::max(room.last[group_of(room, c.body_a)], room.last[group_of(room, c.body_b)]);
@@ -145,7 +146,7 @@ void look_at(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, R
 // Prefetches the contacts of a list and, once these are loaded, their bodies: they are scattered in memory.
 // Always inlined, because GCC 12 drops calls of a function that only prefetches.
 template <class Real>
-[[gnu::always_inline]] inline void prefetch_listed(const BodyMotion<Real>* motion,
+[[gnu::always_inline]] inline void prefetch_listed(const SolverBody<Real>* motion,
                                                    const std::vector<RestitutionContact<Real>>& bounces,
                                                    const std::vector<int>& list, std::size_t i) {
   constexpr std::size_t kBounces = 12, kContacts = 8, kBodies = 4;
@@ -181,7 +182,7 @@ void arrange_looked(int contacts, ImpactScratch<Real>& room) {
 // contacts, whose bodies have had an impact since they were last examined; the predictions for the others
 // have not changed.
 template <class Real>
-void find_struck(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real least,
+void find_struck(const SolverBody<Real>* motion, std::vector<RestitutionContact<Real>>& bounces, Real least,
                  Real h, ImpactScratch<Real>& room) {
   room.struck.clear(), room.groups.clear();
   for (std::size_t k = 0; k < room.looked.size(); ++k) {
@@ -236,7 +237,7 @@ bool time_passes(const ImpactScratch<Real>& room) {
 
 // Updates the contacts whose bodies the impacts have moved, and forgets the impacts.
 template <class Real>
-void settle(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
+void settle(const SolverBody<Real>* motion, std::vector<RestitutionContact<Real>>& bounces,
             const ContactStep<Real>& step, ImpactScratch<Real>& room) {
   for (const int i : room.looked) room.in_list[i] = 0, note(room.all_seen, room.seen, i);
   for (const int i : room.all_seen) {
@@ -263,7 +264,7 @@ void settle(const BodyMotion<Real>* motion, std::vector<RestitutionContact<Real>
 }  // namespace
 
 template <class Real>
-bool find_impacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+bool find_impacts(const SolverBody<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                   ImpactScratch<Real>& room) {
   find_strikes(motion, bounces, room);
   const int first_round = static_cast<int>(room.strikes.size()) + kLeastSweeps * room.struck_points;
@@ -271,7 +272,7 @@ bool find_impacts(const BodyMotion<Real>* motion, const std::vector<RestitutionC
 }
 
 template <class Real>
-void link_contacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+void link_contacts(const SolverBody<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                    ImpactScratch<Real>& room) {
   clear_room(bounces, room);
   for (int i = static_cast<int>(bounces.size()) - 1; i >= 0; --i) {
@@ -286,7 +287,7 @@ void link_contacts(const BodyMotion<Real>* motion, const std::vector<Restitution
 }
 
 template <class Real>
-int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
+int propagate_impacts(SolverBody<Real>* motion, Rotation<Real>* rotation,
                       std::vector<RestitutionContact<Real>>& bounces, const ContactStep<Real>& step,
                       ImpactScratch<Real>& room) {
   const Real least = std::max(step.bounce_threshold, Real(kSlow) * room.fastest);
@@ -313,11 +314,11 @@ int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
 }
 
 #define PLUMB_FOR(Real)                                                                                      \
-  template bool find_impacts(const BodyMotion<Real>*, const std::vector<RestitutionContact<Real>>&,          \
+  template bool find_impacts(const SolverBody<Real>*, const std::vector<RestitutionContact<Real>>&,          \
                              ImpactScratch<Real>&);                                                          \
-  template void link_contacts(const BodyMotion<Real>*, const std::vector<RestitutionContact<Real>>&,         \
+  template void link_contacts(const SolverBody<Real>*, const std::vector<RestitutionContact<Real>>&,         \
                               ImpactScratch<Real>&);                                                         \
-  template int propagate_impacts(BodyMotion<Real>*, Rotation<Real>*, std::vector<RestitutionContact<Real>>&, \
+  template int propagate_impacts(SolverBody<Real>*, Rotation<Real>*, std::vector<RestitutionContact<Real>>&, \
                                  const ContactStep<Real>&, ImpactScratch<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -9,13 +9,13 @@ namespace plumb {
 /// Finds the impacts of a substep. Returns false if there are none, or if even the first round would exceed
 /// the work limit of `propagate_impacts`: then all impacts are left to the constraints.
 template <class Real>
-bool find_impacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+bool find_impacts(const SolverBody<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                   ImpactScratch<Real>& room);
 
 /// Links the contacts of each group of bodies for all substeps of a step, which have the same contacts and
 /// groups. `room.group` must be filled in.
 template <class Real>
-void link_contacts(const BodyMotion<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
+void link_contacts(const SolverBody<Real>* motion, const std::vector<RestitutionContact<Real>>& bounces,
                    ImpactScratch<Real>& room);
 
 /// Resolves the impacts of a substep by impact propagation. A body with an impact passes it on to others that
@@ -36,7 +36,7 @@ void link_contacts(const BodyMotion<Real>* motion, const std::vector<Restitution
 /// Returns the number of rounds. If no time passes for many rounds, it stops and leaves the rest to the
 /// constraints. Between two walls that both push, a body would bounce for ever.
 template <class Real>
-int propagate_impacts(BodyMotion<Real>* motion, Rotation<Real>* rotation,
+int propagate_impacts(SolverBody<Real>* motion, Rotation<Real>* rotation,
                       std::vector<RestitutionContact<Real>>& bounces, const ContactStep<Real>& step,
                       ImpactScratch<Real>& room);
 

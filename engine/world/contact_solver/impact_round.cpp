@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/contact_solver/locked_axes.h"
 
 namespace plumb {
@@ -19,14 +19,14 @@ constexpr int kSweeps = 40;
 constexpr double kJointsCost = 2e5;
 
 template <class Real>
-void push(BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
+void push(SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
   motion[c.body_a].apply(-impulse * free_of_a(c.normal, c.locks), -impulse * c.arm_a[i]);
   motion[c.body_b].apply(impulse * free_of_b(c.normal, c.locks), impulse * c.arm_b[i]);
 }
 
 // Sorts the struck points by groups that share no dynamic body; within a group their order is kept.
 template <class Real>
-void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
+void group_struck(const SolverBody<Real>* motion, ImpactScratch<Real>& room) {
   std::vector<StruckPoint<Real>>& struck = room.struck;
   const int count = static_cast<int>(struck.size());
   std::vector<int>&following = room.following, &latest = room.latest;
@@ -60,14 +60,14 @@ void group_struck(const BodyMotion<Real>* motion, ImpactScratch<Real>& room) {
 
 // Returns the relative sliding speed of a contact's bodies minus the surface speed, m/s.
 template <class Real>
-Real sliding_of(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c) {
-  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+Real sliding_of(const SolverBody<Real>* motion, const ContactConstraint<Real>& c) {
+  const SolverBody<Real>&a = motion[c.body_a], &b = motion[c.body_b];
   return dot(Vec2<Real>{c.normal.y, -c.normal.x}, b.velocity - a.velocity) +
          c.arm_tangent_b * b.angular_velocity - c.arm_tangent_a * a.angular_velocity - c.surface_speed;
 }
 
 template <class Real>
-void push_along(BodyMotion<Real>* motion, const ContactConstraint<Real>& c, Real friction) {
+void push_along(SolverBody<Real>* motion, const ContactConstraint<Real>& c, Real friction) {
   const Vec2<Real> t{c.normal.y, -c.normal.x};
   motion[c.body_a].apply(-friction * free_of_a(t, c.locks), -friction * c.arm_tangent_a);
   motion[c.body_b].apply(friction * free_of_b(t, c.locks), friction * c.arm_tangent_b);
@@ -83,7 +83,7 @@ Real work_before(std::span<const StruckPoint<Real>> struck) {
 
 // Returns the same work at the current velocities, J.
 template <class Real>
-Real work_of(const BodyMotion<Real>* motion, std::span<const StruckPoint<Real>> struck) {
+Real work_of(const SolverBody<Real>* motion, std::span<const StruckPoint<Real>> struck) {
   Real work = 0;
   for (const StruckPoint<Real>& at : struck) {
     const ContactConstraint<Real>& c = *at.bounce->contact;
@@ -105,7 +105,7 @@ Real energy_scale(Real before, Real after) {
 // energy is gained. Friction is solved after the normals; where it rotates bodies, the normals are solved
 // again: a box that lands flat then leaves with the same speed at both ends.
 template <class Real>
-void exchange(BodyMotion<Real>* motion, std::span<StruckPoint<Real>> struck, Real fastest, int& looks) {
+void exchange(SolverBody<Real>* motion, std::span<StruckPoint<Real>> struck, Real fastest, int& looks) {
   // Returns true if a normal impulse changes.
   const auto press = [&] {
     bool changes = false;
@@ -163,7 +163,7 @@ void note_impact(const StruckPoint<Real>& at) {
 
 // Corrects the displacement: impulses act only from the time of impact on, not over the whole substep.
 template <class Real>
-void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
+void finish_impact(SolverBody<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
                    ImpactScratch<Real>& room) {
   const ContactConstraint<Real>& c = *at.bounce->contact;
   const Vec2<Real> t{c.normal.y, -c.normal.x};
@@ -171,7 +171,7 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
   note_impact(at);
   const Vec2<Real> way = -at.time * (at.impulse * c.normal + friction * t);
   const auto move_back = [&](int body, Real sign, Vec2<Real> back, Real angular) {
-    BodyMotion<Real>& moving = motion[body];
+    SolverBody<Real>& moving = motion[body];
     displace(room, moving, rotation[body], body, (sign * moving.inverse_mass) * back,
              -sign * at.time * moving.inverse_inertia * angular);
     Real& last = room.last[group_of(room, body)];
@@ -187,7 +187,7 @@ void finish_impact(BodyMotion<Real>* motion, Rotation<Real>* rotation, const Str
 template <class Real>
 class JointedRound {
  public:
-  JointedRound(BodyMotion<Real>* motion, Rotation<Real>* rotation, std::span<StruckPoint<Real>> struck,
+  JointedRound(SolverBody<Real>* motion, Rotation<Real>* rotation, std::span<StruckPoint<Real>> struck,
                ImpactScratch<Real>& room)
       : motion_(motion), rotation_(rotation), struck_(struck), room_(room), system_(room.system) {}
 
@@ -212,7 +212,7 @@ class JointedRound {
   void resolve() {
     exchange();
     for (const typename ImpactScratch<Real>::Link& link : room_.links) {
-      BodyMotion<Real>& moving = motion_[link.body];
+      SolverBody<Real>& moving = motion_[link.body];
       if (!is_dynamic(moving)) continue;
       const int group = group_of(room_, link.body);
       const Real time = room_.earliest[group];
@@ -250,7 +250,7 @@ class JointedRound {
     int& place = room_.link_of[body];
     if (place < static_cast<int>(room_.links.size()) && room_.links[place].body == body) return place;
     place = static_cast<int>(room_.links.size());
-    const BodyMotion<Real>& from = motion_[body];
+    const SolverBody<Real>& from = motion_[body];
     room_.links.push_back({body, from.velocity, from.angular_velocity});
     const double inverse_mass = from.inverse_mass;
     system_.bodies.push_back(
@@ -277,9 +277,9 @@ class JointedRound {
       for (int i = joint.first_row; i < joint.first_row + joint.rows; ++i) {
         BoundedRow row = room_.rows[i];
         row.a = link_a, row.b = link_b, row.block = block;
-        row.wanted = dot(row.linear_a, a.velocity.template as<double>()) + row.angular_a * a.spin +
+        row.target = dot(row.linear_a, a.velocity.template as<double>()) + row.angular_a * a.spin +
                      dot(row.linear_b, b.velocity.template as<double>()) + row.angular_b * b.spin;
-        if (row.lower == 0) row.wanted = std::min(row.wanted, 0.0);
+        if (row.lower == 0) row.target = std::min(row.target, 0.0);
         system_.rows.push_back(row);
       }
       ++block;
@@ -297,13 +297,13 @@ class JointedRound {
       const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x};
       row.linear_a = free_of_a(-n, c.locks), row.linear_b = free_of_b(n, c.locks);
       row.angular_a = -double(c.arm_a[at.point]), row.angular_b = c.arm_b[at.point];
-      row.wanted = at.wanted, row.upper = std::numeric_limits<double>::infinity();
+      row.target = at.wanted, row.upper = std::numeric_limits<double>::infinity();
       row.block = block;
       system_.rows.push_back(row);
       if (!(c.friction > 0)) continue;
       row.linear_a = free_of_a(-t, c.locks), row.linear_b = free_of_b(t, c.locks);
       row.angular_a = -double(c.arm_tangent_a), row.angular_b = c.arm_tangent_b;
-      row.wanted = c.surface_speed;
+      row.target = c.surface_speed;
       row.lower = -c.friction * at.impulse, row.upper = -row.lower;
       row.impulse = 0;
       system_.rows.push_back(row);
@@ -326,7 +326,7 @@ class JointedRound {
     }
     system_.solve();
     for (std::size_t i = 0; i < room_.links.size(); ++i) {
-      BodyMotion<Real>& to = motion_[room_.links[i].body];
+      SolverBody<Real>& to = motion_[room_.links[i].body];
       if (!is_dynamic(to)) continue;
       to.velocity = system_.bodies[i].velocity.template as<Real>();
       to.angular_velocity = static_cast<Real>(system_.bodies[i].spin);
@@ -350,13 +350,13 @@ class JointedRound {
     if (scale == 1) return;
     for (StruckPoint<Real>& at : struck_) at.impulse *= scale, at.friction *= scale;
     for (const auto& link : room_.links) {
-      BodyMotion<Real>& body = motion_[link.body];
+      SolverBody<Real>& body = motion_[link.body];
       body.velocity = link.velocity + scale * (body.velocity - link.velocity);
       body.angular_velocity = link.spin + scale * (body.angular_velocity - link.spin);
     }
   }
 
-  BodyMotion<Real>* motion_;
+  SolverBody<Real>* motion_;
   Rotation<Real>* rotation_;
   std::span<StruckPoint<Real>> struck_;
   ImpactScratch<Real>& room_;
@@ -366,7 +366,7 @@ class JointedRound {
 }  // namespace
 
 template <class Real>
-void resolve_round(BodyMotion<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
+void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
                    ImpactScratch<Real>& room) {
   group_struck(motion, room);
   for (StruckPoint<Real>& at : room.struck)
@@ -386,7 +386,7 @@ void resolve_round(BodyMotion<Real>* motion, Rotation<Real>* rotation, Real fast
 }
 
 #define PLUMB_FOR(Real) \
-  template void resolve_round(BodyMotion<Real>*, Rotation<Real>*, Real, int&, ImpactScratch<Real>&);
+  template void resolve_round(SolverBody<Real>*, Rotation<Real>*, Real, int&, ImpactScratch<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

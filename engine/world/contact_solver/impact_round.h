@@ -8,7 +8,7 @@ namespace plumb {
 /// corrects the displacements. Subtracts each solved point from `looks`. `fastest` is the fastest approach of
 /// the substep, m/s; changes below 1e-6 of it count as converged.
 template <class Real>
-void resolve_round(BodyMotion<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
+void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
                    ImpactScratch<Real>& room);
 
 }  // namespace plumb

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/linear_algebra/bounded_rows.h"
-#include "engine/math/small_turn.h"
+#include "engine/math/small_rotation.h"
 #include "engine/world/contact_solver/restitution_contacts.h"
 
 namespace plumb {
@@ -105,13 +105,13 @@ struct ImpactScratch {
 
 /// Moves and rotates a body, and adds the displacement to its sum.
 template <class Real>
-void displace(ImpactScratch<Real>& room, BodyMotion<Real>& moving, Rotation<Real>& rotation, int body,
+void displace(ImpactScratch<Real>& room, SolverBody<Real>& moving, Rotation<Real>& rotation, int body,
               Vec2<Real> way, Real turn) {
   if (!is_dynamic(moving)) return;
   if (room.way[body] == Vec2<Real>{} && room.turn[body] == 0) append(room.displaced, body);
   room.way[body] += way, room.turn[body] += turn;
-  moving.moved += way;
-  if (turn != 0) moving.turned += turn, rotation = turned_by(rotation, turn);
+  moving.delta_position += way;
+  if (turn != 0) moving.delta_angle += turn, rotation = rotated_by(rotation, turn);
 }
 
 /// Returns the group of a body.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_constraint.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 /// Contacts of bodies of which one axis is locked. Along it such a body has no velocity, and no impulse gives
 /// it one: in its rows of the Jacobian the component is 0. Bodies with both axes locked have no inverse mass,
@@ -27,7 +27,7 @@ Vec free_of_b(Vec direction, unsigned locks) {
 /// Returns the relative velocity along `row` that a unit impulse along `direction` gives two bodies that do
 /// not rotate, 1/kg. Both are unit vectors, either equal or perpendicular.
 template <class Number, class Real>
-Number linear_response(const BodyMotion<Real>& a, const BodyMotion<Real>& b, unsigned locks, Vec2<Number> row,
+Number linear_response(const SolverBody<Real>& a, const SolverBody<Real>& b, unsigned locks, Vec2<Number> row,
                        Vec2<Number> direction, bool same) {
   if (locks == 0) return same ? Number(a.inverse_mass) + Number(b.inverse_mass) : Number(0);
   return Number(a.inverse_mass) * dot(free_of_a(row, locks), direction) +

@@ -32,7 +32,7 @@ void hold_still(ContactPair<Real>& pair) {
 
 // Sets the normal velocities of pressed points: of all, or only of those that bounce or approach.
 template <class Real>
-void leave(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const PositionStep<Real>& step, bool all) {
+void leave(SolverBody<Real>* motion, ContactConstraint<Real>& c, const PositionStep<Real>& step, bool all) {
   ContactPair<Real> pair(motion, c);
   pair.note_peaks();
   Real wanted[2] = {};
@@ -49,7 +49,7 @@ void leave(BodyMotion<Real>* motion, ContactConstraint<Real>& c, const PositionS
 }  // namespace
 
 template <class Real>
-void begin_position_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph) {
+void begin_position_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
     c.load_estimate[0] = c.load_estimate[1] = 0;
@@ -62,7 +62,7 @@ void begin_position_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph
 }
 
 template <class Real>
-void project_contacts(BodyMotion<Real>* motion, Rotation<Real>* rotation, ContactGraph<Real>& graph,
+void project_contacts(SolverBody<Real>* motion, Rotation<Real>* rotation, ContactGraph<Real>& graph,
                       const PositionStep<Real>& step, PositionFriction friction) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     ContactPair<Real> pair(motion, c);
@@ -86,12 +86,12 @@ void project_contacts(BodyMotion<Real>* motion, Rotation<Real>* rotation, Contac
 }
 
 template <class Real>
-void restore_bounces(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step) {
+void restore_bounces(SolverBody<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step) {
   graph.for_each([&](ContactConstraint<Real>& c) { leave(motion, c, step, false); });
 }
 
 template <class Real>
-void correct_contact_velocities(BodyMotion<Real>* motion, ContactGraph<Real>& graph,
+void correct_contact_velocities(SolverBody<Real>* motion, ContactGraph<Real>& graph,
                                 const PositionStep<Real>& step) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     leave(motion, c, step, true);
@@ -100,11 +100,11 @@ void correct_contact_velocities(BodyMotion<Real>* motion, ContactGraph<Real>& gr
 }
 
 #define PLUMB_FOR(Real)                                                                             \
-  template void begin_position_contacts(BodyMotion<Real>*, ContactGraph<Real>&);                    \
-  template void project_contacts(BodyMotion<Real>*, Rotation<Real>*, ContactGraph<Real>&,           \
+  template void begin_position_contacts(SolverBody<Real>*, ContactGraph<Real>&);                    \
+  template void project_contacts(SolverBody<Real>*, Rotation<Real>*, ContactGraph<Real>&,           \
                                  const PositionStep<Real>&, PositionFriction);                      \
-  template void restore_bounces(BodyMotion<Real>*, ContactGraph<Real>&, const PositionStep<Real>&); \
-  template void correct_contact_velocities(BodyMotion<Real>*, ContactGraph<Real>&, const PositionStep<Real>&);
+  template void restore_bounces(SolverBody<Real>*, ContactGraph<Real>&, const PositionStep<Real>&); \
+  template void correct_contact_velocities(SolverBody<Real>*, ContactGraph<Real>&, const PositionStep<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

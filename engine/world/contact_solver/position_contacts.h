@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_graph.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 /// Position-based contacts: overlaps are projected away by displacing bodies. Within a substep a body's
 /// velocity is its displacement since the substep's start over h. A displacement by dx changes the velocity
@@ -23,23 +23,23 @@ enum class PositionFriction {
 /// Clears impulses at the start of a substep, before forces act. Updates the approach of points that have not
 /// been pressed in this step.
 template <class Real>
-void begin_position_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph);
+void begin_position_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph);
 
 /// Makes one iteration over predicted positions: removes overlaps, no faster than the depenetration speed,
 /// then sliding. Updates positions, rotations and velocities.
 template <class Real>
-void project_contacts(BodyMotion<Real>* motion, Rotation<Real>* rotation, ContactGraph<Real>& graph,
+void project_contacts(SolverBody<Real>* motion, Rotation<Real>* rotation, ContactGraph<Real>& graph,
                       const PositionStep<Real>& step, PositionFriction friction);
 
 /// Corrects velocities after the projection. Points with a fast impact separate with restitution times their
 /// approach, and no pressed point continues to close.
 template <class Real>
-void restore_bounces(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step);
+void restore_bounces(SolverBody<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step);
 
 /// Does the same as `restore_bounces`, and removes the separating velocity of other pressed points (Mueller
 /// et al., 2020, section 3.6). Then applies dynamic friction, |dv| <= mu lambda_n / m.
 template <class Real>
-void correct_contact_velocities(BodyMotion<Real>* motion, ContactGraph<Real>& graph,
+void correct_contact_velocities(SolverBody<Real>* motion, ContactGraph<Real>& graph,
                                 const PositionStep<Real>& step);
 
 }  // namespace plumb

@@ -30,7 +30,7 @@ void let_through(RestitutionContact<Real>& bounce) {
 
 // Updates the effective masses of two discs, whose normal has turned: with a locked axis they depend on it.
 template <class Real>
-void update_masses(const BodyMotion<Real>& a, const BodyMotion<Real>& b, ContactConstraint<Real>& c) {
+void update_masses(const SolverBody<Real>& a, const SolverBody<Real>& b, ContactConstraint<Real>& c) {
   const auto mass = [&](Vec2<Real> row, Real arm_a, Real arm_b) {
     const Real inverse = linear_response(a, b, c.locks, row, row, true) + a.inverse_inertia * arm_a * arm_a +
                          b.inverse_inertia * arm_b * arm_b;
@@ -43,11 +43,11 @@ void update_masses(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Contact
 }  // namespace
 
 template <class Real>
-void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from) {
+void face(const SolverBody<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from) {
   ContactConstraint<Real>& c = *bounce.contact;
   if (bounce.radii == 0 || c.normal_impulse[0] > 0) return;
-  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
-  const Vec2<Real> p = bounce.between + (b.moved - a.moved), v = b.velocity - a.velocity;
+  const SolverBody<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+  const Vec2<Real> p = bounce.between + (b.delta_position - a.delta_position), v = b.velocity - a.velocity;
   const Real vv = dot(v, v), pv = dot(p, v), open = dot(p, p) - bounce.radii * bounce.radii;
   Real t = from;
   if (open > 0 && pv < 0) {
@@ -64,7 +64,7 @@ void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real
 }
 
 template <class Real>
-bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
+bool note_approaches(const SolverBody<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                      const ContactStep<Real>& step) {
   bool parted = false;
   for (RestitutionContact<Real>& bounce : bounces) {
@@ -83,7 +83,7 @@ bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContac
 }
 
 template <class Real>
-bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
+bool schedule_impacts(const SolverBody<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                       const ContactStep<Real>& step) {
   const Real h = step.h;
   bool any = false;
@@ -135,10 +135,10 @@ void hold_again(std::span<RestitutionContact<Real>> bounces) {
 }
 
 #define PLUMB_FOR(Real)                                                                        \
-  template void face(const BodyMotion<Real>*, RestitutionContact<Real>&, Real, Real);          \
-  template bool note_approaches(const BodyMotion<Real>*, std::span<RestitutionContact<Real>>,  \
+  template void face(const SolverBody<Real>*, RestitutionContact<Real>&, Real, Real);          \
+  template bool note_approaches(const SolverBody<Real>*, std::span<RestitutionContact<Real>>,  \
                                 const ContactStep<Real>&);                                     \
-  template bool schedule_impacts(const BodyMotion<Real>*, std::span<RestitutionContact<Real>>, \
+  template bool schedule_impacts(const SolverBody<Real>*, std::span<RestitutionContact<Real>>, \
                                  const ContactStep<Real>&);                                    \
   template void let_pass(std::span<RestitutionContact<Real>>);                                 \
   template void hold_again(std::span<RestitutionContact<Real>>);

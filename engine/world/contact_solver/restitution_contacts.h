@@ -25,8 +25,8 @@ struct RestitutionContact {
 
 /// Returns the velocity of a contact point along the normal, m/s; negative: closing.
 template <class Real>
-Real velocity_along_normal(const BodyMotion<Real>* motion, const ContactConstraint<Real>& c, int i) {
-  const BodyMotion<Real>&a = motion[c.body_a], &b = motion[c.body_b];
+Real velocity_along_normal(const SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i) {
+  const SolverBody<Real>&a = motion[c.body_a], &b = motion[c.body_b];
   return dot(c.normal, b.velocity - a.velocity) +
          (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
 }
@@ -44,14 +44,14 @@ void note_approach(ContactConstraint<Real>& c, int i, Real rate) {
 /// After an impact at `from` that leaves the discs sliding, t = `from` is a double root, and rounding could
 /// give an earlier root, at which they still approach.
 template <class Real>
-void face(const BodyMotion<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
+void face(const SolverBody<Real>* motion, RestitutionContact<Real>& bounce, Real h, Real from);
 
 // The functions below treat each contact by itself: threads may share them.
 
 /// Records the approach speed of points before any impulse acts. Contacts that separate after a bounce must
 /// not be warm started: returns true if one of these had an impulse.
 template <class Real>
-bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
+bool note_approaches(const SolverBody<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                      const ContactStep<Real>& step);
 
 /// Sets the time and speed of each contact's bounce in the substep, once the bodies' accelerations are known.
@@ -61,7 +61,7 @@ bool note_approaches(const BodyMotion<Real>* motion, std::span<RestitutionContac
 /// s), after t = 2 s / (u + c). From then on it moves freely: at the end of the substep it separates at e c -
 /// a (h - t). With e = 1 that conserves the energy c^2 / 2 for any h.
 template <class Real>
-bool schedule_impacts(const BodyMotion<Real>* motion, std::span<RestitutionContact<Real>> bounces,
+bool schedule_impacts(const SolverBody<Real>* motion, std::span<RestitutionContact<Real>> bounces,
                       const ContactStep<Real>& step);
 
 /// Disables, before any iteration, contacts that will bounce but stay open in this substep. The solver would

@@ -34,14 +34,14 @@ void warm_start_one(ContactPair<Real> pair, Real ratio) {
 }  // namespace
 
 template <class Real>
-void warm_start_sequentially(BodyMotion<Real>* motion, ContactGraph<Real>& graph,
+void warm_start_sequentially(SolverBody<Real>* motion, ContactGraph<Real>& graph,
                              const SequentialStep<Real>& step) {
   graph.for_each(
       [&](ContactConstraint<Real>& c) { warm_start_one(ContactPair<Real>(motion, c), step.warm_start); });
 }
 
 template <class Real>
-void sweep_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step) {
+void sweep_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     ContactPair<Real> pair(motion, c);
     // Friction first: rows solved last are satisfied best.
@@ -53,7 +53,7 @@ void sweep_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const S
 }
 
 template <class Real>
-void stop_arrivals(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step) {
+void stop_arrivals(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step) {
   graph.for_each([&](ContactConstraint<Real>& c) {
     ContactPair<Real> pair(motion, c);
     pair.note_peaks();
@@ -67,10 +67,10 @@ void stop_arrivals(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const Se
 }
 
 #define PLUMB_FOR(Real)                                                                              \
-  template void warm_start_sequentially(BodyMotion<Real>*, ContactGraph<Real>&,                      \
+  template void warm_start_sequentially(SolverBody<Real>*, ContactGraph<Real>&,                      \
                                         const SequentialStep<Real>&);                                \
-  template void sweep_contacts(BodyMotion<Real>*, ContactGraph<Real>&, const SequentialStep<Real>&); \
-  template void stop_arrivals(BodyMotion<Real>*, ContactGraph<Real>&, const SequentialStep<Real>&);
+  template void sweep_contacts(SolverBody<Real>*, ContactGraph<Real>&, const SequentialStep<Real>&); \
+  template void stop_arrivals(SolverBody<Real>*, ContactGraph<Real>&, const SequentialStep<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/world/contact_solver/body_motion.h"
 #include "engine/world/contact_solver/contact_graph.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 /// Contacts by textbook sequential impulses: Catto, "Iterative dynamics with temporal coherence" (2005) and
 /// "Modeling and solving constraints" (2009).
@@ -16,17 +16,17 @@ struct SequentialStep {
 
 /// Applies the impulses of the last substep.
 template <class Real>
-void warm_start_sequentially(BodyMotion<Real>* motion, ContactGraph<Real>& graph,
+void warm_start_sequentially(SolverBody<Real>* motion, ContactGraph<Real>& graph,
                              const SequentialStep<Real>& step);
 
 /// Makes one iteration before bodies move: friction and rolling resistance within the bounds of the normal
 /// impulses, then each point's normal impulse.
 template <class Real>
-void sweep_contacts(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
+void sweep_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
 
 /// Stops points that have closed their gap in this substep, after bodies have moved and if the gap limited
 /// them. Records the step's largest impulses, for hit events.
 template <class Real>
-void stop_arrivals(BodyMotion<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
+void stop_arrivals(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
 
 }  // namespace plumb

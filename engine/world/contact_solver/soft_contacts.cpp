@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/math/widest_register.h"
 #include "engine/world/contact_solver/contact_passes.h"
 #include "engine/world/contact_solver/lane_bodies.h"
@@ -60,9 +60,9 @@ template <class Narrow, class Wide, class Act>
 
 // Non-dynamic bodies are only read: several contacts of a colour may share one.
 template <class Pass, class Axes, class Real>
-[[gnu::always_inline]] inline void run_alone(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
+[[gnu::always_inline]] inline void run_alone(SolverBody<Real>* motion, ContactConstraint<Real>& c,
                                              const ContactStep<Real>& step, Axes free) {
-  Pair<Real, BodyMotion<Real>&, Axes> pair{motion[c.body_a], motion[c.body_b], c.normal, free};
+  Pair<Real, SolverBody<Real>&, Axes> pair{motion[c.body_a], motion[c.body_b], c.normal, free};
   Pass::template run<Real>(pair, c, step);
   const bool both = c.hardness == ContactHardness::Soft;
   if (both || is_dynamic(pair.a)) pair.a.velocity = pair.va, pair.a.angular_velocity = pair.wa;
@@ -70,13 +70,13 @@ template <class Pass, class Axes, class Real>
 }
 
 template <class Pass, class Real>
-[[gnu::noinline]] void run_locked(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
+[[gnu::noinline]] void run_locked(SolverBody<Real>* motion, ContactConstraint<Real>& c,
                                   const ContactStep<Real>& step) {
   run_alone<Pass>(motion, c, step, FreeAxes{c.locks});
 }
 
 template <class Pass, class Real>
-[[gnu::always_inline]] inline void run_alone(BodyMotion<Real>* motion, ContactConstraint<Real>& c,
+[[gnu::always_inline]] inline void run_alone(SolverBody<Real>* motion, ContactConstraint<Real>& c,
                                              const ContactStep<Real>& step) {
   if (c.locks != 0) [[unlikely]]
     return run_locked<Pass>(motion, c, step);
@@ -84,7 +84,7 @@ template <class Pass, class Real>
 }
 
 template <class Pass, class Number, class Real>
-[[gnu::always_inline]] inline void run_blocks(BodyMotion<Real>* motion, ContactBlock<Number>* block,
+[[gnu::always_inline]] inline void run_blocks(SolverBody<Real>* motion, ContactBlock<Number>* block,
                                               const ContactBlock<Number>* end,
                                               const ContactStep<Real>& settings) {
   const ContactStep<Real> step = settings;  // a local copy: no pointer can change it
@@ -104,20 +104,20 @@ template <class Pass, class Number, class Real>
 template <class Number, class Real>
 struct Loops {
   using Block = ContactBlock<Number>;
-  static void gather(Block& block, const BodyMotion<Real>* motion) { plumb::gather(block, motion); }
+  static void gather(Block& block, const SolverBody<Real>* motion) { plumb::gather(block, motion); }
   static void gather_again(Block& block) { plumb::gather_again(block); }
   static void scatter(Block* block, const Block* end) {
     for (; block != end; ++block) plumb::scatter(*block);
   }
   template <class Pass>
-  static void run(BodyMotion<Real>* motion, Block* block, const Block* end, const ContactStep<Real>& step) {
+  static void run(SolverBody<Real>* motion, Block* block, const Block* end, const ContactStep<Real>& step) {
     run_blocks<Pass>(motion, block, end, step);
   }
 };
 template <class Real, int kLanes>
 struct Loops<Lanes<Real, kLanes, 32>, Real> {
   using Block = ContactBlock<Lanes<Real, kLanes, 32>>;
-  PLUMB_AVX2 static void gather(Block& block, const BodyMotion<Real>* motion) {
+  PLUMB_AVX2 static void gather(Block& block, const SolverBody<Real>* motion) {
     plumb::gather(block, motion);
   }
   PLUMB_AVX2 static void gather_again(Block& block) { plumb::gather_again(block); }
@@ -125,7 +125,7 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
     for (; block != end; ++block) plumb::scatter(*block);
   }
   template <class Pass>
-  PLUMB_AVX2 static void run(BodyMotion<Real>* motion, Block* block, const Block* end,
+  PLUMB_AVX2 static void run(SolverBody<Real>* motion, Block* block, const Block* end,
                              const ContactStep<Real>& step) {
     run_blocks<Pass>(motion, block, end, step);
   }
@@ -135,7 +135,7 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
 
 template <class Real>
 [[gnu::always_inline]] inline int SoftContacts<Real>::kind_of(const ContactConstraint<Real>& c,
-                                                              const BodyMotion<Real>* motion,
+                                                              const SolverBody<Real>* motion,
                                                               const std::vector<char>& apart) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
   const bool stays_alone = c.hardness == ContactHardness::Rigid || stopped_rolling || c.locks != 0 ||
@@ -150,7 +150,7 @@ template <class Real>
 template <class Real>
 template <int kBytes, class AddBlock, class AddAlone>
 [[gnu::always_inline]] inline void SoftContacts<Real>::sort(const Segment& segment,
-                                                            const BodyMotion<Real>* motion,
+                                                            const SolverBody<Real>* motion,
                                                             const std::vector<char>& apart,
                                                             const AddBlock& add_block,
                                                             const AddAlone& add_alone) {
@@ -179,13 +179,13 @@ template <int kBytes, class AddBlock, class AddAlone>
 
 template <class Real>
 template <int kBytes>
-bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,
+bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const SolverBody<Real>* motion,
                                 const std::vector<char>& apart) {
   using Constraint = ContactConstraint<Real>;
   constexpr int kLanes = Block<kBytes>::kLanes;
   blocks.count = 0, alone_.clear(), runs_.clear();
   runs_.reserve(ContactGraph<Real>::kColours + 1);
-  ensure_room(alone_, graph_->size());
+  ensure_capacity(alone_, graph_->size());
   const auto fill = [&](Block<kBytes>& block, Constraint* const* contacts, int count) {
     for (int i = 0; i < kLanes; ++i) block.contact[i] = contacts[std::min(i, count - 1)];
     Loops<Number<kBytes>, Real>::gather(block, motion);
@@ -199,7 +199,7 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
           whole, motion, apart,
           [&](Constraint* const* contacts, int count) {
             if (blocks.count == static_cast<int>(blocks.list.size())) {
-              ensure_room(blocks.list, blocks.list.size() + 1);
+              ensure_capacity(blocks.list, blocks.list.size() + 1);
               blocks.list.emplace_back();
             }
             fill(blocks.list[blocks.count++], contacts, count);
@@ -214,7 +214,7 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* 
 // Counts the blocks and single contacts of the segments of all colours, then fills each at its index.
 template <class Real>
 template <int kBytes, class Fill>
-void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion,
+void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const SolverBody<Real>* motion,
                                        const std::vector<char>& apart, const Fill& fill) {
   using Constraint = ContactConstraint<Real>;
   segments_.clear();
@@ -246,7 +246,7 @@ void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const BodyMotion<
     if (segment.ends_colour) runs_.push_back({next.blocks, next.alone, segment.has_colour});
   }
   blocks.count = next.blocks;
-  ensure_room(blocks.list, static_cast<std::size_t>(next.blocks));
+  ensure_capacity(blocks.list, static_cast<std::size_t>(next.blocks));
   if (static_cast<int>(blocks.list.size()) < next.blocks) blocks.list.resize(next.blocks);
   alone_.resize(next.alone);
   crew_->blocks(count, [&](int i) {
@@ -259,7 +259,7 @@ void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const BodyMotion<
 }
 
 template <class Real>
-void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion,
+void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const SolverBody<Real>* motion,
                                const std::vector<char>& apart, Crew& crew) {
   graph_ = &graph, crew_ = &crew;
   width_ = graph.empty() ? VectorWidth::None : vector_width();
@@ -272,7 +272,7 @@ void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const BodyMotion<Real>
 template <class Real>
 template <class Pass, int kBytes>
 [[gnu::always_inline]] inline void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to,
-                                                                  BodyMotion<Real>* motion,
+                                                                  SolverBody<Real>* motion,
                                                                   const ContactStep<Real>& step) {
   Block<kBytes>* const list = blocks.list.data();
   if (from.blocks < to.blocks)
@@ -283,7 +283,7 @@ template <class Pass, int kBytes>
 template <class Real>
 template <class Pass, int kBytes>
 [[gnu::noinline]] void SoftContacts<Real>::share_colour(Blocks<kBytes>& blocks, Run from, Run to,
-                                                        BodyMotion<Real>* motion,
+                                                        SolverBody<Real>* motion,
                                                         const ContactStep<Real>& step) {
   const int of_blocks = (to.blocks - from.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
             of_alone = (to.alone - from.alone + kAloneOfTask - 1) / kAloneOfTask;
@@ -303,7 +303,7 @@ template <class Pass, int kBytes>
 
 template <class Real>
 template <class Pass>
-[[gnu::noinline]] void SoftContacts<Real>::sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
+[[gnu::noinline]] void SoftContacts<Real>::sweep(SolverBody<Real>* motion, const ContactStep<Real>& step) {
   if (width_ == VectorWidth::None) {
     graph_->for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool has_colour) {
       const int count = static_cast<int>(colour.size());
@@ -329,17 +329,17 @@ template <class Pass>
 }
 
 template <class Real>
-void SoftContacts<Real>::warm_start(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
+void SoftContacts<Real>::warm_start(SolverBody<Real>* motion, const ContactStep<Real>& step) {
   if (!graph_->empty()) sweep<WarmStart>(motion, step);
 }
 
 template <class Real>
-void SoftContacts<Real>::solve(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
+void SoftContacts<Real>::solve(SolverBody<Real>* motion, const ContactStep<Real>& step) {
   if (!graph_->empty()) sweep<Solve>(motion, step);
 }
 
 template <class Real>
-void SoftContacts<Real>::relax(BodyMotion<Real>* motion, const ContactStep<Real>& step) {
+void SoftContacts<Real>::relax(SolverBody<Real>* motion, const ContactStep<Real>& step) {
   if (!graph_->empty()) sweep<Relax>(motion, step);
 }
 

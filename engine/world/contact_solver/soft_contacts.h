@@ -19,19 +19,19 @@ class SoftContacts {
   /// Prepares the passes of a step: gathers contacts into blocks. Contacts that other code reads or changes
   /// before `finish` stay single: rigid, or marked in `apart` (by record). Those with restitution may be read
   /// and changed between `show_bounces` and `take_bounces`. `crew` shares the passes, colour by colour.
-  void begin(ContactGraph<Real>& graph, const BodyMotion<Real>* motion, const std::vector<char>& apart,
+  void begin(ContactGraph<Real>& graph, const SolverBody<Real>* motion, const std::vector<char>& apart,
              Crew& crew);
 
   /// Warm starting: applies the impulses of the last substep.
-  void warm_start(BodyMotion<Real>* motion, const ContactStep<Real>& step);
+  void warm_start(SolverBody<Real>* motion, const ContactStep<Real>& step);
 
   /// Solves normal impulses with a bias that removes overlaps softly and lets gaps close. This corrects
   /// positions.
-  void solve(BodyMotion<Real>* motion, const ContactStep<Real>& step);
+  void solve(SolverBody<Real>* motion, const ContactStep<Real>& step);
 
   /// Relaxation: solves normal impulses without bias, friction and rolling resistance. This corrects
   /// velocities.
-  void relax(BodyMotion<Real>* motion, const ContactStep<Real>& step);
+  void relax(SolverBody<Real>* motion, const ContactStep<Real>& step);
 
   /// Writes back separations and impulses of the blocks that have contacts with restitution.
   void show_bounces();
@@ -75,31 +75,31 @@ class SoftContacts {
   static constexpr int kSegment = 1024;  ///< contacts; the last block of each kind may be partly filled
 
   /// Returns the kind of a contact.
-  static int kind_of(const ContactConstraint<Real>& c, const BodyMotion<Real>* motion,
+  static int kind_of(const ContactConstraint<Real>& c, const SolverBody<Real>* motion,
                      const std::vector<char>& apart);
   /// Sorts the contacts of a segment into blocks of one kind each, and those that stay alone.
   template <int kBytes, class AddBlock, class AddAlone>
-  static void sort(const Segment& segment, const BodyMotion<Real>* motion, const std::vector<char>& apart,
+  static void sort(const Segment& segment, const SolverBody<Real>* motion, const std::vector<char>& apart,
                    const AddBlock& add_block, const AddAlone& add_alone);
   /// Fills the blocks. Returns false if all contacts are alone.
   template <int kBytes>
-  bool gather(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  bool gather(Blocks<kBytes>& blocks, const SolverBody<Real>* motion, const std::vector<char>& apart);
   template <int kBytes, class Fill>
-  void gather_shared(Blocks<kBytes>& blocks, const BodyMotion<Real>* motion, const std::vector<char>& apart,
+  void gather_shared(Blocks<kBytes>& blocks, const SolverBody<Real>* motion, const std::vector<char>& apart,
                      const Fill& fill);
   template <class Pass, int kBytes>
-  void run_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
+  void run_colour(Blocks<kBytes>& blocks, Run from, Run to, SolverBody<Real>* motion,
                   const ContactStep<Real>& step);
   /// Does the same, on all threads if it pays.
   template <class Pass, int kBytes>
-  void share_colour(Blocks<kBytes>& blocks, Run from, Run to, BodyMotion<Real>* motion,
+  void share_colour(Blocks<kBytes>& blocks, Run from, Run to, SolverBody<Real>* motion,
                     const ContactStep<Real>& step);
   template <int kBytes>
   void show_bounces(Blocks<kBytes>& blocks);
   template <int kBytes>
   void take_bounces(Blocks<kBytes>& blocks);
   template <class Pass>
-  void sweep(BodyMotion<Real>* motion, const ContactStep<Real>& step);
+  void sweep(SolverBody<Real>* motion, const ContactStep<Real>& step);
 
   ContactGraph<Real>* graph_ = nullptr;
   Crew* crew_ = nullptr;

@@ -19,15 +19,15 @@
 namespace plumb {
 namespace {
 
-// Returns true if only gravity acts on the body.
+// Returns true if no joint or loaded contact acts on the body.
 template <class Real>
 bool is_free(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
   if (!record.awake || record.first_joint != kNone) return false;
   if (record.constraints == 0) return true;
-  // Most contacts of a body that flies in a crowd are too far away to hold it, whatever its velocity.
-  if (w.scratch.loaded[body] != kMayHold) return w.scratch.loaded[body] == 0;
+  // Most contacts of a body in a crowd are too far away to support it, whatever its velocity.
+  if (w.scratch.has_contact_load[body] != kMayHold) return w.scratch.has_contact_load[body] == 0;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
@@ -35,23 +35,23 @@ bool is_free(const WorldData<Real>& w, int body, double dt) {
   });
 }
 
-// For constant acceleration the displacement is (v0 + v1) dt / 2. An acceleration below rounding error counts
-// as zero.
+// Sets the parabola of a body under constant acceleration, whose displacement is (v0 + v1) dt / 2. An
+// acceleration below rounding error counts as zero.
 template <class Real>
-void note_parabola(const BodyMotion<Real>& motion, SweptBody& flight, double dt) {
-  const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * flight.way);
+void set_parabola(const SolverBody<Real>& motion, SweptBody& swept, double dt) {
+  const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * swept.displacement);
   const double rounding =
       8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (std::abs(end.x) + std::abs(end.y));
   if (std::abs(gain.x) + std::abs(gain.y) <= rounding) return;
-  flight.gain = gain, flight.velocity = end - gain;
-  flight.curve = (0.5 * dt) * gain, flight.way -= flight.curve;
+  swept.delta_velocity = gain, swept.velocity = end - gain;
+  swept.curve = (0.5 * dt) * gain, swept.displacement -= swept.curve;
 }
 
 // Saves the body state that is overwritten while testing an impact, and restores it if there is none.
 template <class Real>
-struct Kept {
-  Kept(WorldData<Real>& world, const SweptBody* flight)
-      : w(world), body(flight == nullptr ? kNone : flight->body) {
+struct SavedBodyState {
+  SavedBodyState(WorldData<Real>& world, const SweptBody* swept)
+      : w(world), body(swept == nullptr ? kNone : swept->body) {
     if (body == kNone) return;
     position = w.position[body], rotation = w.rotation[body];
     velocity = w.motion[body].velocity, spin = w.motion[body].angular_velocity;
@@ -70,25 +70,25 @@ struct Kept {
 };
 
 template <class Real>
-void place(WorldData<Real>& w, const SweptBody& flight, double fraction) {
-  const Rotation<double> q = flight.rotation_at(fraction);
-  w.position[flight.body] = flight.start_at(fraction);
-  w.rotation[flight.body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+void set_pose(WorldData<Real>& w, const SweptBody& swept, double fraction) {
+  const Rotation<double> q = swept.rotation_at(fraction);
+  w.position[swept.body] = swept.position_at(fraction);
+  w.rotation[swept.body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
 }
 
 template <class Real>
-void set_velocity(WorldData<Real>& w, const SweptBody& flight, double fraction) {
-  w.motion[flight.body].velocity = flight.velocity_at(fraction).template as<Real>();
-  w.motion[flight.body].angular_velocity = static_cast<Real>(flight.angular_velocity);
+void set_velocity(WorldData<Real>& w, const SweptBody& swept, double fraction) {
+  w.motion[swept.body].velocity = swept.velocity_at(fraction).template as<Real>();
+  w.motion[swept.body].angular_velocity = static_cast<Real>(swept.angular_velocity);
 }
 
-// Returns a speed below which an approach may be rounding, m/s, because velocities after an impact and their
-// arms are rounded. Points that have just separated must not count as approaching again.
+// Returns the speed below which an approach may be rounding of the velocities and lever arms after an impact,
+// m/s. Points that have just separated must not count as approaching again.
 template <class Real>
 double speed_above_rounding(const WorldData<Real>& w, const ContactConstraint<Real>& c, int point) {
   const Real impulse = -c.approach[point] * c.mass[point];
   const auto of = [&](int body, Real arm, Real push) {
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     const Vec2<Real> velocity = motion.velocity + (motion.inverse_mass * push) * c.normal;
     const Real spin = motion.angular_velocity + motion.inverse_inertia * arm * push;
     return std::abs(c.normal.x * velocity.x) + std::abs(c.normal.y * velocity.y) +
@@ -98,12 +98,13 @@ double speed_above_rounding(const WorldData<Real>& w, const ContactConstraint<Re
   return static_cast<double>(8 * std::numeric_limits<Real>::epsilon() * speed);
 }
 
-enum class Throw { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
+enum class ImpactResponse { None, Slide, Bounce };  // None: no approach; Slide: none fast enough to bounce
 
-// Resolves an impact of two bodies: Newton's law at the touching points, with friction. `left`: time in which
-// separated points must not close, s; 0: such points have their own impacts.
+// Resolves an impact of two bodies: Newton's law at the touching points, with friction. `remaining_time`:
+// time in which separated points must not close, s; 0: such points have their own impacts.
 template <class Real>
-Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt, Real left) {
+ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce, Real dt,
+                              Real remaining_time) {
   ContactPair<Real> pair(w.motion.data(), c);
   const Real nearest = c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0];
   // Treat gaps due to rounding as touching: points whose impact times cannot be distinguished are resolved
@@ -112,42 +113,44 @@ Throw throw_back(WorldData<Real>& w, ContactConstraint<Real>& c, bool may_bounce
       Real(64) * std::numeric_limits<Real>::epsilon() * (w.extents[c.body_a] + w.extents[c.body_b]);
   const Real threshold = bounce_threshold(w, static_cast<double>(dt));
   // A touching point that does not approach may still be pushed by the impulse at the other one.
-  bool closed[2] = {}, strikes = false, fast = false;
+  bool closed[2] = {}, approaches = false, fast = false;
   for (int i = 0; i < c.count; ++i) {
     c.normal_impulse[i] = c.peak_impulse[i] = 0;
     c.approach[i] = pair.normal_rate(i);
     closed[i] = c.separation[i] <= nearest + rounding;
-    strikes = strikes || (closed[i] && c.approach[i] < 0);
+    approaches = approaches || (closed[i] && c.approach[i] < 0);
     fast = fast || (closed[i] && c.approach[i] < -threshold);
   }
-  if (!strikes) return Throw::None;
+  if (!approaches) return ImpactResponse::None;
   fast = fast && may_bounce;
-  double wanted[2] = {};
+  double target_rate[2] = {};
   for (int i = 0; i < c.count; ++i) {
-    wanted[i] =
+    target_rate[i] =
         std::max(fast ? -double(c.restitution) * double(c.approach[i]) : 0, speed_above_rounding(w, c, i));
-    if (closed[i] || !(left > 0)) continue;
+    if (closed[i] || !(remaining_time > 0)) continue;
     // The point may close its gap in the time left, but no more.
-    wanted[i] = -double(c.separation[i]) / double(left);
+    target_rate[i] = -double(c.separation[i]) / double(remaining_time);
     closed[i] = true;
   }
-  const ContactImpulses impulses = impact_of(pair.a, pair.b, c, closed, wanted);
+  const ImpactImpulses impulses = impact_of(pair.a, pair.b, c, closed, target_rate);
   const Real first = static_cast<Real>(impulses.normal[0]), second = static_cast<Real>(impulses.normal[1]),
              friction = static_cast<Real>(impulses.friction);
-  if (!std::isfinite(first) || !std::isfinite(second) || !std::isfinite(friction)) return Throw::None;
+  if (!std::isfinite(first) || !std::isfinite(second) || !std::isfinite(friction))
+    return ImpactResponse::None;
   c.tangent_impulse = c.rolling_impulse = 0;
   pair.push(first, second);
   pair.rub(friction);
   pair.resist_rolling();
   c.watched = Watch::Motion;
   pair.note_peaks();
-  return fast ? Throw::Bounce : Throw::Slide;
+  return fast ? ImpactResponse::Bounce : ImpactResponse::Slide;
 }
 
-// Reduces a contact to the shapes' nearest points, along its normal. For nearly parallel edges the manifold
-// has the corners on both sides of the centre of mass, and may omit a corner between them that strikes first.
+// Reduces a contact to the shapes' nearest points, along its normal. The manifold of nearly parallel edges
+// has the outer corners, and may omit a corner between them that collides first.
 template <class Real>
-void take_nearest_points(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
+void reduce_to_nearest_points(const WorldData<Real>& w, const ContactRecord& contact,
+                              ContactConstraint<Real>& c) {
   const auto rotation = [&](int body) -> Rotation<double> {
     return {static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
   };
@@ -169,8 +172,8 @@ void take_nearest_points(const WorldData<Real>& w, const ContactRecord& contact,
 // Reports that the shapes touched. If they bounced, they are apart again at the end of the step; otherwise
 // the next step decides (`update_nontouching`).
 template <class Real>
-void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c,
-            bool thrown_apart) {
+void report_touch(WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c,
+                  bool bounced) {
   const ContactReading reading = reading_of(w, contact, c);
   int id = kNone;
   // Grounds have long lists.
@@ -178,44 +181,44 @@ void report(WorldData<Real>& w, const ContactRecord& contact, const ContactConst
   for_each_edge(w.contacts, w.bodies[listed].first_contact, [&](int edge, const ContactRecord& record) {
     if (record.shape_a == contact.shape_a && record.shape_b == contact.shape_b) id = edge / 2;
   });
-  if (id != kNone && !thrown_apart) {
+  if (id != kNone && !bounced) {
     set_touching(w, id, true);
     if (w.contacts[id].home == ContactHome::Graph) {
       ContactConstraint<Real>& held = constraint_of(w, w.contacts[id]);
       held.touching = true, held.watched = watch_of(w.contacts[id], held);
     }
   } else if (id == kNone || !w.contacts[id].touching) {
-    w.log().begin.push_back({reading.shape_a, reading.shape_b});
-    w.log().end.push_back({reading.shape_a, reading.shape_b});
+    w.event_buffer().begin.push_back({reading.shape_a, reading.shape_b});
+    w.event_buffer().end.push_back({reading.shape_a, reading.shape_b});
   }
   const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
   if (!contact.hit_events || c.approach[hardest] > -least_hit_speed(w, c)) return;
-  w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
-                          -static_cast<double>(c.approach[hardest]),
-                          static_cast<double>(c.normal_impulse[0] + c.normal_impulse[1])});
+  w.event_buffer().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
+                                   -static_cast<double>(c.approach[hardest]),
+                                   static_cast<double>(c.normal_impulse[0] + c.normal_impulse[1])});
 }
 
 }  // namespace
 
 template <class Real>
-SweptBody flight_of(const WorldData<Real>& w, int body, double dt) {
-  const BodyMotion<Real>& motion = w.motion[body];
-  SweptBody flight;
-  flight.body = body;
-  flight.way = motion.moved.template as<double>();
-  flight.start = flight.first = w.position[body] - flight.way;
-  flight.turn = static_cast<double>(motion.turned);
-  flight.velocity = motion.velocity.template as<double>();
-  flight.angular_velocity = static_cast<double>(motion.angular_velocity);
+SweptBody swept_body_of(const WorldData<Real>& w, int body, double dt) {
+  const SolverBody<Real>& motion = w.motion[body];
+  SweptBody swept;
+  swept.body = body;
+  swept.displacement = motion.delta_position.template as<double>();
+  swept.start = swept.step_start = w.position[body] - swept.displacement;
+  swept.delta_angle = static_cast<double>(motion.delta_angle);
+  swept.velocity = motion.velocity.template as<double>();
+  swept.angular_velocity = static_cast<double>(motion.angular_velocity);
   const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
-  const Rotation<double> back = rotation_of(-flight.turn);
-  flight.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
-  if (w.is_dynamic(body) && is_free(w, body, dt)) note_parabola(motion, flight, dt);
-  return flight;
+  const Rotation<double> back = rotation_of(-swept.delta_angle);
+  swept.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
+  if (w.is_dynamic(body) && is_free(w, body, dt)) set_parabola(motion, swept, dt);
+  return swept;
 }
 
 template <class Real>
-bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
+bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
   if (a.pre_solve || b.pre_solve) return false;
   // Without restitution two dynamic bodies move on together, which their contact handles at less cost.
@@ -225,64 +228,69 @@ bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt) {
 }
 
 template <class Real>
-bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction, double dt,
-             bool is_last) {
-  Kept<Real> kept_a(w, &a), kept_b(w, b);
-  place(w, a, fraction), set_velocity(w, a, fraction);
-  if (b) place(w, *b, fraction), set_velocity(w, *b, fraction);
+bool resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
+                        double dt, bool is_last) {
+  SavedBodyState<Real> saved_a(w, &a), saved_b(w, b);
+  set_pose(w, a, fraction), set_velocity(w, a, fraction);
+  if (b) set_pose(w, *b, fraction), set_velocity(w, *b, fraction);
   const ContactRecord contact = contact_of(w, shape, other);
   ContactConstraint<Real> c = constraint_between(w, contact);
   // Ends a cascade of impacts that loses energy each time.
-  const bool may_bounce = a.impacts < tuning::kBouncesInFlight || c.restitution == 1;
-  const Real left = is_last ? static_cast<Real>((1 - fraction) * dt) : Real(0);
-  Throw thrown = c.count > 0 ? throw_back(w, c, may_bounce, static_cast<Real>(dt), left) : Throw::None;
-  if (thrown == Throw::None && c.count > 0) {
-    take_nearest_points(w, contact, c);
-    thrown = throw_back(w, c, may_bounce, static_cast<Real>(dt), left);
+  const bool may_bounce = a.impacts < tuning::kMaxBouncesPerStep || c.restitution == 1;
+  const Real remaining_time = is_last ? static_cast<Real>((1 - fraction) * dt) : Real(0);
+  ImpactResponse response = c.count > 0
+                                ? resolve_impact(w, c, may_bounce, static_cast<Real>(dt), remaining_time)
+                                : ImpactResponse::None;
+  if (response == ImpactResponse::None && c.count > 0) {
+    reduce_to_nearest_points(w, contact, c);
+    response = resolve_impact(w, c, may_bounce, static_cast<Real>(dt), remaining_time);
   }
   // Velocities beyond the range of numbers: the bodies stop here, and the next step's solver and quarantine
   // handle them.
   for (const int body : {contact.body_a, contact.body_b})
-    if (w.is_dynamic(body) && !is_sound_motion(w.motion[body])) thrown = Throw::None;
-  if (thrown != Throw::None) report(w, contact, c, thrown == Throw::Bounce && c.restitution > 0);
+    if (w.is_dynamic(body) && !is_valid_motion(w.motion[body])) response = ImpactResponse::None;
+  if (response != ImpactResponse::None)
+    report_touch(w, contact, c, response == ImpactResponse::Bounce && c.restitution > 0);
   const Vec2d normal = c.normal.template as<double>();
-  const auto go_on = [&](SweptBody* flight, Kept<Real>& kept) {
-    if (flight == nullptr || thrown == Throw::None || !w.is_dynamic(flight->body)) return kept.restore();
-    const BodyMotion<Real>& motion = w.motion[flight->body];
+  const auto continue_from = [&](SweptBody* swept, SavedBodyState<Real>& saved) {
+    if (swept == nullptr || response == ImpactResponse::None || !w.is_dynamic(swept->body))
+      return saved.restore();
+    const SolverBody<Real>& motion = w.motion[swept->body];
     // The surface supports the body against the acceleration that presses it.
-    if (thrown == Throw::Slide) {
-      const double side = flight->body == contact.body_a ? 1 : -1;
-      flight->gain -= (side * std::max(side * dot(flight->gain, normal), 0.0)) * normal;
+    if (response == ImpactResponse::Slide) {
+      const double side = swept->body == contact.body_a ? 1 : -1;
+      swept->delta_velocity -= (side * std::max(side * dot(swept->delta_velocity, normal), 0.0)) * normal;
     }
-    flight->go_on(fraction, motion.velocity.template as<double>(),
-                  static_cast<double>(motion.angular_velocity), dt);
+    swept->continue_from(fraction, motion.velocity.template as<double>(),
+                         static_cast<double>(motion.angular_velocity), dt);
   };
-  go_on(&a, kept_a);
-  go_on(b, kept_b);
-  return thrown != Throw::None;
+  continue_from(&a, saved_a);
+  continue_from(b, saved_b);
+  return response != ImpactResponse::None;
 }
 
 template <class Real>
-void land(WorldData<Real>& w, const SweptBody& flight) {
-  BodyMotion<Real>& motion = w.motion[flight.body];
-  const double turned = flight.turned_before + flight.turn;
-  w.bodies[flight.body].angle += turned - static_cast<double>(motion.turned);
-  place(w, flight, 1);
-  motion.moved = (w.position[flight.body] - flight.first).template as<Real>();
-  motion.turned = static_cast<Real>(turned);
-  if (flight.impacts == 0) return;
-  motion.velocity = flight.velocity_at(1).template as<Real>();
-  motion.angular_velocity = static_cast<Real>(flight.angular_velocity);
+void commit_sweep(WorldData<Real>& w, const SweptBody& swept) {
+  SolverBody<Real>& motion = w.motion[swept.body];
+  const double turned = swept.delta_angle_before + swept.delta_angle;
+  w.bodies[swept.body].angle += turned - static_cast<double>(motion.delta_angle);
+  set_pose(w, swept, 1);
+  motion.delta_position = (w.position[swept.body] - swept.step_start).template as<Real>();
+  motion.delta_angle = static_cast<Real>(turned);
+  if (swept.impacts == 0) return;
+  motion.velocity = swept.velocity_at(1).template as<Real>();
+  motion.angular_velocity = static_cast<Real>(swept.angular_velocity);
   // Recompute the sleep timer, which was updated with the velocity before the impact.
-  BodyRecord<Real>& record = w.bodies[flight.body];
-  if (!is_still(w, record, motion, w.extents[flight.body], Real(0))) record.sleep_time = 0;
+  BodyRecord<Real>& record = w.bodies[swept.body];
+  if (!is_still(w, record, motion, w.extents[swept.body], Real(0))) record.sleep_time = 0;
 }
 
-#define PLUMB_FOR(Real)                                                                            \
-  template SweptBody flight_of(const WorldData<Real>&, int, double);                               \
-  template bool may_rebound(const WorldData<Real>&, int, int, double);                             \
-  template bool rebound(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double, bool); \
-  template void land(WorldData<Real>&, const SweptBody&);
+#define PLUMB_FOR(Real)                                                                                \
+  template SweptBody swept_body_of(const WorldData<Real>&, int, double);                               \
+  template bool may_resolve_toi_impact(const WorldData<Real>&, int, int, double);                      \
+  template bool resolve_toi_impact(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double, \
+                                   bool);                                                              \
+  template void commit_sweep(WorldData<Real>&, const SweptBody&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -4,38 +4,38 @@
 
 namespace plumb {
 
-/// Value in `Scratch::loaded` during continuous collision: a contact may hold the body, depending on its
-/// velocity.
+/// Value in `Scratch::loaded` during continuous collision: depending on its velocity, a contact supports the
+/// body.
 inline constexpr char kMayHold = 2;
 
-/// Returns the trajectory of a body in a step of `dt`, as computed by the solver.
+/// Returns the solver's motion of a body in a step of `dt`, s.
 template <class Real>
-SweptBody flight_of(const WorldData<Real>& w, int body, double dt);
+SweptBody swept_body_of(const WorldData<Real>& w, int body, double dt);
 
-/// Returns the body's flight if it had an impact within the step or will have one; else null.
+/// Returns the SweptBody of a body, or null if continuous collision has none for it.
 template <class Real>
-const SweptBody* flight_in(const WorldData<Real>& w, int body) {
-  if (w.scratch.swept_body_places.size() <= static_cast<std::size_t>(body)) return nullptr;
-  const int place = w.scratch.swept_body_places[body];
-  return place == kNone ? nullptr : &w.scratch.swept_bodies[place];
+const SweptBody* find_swept_body(const WorldData<Real>& w, int body) {
+  if (w.scratch.swept_index_of.size() <= static_cast<std::size_t>(body)) return nullptr;
+  const int index = w.scratch.swept_index_of[body];
+  return index == kNone ? nullptr : &w.scratch.swept_bodies[index];
 }
 
-/// Returns true if no joint, lock, pre-solve hook or pressing contact holds the bodies of two shapes in this
-/// step of `dt`, s. Only then may a flight have an impact within the step.
+/// Returns true if no joint, lock, pre-solve hook or loaded contact acts on the bodies of two shapes in this
+/// step of `dt`, s. Only then is their impact resolved within the step; otherwise bodies are stopped.
 template <class Real>
-bool may_rebound(const WorldData<Real>& w, int shape, int other, double dt);
+bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, double dt);
 
-/// Resolves an impact in flight of `a` with its `shape` and `b` with its `other` (null: does not move), which
-/// then continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; an
-/// approach too slow to bounce becomes sliding along the surface. After the last impact that the step allows
-/// (`is_last`) no point of the contact approaches any more. Returns false and changes nothing if the bodies
-/// do not approach.
+/// Resolves the impact of `a` with its `shape` and `b` with its `other` (null: does not move), which then
+/// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; after an
+/// approach too slow to bounce, the body slides along the surface. After the last impact of the step
+/// (`is_last`) no contact point approaches any more. Returns false and changes nothing if the bodies do not
+/// approach.
 template <class Real>
-bool rebound(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction, double dt,
-             bool is_last);
+bool resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
+                        double dt, bool is_last);
 
-/// Moves a body to the end of its flight.
+/// Writes the end of the swept motion to the body.
 template <class Real>
-void land(WorldData<Real>& w, const SweptBody& flight);
+void commit_sweep(WorldData<Real>& w, const SweptBody& swept);
 
 }  // namespace plumb

@@ -6,21 +6,20 @@
 /// continuous.cpp.
 namespace plumb {
 
-/// Sets the arm of a body hinged to a non-dynamic one: it moves on an arc about the hinge, not on a straight
-/// line.
+/// Sets the arm of a body hinged to a non-dynamic one, which moves on an arc about the hinge.
 template <class Real>
-void set_arm(const WorldData<Real>& w, SweptBody& flight);
+void set_arm(const WorldData<Real>& w, SweptBody& swept);
 
-/// Stores the whole swept AABB of a fast body in the tree, so that queries for other bodies find it.
+/// Enlarges the proxies of a body to its swept AABB, so that queries for other bodies find it.
 template <class Real>
-void insert_swept_aabb(WorldData<Real>& w, SweptBody& flight);
+void insert_swept_aabb(WorldData<Real>& w, SweptBody& swept);
 
 /// Restores the fat AABB, and adds the shapes to the move buffer.
 template <class Real>
 void restore_fat_aabb(WorldData<Real>& w, int body, Real dt);
 
-/// Returns the index of a body's flight. If it has none, adds one with the motion that the solver found.
+/// Returns the index of the body's SweptBody. Adds one with the solver's motion if there is none.
 template <class Real>
-int flight_place(WorldData<Real>& w, int body, double dt);
+int swept_body_index(WorldData<Real>& w, int body, double dt);
 
 }  // namespace plumb

@@ -10,64 +10,68 @@
 namespace plumb {
 
 /// Tests the AABBs of a moving body's shapes against those of others, for the motions found by the solver.
-/// This decides most pairs. Terms that do not depend on the other body are computed once.
+/// This decides most pairs. Stores the terms that do not depend on the other body.
 template <class Real>
-class SweptBoxes {
+class SweptAabbTest {
  public:
-  SweptBoxes(const WorldData<Real>& w, const SweptBody& flight, double dt)
+  SweptAabbTest(const WorldData<Real>& w, const SweptBody& swept, double dt)
       : w_(w),
         dt_(static_cast<Real>(dt)),
-        moved_(w.motion[flight.body].moved),
-        turned_(turned(flight.body)),
-        bend_(bend(flight.body)),
-        straight_(is_straight(flight)) {}
+        moved_(w.motion[swept.body].delta_position),
+        turned_(turned(swept.body)),
+        path_deviation_(path_deviation(swept.body)),
+        as_solved_(is_as_solved(swept)) {}
 
   /// Returns true if the bodies of both shapes move as the solver found.
-  bool both_straight(int other_body) const {
-    if (!straight_) return false;
-    const SweptBody* flight = flight_in(w_, other_body);
-    return flight == nullptr || is_straight(*flight);
+  bool both_as_solved(int other_body) const {
+    if (!as_solved_) return false;
+    const SweptBody* swept = find_swept_body(w_, other_body);
+    return swept == nullptr || is_as_solved(*swept);
   }
   /// Returns the separation beyond which two shapes have no impact, m.
-  Real apart(int shape, int other) const {
+  Real no_impact_distance(int shape, int other) const {
     return Real(4 * tuning::kImpactTolerance) * std::min(w_.forms[shape].extent, w_.forms[other].extent) +
-           bend_ + bend(w_.shapes[other].body);
+           path_deviation_ + path_deviation(w_.shapes[other].body);
   }
-  /// Returns true if the AABBs of two shapes are more than `apart` (m) from each other throughout the step,
-  /// along one and the same axis. Assumes the solver's motions, which are straight, and bounds rotations by
+  /// Returns true if the AABBs of two shapes are more than `distance` (m) apart throughout the step along the
+  /// same axis. Assumes the solver's motions, which are straight, and bounds rotations by
   /// their arcs.
-  bool stay_apart(int shape, int other, Real apart) const {
+  bool stay_separated(int shape, int other, Real distance) const {
     const int body = w_.shapes[other].body;
-    const Vec2<Real> way = w_.motion[body].moved - moved_;
+    const Vec2<Real> relative = w_.motion[body].delta_position - moved_;
     const Aabb<Real>&box_a = w_.boxes[shape], &box_b = w_.boxes[other];
-    // Far from the origin boxes are rounded as coarsely as positions.
+    // Far from the origin, AABBs are rounded as coarsely as positions.
     const Real size = std::max(std::abs(box_a.lower.x), std::abs(box_a.upper.x)) +
                       std::max(std::abs(box_a.lower.y), std::abs(box_a.upper.y));
-    const Real least = apart + (turned_ + turned(body)) + 8 * std::numeric_limits<Real>::epsilon() * size;
-    const auto clear = [&](Real gap, Real closed) { return std::min(gap, gap - closed) > least; };
-    return clear(box_b.lower.x - box_a.upper.x, way.x) || clear(box_a.lower.x - box_b.upper.x, -way.x) ||
-           clear(box_b.lower.y - box_a.upper.y, way.y) || clear(box_a.lower.y - box_b.upper.y, -way.y);
+    const Real threshold =
+        distance + (turned_ + turned(body)) + 8 * std::numeric_limits<Real>::epsilon() * size;
+    const auto apart = [&](Real gap, Real closed) { return std::min(gap, gap - closed) > threshold; };
+    return apart(box_b.lower.x - box_a.upper.x, relative.x) ||
+           apart(box_a.lower.x - box_b.upper.x, -relative.x) ||
+           apart(box_b.lower.y - box_a.upper.y, relative.y) ||
+           apart(box_a.lower.y - box_b.upper.y, -relative.y);
   }
   /// Returns true if the AABBs alone show that two shapes do not collide.
-  bool are_clear(int shape, int other) const {
-    return both_straight(w_.shapes[other].body) && stay_apart(shape, other, apart(shape, other));
+  bool cannot_collide(int shape, int other) const {
+    return both_as_solved(w_.shapes[other].body) &&
+           stay_separated(shape, other, no_impact_distance(shape, other));
   }
 
  private:
-  static bool is_straight(const SweptBody& flight) { return !flight.changed && flight.arm == Vec2d{}; }
-  // Returns the deviation of a body's path from its chord: of a parabola at most a quarter of its curve, m.
-  Real bend(int body) const {
-    const BodyMotion<Real>& motion = w_.motion[body];
-    const Vec2<Real> curve = dt_ * motion.velocity - motion.moved;
+  static bool is_as_solved(const SweptBody& swept) { return !swept.changed && swept.arm == Vec2d{}; }
+  // Returns the largest distance of a body's path from its chord: a quarter of the parabola's `curve`, m.
+  Real path_deviation(int body) const {
+    const SolverBody<Real>& motion = w_.motion[body];
+    const Vec2<Real> curve = dt_ * motion.velocity - motion.delta_position;
     return w_.is_dynamic(body) ? Real(0.25) * (std::abs(curve.x) + std::abs(curve.y)) : Real(0);
   }
-  Real turned(int body) const { return std::abs(w_.motion[body].turned) * w_.extents[body]; }
+  Real turned(int body) const { return std::abs(w_.motion[body].delta_angle) * w_.extents[body]; }
 
   const WorldData<Real>& w_;
   Real dt_;
   Vec2<Real> moved_;
-  Real turned_, bend_;
-  bool straight_;
+  Real turned_, path_deviation_;
+  bool as_solved_;
 };
 
 }  // namespace plumb

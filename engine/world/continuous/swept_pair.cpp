@@ -16,7 +16,7 @@
 namespace plumb {
 namespace {
 
-// A body's motion for the rest of the step. `arm` as in SweptBody.
+// Remaining motion of a body. `arm` as in SweptBody.
 struct Motion {
   Sweep<double> sweep;
   Vec2d arm{};
@@ -24,19 +24,19 @@ struct Motion {
 
 template <class Real>
 Motion motion_of(const WorldData<Real>& w, int body, double from, Vec2d origin, double dt) {
-  if (const SweptBody* flight = flight_in(w, body)) return {flight->sweep(from, origin), flight->arm};
-  const BodyMotion<Real>& motion = w.motion[body];
-  if (motion.turned == 0 && !w.is_dynamic(body)) {
-    const Vec2d way = motion.moved.template as<double>();
+  if (const SweptBody* swept = find_swept_body(w, body)) return {swept->sweep(from, origin), swept->arm};
+  const SolverBody<Real>& motion = w.motion[body];
+  if (motion.delta_angle == 0 && !w.is_dynamic(body)) {
+    const Vec2d displacement = motion.delta_position.template as<double>();
     const Rotation<Real> q = w.rotation[body];
-    return {{w.position[body] - (1 - from) * way - origin,
-             (1 - from) * way,
+    return {{w.position[body] - (1 - from) * displacement - origin,
+             (1 - from) * displacement,
              {static_cast<double>(q.c), static_cast<double>(q.s)}}};
   }
-  return {flight_of(w, body, dt).sweep(from, origin)};
+  return {swept_body_of(w, body, dt).sweep(from, origin)};
 }
 
-// A shape relative to the point of its body that moves along a straight line.
+// A shape relative to the pivot of its body, which moves straight.
 template <class Real>
 class RelativeShape {
  public:
@@ -76,64 +76,67 @@ Real tolerance_between(const WorldData<Real>& w, const SweptPair<Real>& pair) {
 
 // Returns the distance of two shapes at the start of their motions, m.
 template <class Real>
-double distance_between(const Sweep<double>& way, const Convex<Real>& moving, const Sweep<double>& others,
-                        const Convex<Real>& standing) {
-  const Rotation<double> back = others.start_rotation.inverse(), q = way.start_rotation;
-  const Pose<double> pose{back * (way.start - others.start),
+double distance_between(const Sweep<double>& moving_sweep, const Convex<Real>& moving,
+                        const Sweep<double>& other_sweep, const Convex<Real>& standing) {
+  const Rotation<double> back = other_sweep.start_rotation.inverse(), q = moving_sweep.start_rotation;
+  const Pose<double> pose{back * (moving_sweep.start - other_sweep.start),
                           {back.c * q.c - back.s * q.s, back.s * q.c + back.c * q.s}};
   return hull_distance(standing, moving, pose, nullptr).separation -
          static_cast<double>(moving.radius + standing.radius);
 }
 
-// A pair of shapes and their remaining motions.
+// Finds the impacts of a pair of shapes along their remaining motions.
 template <class Real>
-class Encountering {
+class PairImpactSearch {
  public:
   using Result = ImpactResult<Real>;
 
-  Encountering(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair)
+  PairImpactSearch(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair)
       : w_(w),
-        way_(way),
+        path_(path),
         pair_(pair),
-        of_other_(motion_of(w, w.shapes[pair.other].body, way.from, way.origin, way.search.dt)),
-        whole_(w.convex(pair.shape), way.flight.arm),
-        obstacle_(w.convex(pair.other), of_other_.arm),
+        other_motion_(motion_of(w, w.shapes[pair.other].body, path.from, path.origin, path.search.dt)),
+        whole_(w.convex(pair.shape), path.swept.arm),
+        obstacle_(w.convex(pair.other), other_motion_.arm),
         tolerance_(tolerance_between(w, pair)) {}
 
   const Convex<Real>& whole() const { return whole_.convex(); }
-  bool flies_on() const { return way_.flight.impacts > 0; }
+  bool had_impact() const { return path_.swept.impacts > 0; }
   const Convex<Real>& obstacle() const { return obstacle_.convex(); }
 
-  Result meet(const Convex<Real>& moving, const Convex<Real>& standing) const {
-    return meet(moving, standing, tolerance_, tolerance_);
+  Result find_impact(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    return find_impact(moving, standing, tolerance_, tolerance_);
   }
   // Finds the impact with the smallest tolerance above rounding; for restitution.
-  Result meet_closely() const {
+  Result find_impact_closely() const {
     const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
     const double bodies =
-        static_cast<double>(w_.extents[way_.flight.body] + w_.extents[w_.shapes[pair_.other].body]);
-    const Sweep<double>&own = way_.sweep, &others = of_other_.sweep;
-    const double ways = size(others.start) + size(others.motion) + size(own.motion) +
-                        bodies * (std::abs(own.turn) + std::abs(others.turn));
-    const Real near = static_cast<Real>(tuning::kReboundTolerance * (bodies + ways));
-    return meet(whole(), obstacle(), near, near);
+        static_cast<double>(w_.extents[path_.swept.body] + w_.extents[w_.shapes[pair_.other].body]);
+    const Sweep<double>&own_sweep = path_.sweep, &other_sweep = other_motion_.sweep;
+    const double path_length = size(other_sweep.start) + size(other_sweep.motion) + size(own_sweep.motion) +
+                               bodies * (std::abs(own_sweep.delta_angle) + std::abs(other_sweep.delta_angle));
+    const Real tolerance = static_cast<Real>(tuning::kReboundTolerance * (bodies + path_length));
+    return find_impact(whole(), obstacle(), tolerance, tolerance);
   }
-  // Finds the impact of shapes that may start closer than the stopping distance: these must not come closer.
-  Result hold(const Convex<Real>& moving, const Convex<Real>& standing) const {
-    // Without a contact the shapes are apart, and their cores farther apart.
-    if (pair_.contact == nullptr && !way_.flight.changed && !pair_.stands) return meet(moving, standing);
+  // Finds the impact of shapes that may start closer than the stopping distance and must not come closer.
+  Result find_impact_from_near(const Convex<Real>& moving, const Convex<Real>& standing) const {
+    // Without a contact the shapes start apart.
+    if (pair_.contact == nullptr && !path_.swept.changed && !pair_.other_stopped)
+      return find_impact(moving, standing);
     const double apart = distance(moving, standing);
     if (!(apart > 0)) return {.state = Result::State::Overlapped, .fraction = 0, .exact_fraction = 0};
     const Real start = static_cast<Real>(apart);
-    if (start > 2 * tolerance_) return meet(moving, standing);
-    return meet(moving, standing, Real(kHeld) * start, Real((1 - kHeld) / 2) * start);
+    if (start > 2 * tolerance_) return find_impact(moving, standing);
+    return find_impact(moving, standing, Real(kKeptDistance) * start, Real((1 - kKeptDistance) / 2) * start);
   }
-  double fraction(const Result& result) const { return way_.from + result.exact_fraction * (1 - way_.from); }
+  double fraction(const Result& result) const {
+    return path_.from + result.exact_fraction * (1 - path_.from);
+  }
   // Returns true for an impact on the back of a chain segment, which shapes may pass from behind.
-  bool passes_behind(const Result& at) const {
+  bool hits_back_side(const Result& at) const {
     const bool moves = w_.forms[pair_.shape].chain;
     if (!moves && !w_.forms[pair_.other].chain) return false;
-    const Sweep<double>& sweep = moves ? way_.sweep : of_other_.sweep;
+    const Sweep<double>& sweep = moves ? path_.sweep : other_motion_.sweep;
     const Rotation<double> q = pose_at(sweep, at.exact_fraction).rotation;
     const Vec2d front = q * (moves ? whole() : obstacle()).corners[0].normal.template as<double>(),
                 normal = at.normal.template as<double>();
@@ -141,74 +144,76 @@ class Encountering {
   }
 
  private:
-  static constexpr double kHeld = 0.999;
+  static constexpr double kKeptDistance = 0.999;
 
-  Result meet(const Convex<Real>& moving, const Convex<Real>& standing, Real target, Real tolerance) const {
-    const Result found = time_of_impact(standing, of_other_.sweep, moving, way_.sweep, target, tolerance,
-                                        tuning::kImpactIterations + way_.search.toi_iteration_budget);
-    way_.search.toi_iteration_budget -= std::max(0, found.iterations - tuning::kImpactIterations);
+  Result find_impact(const Convex<Real>& moving, const Convex<Real>& standing, Real target,
+                     Real tolerance) const {
+    const Result found = time_of_impact(standing, other_motion_.sweep, moving, path_.sweep, target, tolerance,
+                                        tuning::kToiIterations + path_.search.toi_iteration_budget);
+    path_.search.toi_iteration_budget -= std::max(0, found.iterations - tuning::kToiIterations);
     return found;
   }
   double distance(const Convex<Real>& moving, const Convex<Real>& standing) const {
-    return distance_between(way_.sweep, moving, of_other_.sweep, standing);
+    return distance_between(path_.sweep, moving, other_motion_.sweep, standing);
   }
 
   const WorldData<Real>& w_;
-  const Way& way_;
+  const SweptPath& path_;
   const SweptPair<Real>& pair_;
-  Motion of_other_;
+  Motion other_motion_;
   RelativeShape<Real> whole_, obstacle_;
   Real tolerance_;
 };
 
-// Returns true if both bodies are dynamic and have, or will have, a contact. It separates them unless their
-// inner cores pass. If such bodies were stopped earlier, a pile that is hit would overrun them.
+// Returns true if both bodies are dynamic and have, or will have, a contact, which separates them unless
+// their inner cores pass. If they were stopped earlier, a pile that is hit would be pushed over them.
 template <class Real>
-bool both_yield(const WorldData<Real>& w, const SweptPair<Real>& pair) {
-  return (pair.contact != nullptr || pair.stands) && w.is_dynamic(w.shapes[pair.shape].body) &&
+bool are_dynamic_in_contact(const WorldData<Real>& w, const SweptPair<Real>& pair) {
+  return (pair.contact != nullptr || pair.other_stopped) && w.is_dynamic(w.shapes[pair.shape].body) &&
          w.is_dynamic(w.shapes[pair.other].body);
 }
 
 // Returns the time of impact of a core with the other shape. If it starts deeper and would penetrate further,
 // tests first the cores of both, then smaller inner cores.
 template <class Real>
-ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real>& at,
+ImpactResult<Real> core_impact(const WorldData<Real>& w, const PairImpactSearch<Real>& at,
                                const SweptPair<Real>& pair) {
   using State = typename ImpactResult<Real>::State;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
-  const Real own = half_width_of(w, pair.shape), others = half_width_of(w, pair.other);
-  // Two discs may not graze each other unnoticed.
-  const bool discs = pair.contact == nullptr && !pair.stands && form.count == 1 && other_form.count == 1;
-  const Real depth = discs ? Real(tuning::kGraze) * std::min(form.radius, other_form.radius)
-                           : Real(tuning::kCoreDepth) * own;
-  // After an impact in flight no contact supports the body: in front of a stopped body it stops at the
-  // surface.
-  const SweptBody* met = flight_in(w, w.shapes[pair.other].body);
-  if (at.flies_on() && met != nullptr && met->stands) {
-    const Core<Real> core(at.whole(), Real(tuning::kGraze) * own);
-    const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
+  const Real half_width = half_width_of(w, pair.shape), other_half_width = half_width_of(w, pair.other);
+  // For discs, even a grazing impact counts.
+  const bool discs =
+      pair.contact == nullptr && !pair.other_stopped && form.count == 1 && other_form.count == 1;
+  const Real depth = discs ? Real(tuning::kCircleStopOverlap) * std::min(form.radius, other_form.radius)
+                           : Real(tuning::kCoreDepth) * half_width;
+  // After a resolved impact no contact supports the body, so it stops at the surface of a stopped body.
+  const SweptBody* other_swept = find_swept_body(w, w.shapes[pair.other].body);
+  if (at.had_impact() && other_swept != nullptr && other_swept->stopped) {
+    const Core<Real> core(at.whole(), Real(tuning::kCircleStopOverlap) * half_width);
+    const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), at.obstacle());
     if (found.state != State::Overlapped) return found;
   }
-  if (both_yield(w, pair)) {
-    const Core<Real> core(at.whole(), Real(tuning::kInnerDepth) * own),
-        other_core(at.obstacle(), Real(tuning::kInnerDepth) * others);
-    const ImpactResult<Real> found = at.hold(core.convex(), other_core.convex());
+  if (are_dynamic_in_contact(w, pair)) {
+    const Core<Real> core(at.whole(), Real(tuning::kInnerDepth) * half_width),
+        other_core(at.obstacle(), Real(tuning::kInnerDepth) * other_half_width);
+    const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), other_core.convex());
     return found.state == State::Overlapped ? ImpactResult<Real>{} : found;
   }
-  const bool others_core = form.chain || (pair.stands && others > own);
+  const bool others_core = form.chain || (pair.other_stopped && other_half_width > half_width);
   if (others_core) {
-    const Core<Real> core(at.obstacle(), Real(tuning::kCoreDepth) * others);
-    const ImpactResult<Real> found = at.hold(at.whole(), core.convex());
+    const Core<Real> core(at.obstacle(), Real(tuning::kCoreDepth) * other_half_width);
+    const ImpactResult<Real> found = at.find_impact_from_near(at.whole(), core.convex());
     if (found.state != State::Overlapped) return found;
   } else {
     const Core<Real> core(at.whole(), depth);
-    const ImpactResult<Real> found = at.hold(core.convex(), at.obstacle());
+    const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), at.obstacle());
     if (found.state != State::Overlapped) return found;
   }
-  for (const double share :
+  for (const double depth_fraction :
        {tuning::kCoreDepth, 0.5 * (tuning::kCoreDepth + tuning::kInnerDepth), tuning::kInnerDepth}) {
-    const Core<Real> core(at.whole(), Real(share) * own), other_core(at.obstacle(), Real(share) * others);
-    const ImpactResult<Real> found = at.hold(core.convex(), other_core.convex());
+    const Core<Real> core(at.whole(), Real(depth_fraction) * half_width),
+        other_core(at.obstacle(), Real(depth_fraction) * other_half_width);
+    const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), other_core.convex());
     if (found.state != State::Overlapped) return found;
   }
   return {};
@@ -216,136 +221,138 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const Encountering<Real
 
 // Returns true if a quick bound shows that a pair of shapes does not collide on the solver's motions.
 template <class Real>
-bool is_clear(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
-  if (pair.stands) return false;
-  const SweptBoxes<Real> boxes(w, way.flight, way.search.dt);
-  if (!boxes.both_straight(w.shapes[pair.other].body)) return false;
+bool is_clear(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
+  if (pair.other_stopped) return false;
+  const SweptAabbTest<Real> aabb_test(w, path.swept, path.search.dt);
+  if (!aabb_test.both_as_solved(w.shapes[pair.other].body)) return false;
   const ShapeForm<Real>&form = w.forms[pair.shape], &other_form = w.forms[pair.other];
-  const Real apart = boxes.apart(pair.shape, pair.other);
-  if (!pair.boxes_meet && boxes.stay_apart(pair.shape, pair.other, apart)) return true;
+  const Real apart = aabb_test.no_impact_distance(pair.shape, pair.other);
+  if (!pair.aabbs_overlap && aabb_test.stay_separated(pair.shape, pair.other, apart)) return true;
   const bool discs = form.count == 1 && other_form.count == 1;
   const Real depth = form.chain ? half_width_of(w, pair.other) : half_width_of(w, pair.shape);
   const Real both = half_width_of(w, pair.shape) + half_width_of(w, pair.other);
-  const Real deepest =
-      both_yield(w, pair) ? Real(tuning::kInnerDepth) * both : Real(tuning::kCoreDepth) * depth;
-  const Real enough = pair.contact == nullptr && discs ? apart : apart - deepest;
-  // Shapes in contact may overlap by almost a core along the axes of their AABBs, too.
-  if (enough < apart && boxes.stay_apart(pair.shape, pair.other, enough) &&
-      (pair.contact != nullptr || !may_rebound(w, pair.shape, pair.other, way.search.dt)))
+  const Real allowed_depth =
+      are_dynamic_in_contact(w, pair) ? Real(tuning::kInnerDepth) * both : Real(tuning::kCoreDepth) * depth;
+  const Real enough = pair.contact == nullptr && discs ? apart : apart - allowed_depth;
+  // Shapes in contact may overlap by almost the depth of a core, so their AABBs may too.
+  if (enough < apart && aabb_test.stay_separated(pair.shape, pair.other, enough) &&
+      (pair.contact != nullptr || !may_resolve_toi_impact(w, pair.shape, pair.other, path.search.dt)))
     return true;
   SweptBound<Real> bound(w, pair.shape, pair.other, enough);
-  const auto try_all = [&] {
-    if (pair.contact == nullptr) return bound.try_edges();
-    return bound.try_along(pair.contact->body_b == way.flight.body ? pair.contact->normal
+  const auto test_all = [&] {
+    if (pair.contact == nullptr) return bound.test_edge_normals();
+    return bound.test_axis(pair.contact->body_b == path.swept.body ? pair.contact->normal
                                                                    : -pair.contact->normal) ||
-           bound.try_edges();
+           bound.test_edge_normals();
   };
-  if (!try_all()) return false;
-  return pair.contact != nullptr || bound.least() >= apart ||
-         !may_rebound(w, pair.shape, pair.other, way.search.dt);
+  if (!test_all()) return false;
+  return pair.contact != nullptr || bound.lower_bound() >= apart ||
+         !may_resolve_toi_impact(w, pair.shape, pair.other, path.search.dt);
 }
 
-// Returns the least coordinate of a shape along a direction at a pose, m.
+// Returns the minimum coordinate of a shape along a direction at a pose, m.
 template <class Real>
-double least_along(const Convex<Real>& shape, const Pose<double>& pose, Vec2d direction) {
+double min_along(const Convex<Real>& shape, const Pose<double>& pose, Vec2d direction) {
   const Vec2d local = pose.rotation.inverse() * direction;
-  double least = std::numeric_limits<double>::max();
+  double minimum = std::numeric_limits<double>::max();
   for (int i = 0; i < shape.count; ++i)
-    least = std::min(least, dot(local, shape.corners[i].point.template as<double>()));
-  return dot(direction, pose.position) + least - static_cast<double>(shape.radius);
+    minimum = std::min(minimum, dot(local, shape.corners[i].point.template as<double>()));
+  return dot(direction, pose.position) + minimum - static_cast<double>(shape.radius);
 }
 
-// Maximum lift, as a fraction of the smaller extent: more than the motion of a resting body's tip in a step.
-constexpr double kLargestLift = 0.25;
-// Lifts per step after which a body is stopped: each surface that it rests on may cause one.
-constexpr int kMostLifts = 8;
-// Number of pieces of a path above which a body is stopped instead of lifted; a corner's arc is checked at
-// the ends of each piece. A rod a hundred times as long as wide reaches this number at 7 radians a step.
-constexpr double kMostPieces = 64;
-// Lift below which it counts as rounding, as a fraction of the body's extent.
-constexpr double kNoLift = 1e-9;
+// Maximum lift, as a fraction of the smaller extent: more than a resting body's tip moves in a step.
+constexpr double kMaxLift = 0.25;
+// Number of lifts per step after which a body is stopped. Each surface that it rests on may cause one.
+constexpr int kMaxLifts = 8;
+// Maximum number of pieces of a path, at whose ends a corner's arc is checked; above it a body is stopped
+// instead of lifted. A rod a hundred times as long as wide reaches this number at 7 radians a step.
+constexpr double kMaxPieces = 64;
+// Lift that counts as rounding, as a fraction of the body's extent.
+constexpr double kMinLift = 1e-9;
 
-// Returns true if a body touches something that it may be lifted off.
+// Returns true if a body touches a surface that it may be lifted off.
 template <class Real>
-bool may_lift(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
-  const int body = way.flight.body, other = w.shapes[pair.other].body;
-  if (pair.contact == nullptr || way.flight.lifts >= kMostLifts || way.flight.carrier != kNone) return false;
+bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
+  const int body = path.swept.body, other = w.shapes[pair.other].body;
+  if (pair.contact == nullptr || path.swept.lifts >= kMaxLifts || path.swept.pushed_by != kNone) return false;
   // The normal of a deep contact may point to the wrong side.
   const ContactConstraint<Real>& c = *pair.contact;
-  const Real touching = Real(tuning::kTouch / tuning::kPushSpeed) * c.push_speed;
+  const Real touching = Real(tuning::kTouchSeparation / tuning::kPushSpeed) * c.push_speed;
   if (std::min(c.separation[0], c.separation[1]) < -touching) return false;
   if (w.bodies[body].first_joint != kNone || w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
-  return !w.is_dynamic(other) && w.motion[other].turned == 0;
+  return !w.is_dynamic(other) && w.motion[other].delta_angle == 0;
 }
 
 }  // namespace
 
 template <class Real>
-std::optional<Vec2d> lift_off(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair,
-                              double entered) {
-  if (!may_lift(w, way, pair)) return std::nullopt;
-  const int body = way.flight.body, other = w.shapes[pair.other].body;
+std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
+                              double entry_fraction) {
+  if (!may_lift(w, path, pair)) return std::nullopt;
+  const int body = path.swept.body, other = w.shapes[pair.other].body;
   const double side = pair.contact->body_b == body ? 1 : -1;
   const Vec2d normal = side * pair.contact->normal.template as<double>();
-  const Motion of_other = motion_of(w, other, way.from, way.origin, way.search.dt);
+  const Motion other_motion = motion_of(w, other, path.from, path.origin, path.search.dt);
   const Convex<Real> shape = w.convex(pair.shape), obstacle = w.convex(pair.other);
   const auto separation = [&](double fraction) {
-    return least_along(shape, pose_at(way.sweep, fraction), normal) +
-           least_along(obstacle, pose_at(of_other.sweep, fraction), -normal);
+    return min_along(shape, pose_at(path.sweep, fraction), normal) +
+           min_along(obstacle, pose_at(other_motion.sweep, fraction), -normal);
   };
   const double core = tuning::kCoreDepth * static_cast<double>(half_width_of(w, pair.shape));
-  // A wide shape may overlap a slender one far from where they touch, along the slender shape's normal. So
-  // use the decrease of the distance along the path, if the shapes are apart.
-  const double apart = distance_between(way.sweep, shape, of_other.sweep, obstacle);
-  const double hidden = apart > 0 ? apart - separation(0) : 0;
-  // A core that enters although the separation along the normal does not decrease enters through another
-  // side. Stop it up to two tolerances earlier, which is much for a needle.
+  // Along a slender shape's normal, a wide shape may overlap it far from the contact point. So use the
+  // decrease of the distance along the path, if the shapes are apart.
+  const double apart = distance_between(path.sweep, shape, other_motion.sweep, obstacle);
+  const double offset = apart > 0 ? apart - separation(0) : 0;
+  // If the separation along the normal does not decrease, the core enters through another side: stop it, up
+  // to two tolerances earlier, which is much for a needle.
   const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
-  const double held_off = 2 * tuning::kImpactTolerance * smaller;
-  if (entered < 1 && separation(entered) + hidden > held_off - 0.5 * core) return std::nullopt;
-  const double lift = -core - separation(1) - hidden;
-  // Between the ends of the path, corners move on arcs. Another impact may end the flight where they are
-  // deepest: allow at most the depth from a core to the inner core below both ends, which contacts can still
-  // push out.
+  const double stop_distance = 2 * tuning::kImpactTolerance * smaller;
+  if (entry_fraction < 1 && separation(entry_fraction) + offset > stop_distance - 0.5 * core)
+    return std::nullopt;
+  const double lift = -core - separation(1) - offset;
+  // Between the ends of the path, corners move on arcs, and another impact may stop the body where they are
+  // deepest. Below both ends, allow the depth from the core to the inner core, which contacts push out.
   const double half_width = static_cast<double>(half_width_of(w, pair.shape));
-  const double bend = static_cast<double>(w.extents[body]) * way.sweep.turn * way.sweep.turn +
-                      2 * (std::abs(way.sweep.curve.x) + std::abs(way.sweep.curve.y));
-  const double room = (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
-  const double pieces = std::ceil(std::sqrt(0.25 * bend / room));  // arcs may use half of the room
-  if (!(pieces <= kMostPieces)) return std::nullopt;
+  const double arc_height =
+      static_cast<double>(w.extents[body]) * path.sweep.delta_angle * path.sweep.delta_angle +
+      2 * (std::abs(path.sweep.curve.x) + std::abs(path.sweep.curve.y));
+  const double allowed_depth = (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
+  const double pieces =
+      std::ceil(std::sqrt(0.25 * arc_height / allowed_depth));  // arcs may use half of the depth
+  if (!(pieces <= kMaxPieces)) return std::nullopt;
   const double ends = std::min(separation(0), separation(1));
   for (int i = 1; i < static_cast<int>(pieces); ++i)
-    if (separation(i / pieces) < ends - 0.5 * room) return std::nullopt;
-  const double least = way.flight.lifts > 0 ? kNoLift * static_cast<double>(w.extents[body]) : 0;
-  if (lift > kLargestLift * smaller) return std::nullopt;
-  return lift > least ? lift * normal : Vec2d{};
+    if (separation(i / pieces) < ends - 0.5 * allowed_depth) return std::nullopt;
+  const double min_lift = path.swept.lifts > 0 ? kMinLift * static_cast<double>(w.extents[body]) : 0;
+  if (lift > kMaxLift * smaller) return std::nullopt;
+  return lift > min_lift ? lift * normal : Vec2d{};
 }
 
 template <class Real>
-double fraction_of_impact(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair) {
+double fraction_of_impact(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
   using Result = ImpactResult<Real>;
-  if (is_clear(w, way, pair)) return 1;
-  const Encountering<Real> at(w, way, pair);
-  const bool flies_on = way.flight.impacts > 0;
-  if ((pair.contact == nullptr || flies_on) && way.flight.yields &&
-      may_rebound(w, pair.shape, pair.other, way.search.dt)) {
-    const Result first = at.meet_closely();
+  if (is_clear(w, path, pair)) return 1;
+  const PairImpactSearch<Real> at(w, path, pair);
+  const bool had_impact = path.swept.impacts > 0;
+  if ((pair.contact == nullptr || had_impact) && path.swept.resolves_impacts &&
+      may_resolve_toi_impact(w, pair.shape, pair.other, path.search.dt)) {
+    const Result first = at.find_impact_closely();
     if (first.state == Result::State::Separated) return 1;
-    if (first.state != Result::State::Overlapped) return at.passes_behind(first) ? 1 : at.fraction(first);
+    if (first.state != Result::State::Overlapped) return at.hits_back_side(first) ? 1 : at.fraction(first);
   }
-  const Result through = core_impact(w, at, pair);
-  if (through.state == Result::State::Separated || at.passes_behind(through)) return 1;
-  const Result first = at.meet(at.whole(), at.obstacle());
+  const Result core_result = core_impact(w, at, pair);
+  if (core_result.state == Result::State::Separated || at.hits_back_side(core_result)) return 1;
+  const Result first = at.find_impact(at.whole(), at.obstacle());
   // Shapes that touch at the start are separated by their contact until the core comes too near.
   const bool touch = first.state == Result::State::Overlapped || first.exact_fraction == 0;
-  if (touch && lift_off(w, way, pair, through.exact_fraction) == Vec2d{}) return 1;
-  return touch ? at.fraction(through) : at.fraction(first);
+  if (touch && lift_off(w, path, pair, core_result.exact_fraction) == Vec2d{}) return 1;
+  return touch ? at.fraction(core_result) : at.fraction(first);
 }
 
-#define PLUMB_FOR(Real)                                                                              \
-  template std::optional<Vec2d> lift_off(const WorldData<Real>&, const Way&, const SweptPair<Real>&, \
-                                         double);                                                    \
-  template double fraction_of_impact(const WorldData<Real>&, const Way&, const SweptPair<Real>&);
+#define PLUMB_FOR(Real)                                                                                    \
+  template std::optional<Vec2d> lift_off(const WorldData<Real>&, const SweptPath&, const SweptPair<Real>&, \
+                                         double);                                                          \
+  template double fraction_of_impact(const WorldData<Real>&, const SweptPath&, const SweptPair<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -11,49 +11,49 @@
 #include "engine/world/state/contacts.h"
 #include "engine/world/step/step.h"
 
-/// Finds the first impact of a flight within the step. Only for continuous.cpp.
+/// Finds the first impact of a swept body within the step. Only for continuous.cpp.
 namespace plumb {
 
-/// Tests which bodies a body passes fast. Stores the terms that do not depend on the other body.
+/// Tests if bodies move fast relative to one body. Stores the terms that do not depend on the other body.
 template <class Real>
-class FastPassing {
+class RelativeMotionTest {
  public:
-  FastPassing(const WorldData<Real>& w, int body)
+  RelativeMotionTest(const WorldData<Real>& w, int body)
       : w_(w),
-        moved_(w.motion[body].moved),
+        moved_(w.motion[body].delta_position),
         turned_(turned(body)),
-        least_(Real(tuning::kFastShare) * w.bodies[body].half_width) {}
+        threshold_(Real(tuning::kFastFraction) * w.bodies[body].half_width) {}
 
   /// Returns true if two bodies move fast relative to each other, so that one could pass through the other.
-  bool passes(int other) const {
-    const Vec2<Real> way = w_.motion[other].moved - moved_;
-    return std::abs(way.x) + std::abs(way.y) + (turned_ + turned(other)) > least_;
+  bool is_fast(int other) const {
+    const Vec2<Real> relative = w_.motion[other].delta_position - moved_;
+    return std::abs(relative.x) + std::abs(relative.y) + (turned_ + turned(other)) > threshold_;
   }
   /// Returns true if another body may be an obstacle: it is fast relative to this one, or its motion differs
   /// from the solver's.
   bool may_be_blocked_by(int other) const {
-    if (passes(other)) return true;
-    const SweptBody* met = flight_in(w_, other);
-    return met != nullptr && met->changed;
+    if (is_fast(other)) return true;
+    const SweptBody* other_swept = find_swept_body(w_, other);
+    return other_swept != nullptr && other_swept->changed;
   }
 
  private:
-  Real turned(int body) const { return std::abs(w_.motion[body].turned) * w_.extents[body]; }
+  Real turned(int body) const { return std::abs(w_.motion[body].delta_angle) * w_.extents[body]; }
 
   const WorldData<Real>& w_;
   Vec2<Real> moved_;
-  Real turned_, least_;
+  Real turned_, threshold_;
 };
 
-/// Returns an AABB of the body's motion until the step's end. An arc leaves its chord, passed at the same
-/// rate, by at most arm angle^2 / 8, and by no more than two arms.
+/// Returns the AABB of a body's motion until the step's end. An arc and its chord, passed at the same rate,
+/// are at most arm angle^2 / 8 apart, and at most two arms.
 template <class Real>
-Aabb<Real> way_of(const WorldData<Real>& w, const SweptBody& flight) {
-  const Vec2<Real> start = flight.start_at(flight.from).template as<Real>(),
-                   end = flight.start_at(1).template as<Real>();
-  const double arc = length(flight.arm) * std::min(flight.turn * flight.turn / 8, 2.0);
-  const Real aside = static_cast<Real>(std::abs(flight.curve.x) + std::abs(flight.curve.y) + arc);
-  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[flight.body] + aside);
+Aabb<Real> swept_aabb_of(const WorldData<Real>& w, const SweptBody& swept) {
+  const Vec2<Real> start = swept.position_at(swept.from).template as<Real>(),
+                   end = swept.position_at(1).template as<Real>();
+  const double arc_deviation = length(swept.arm) * std::min(swept.delta_angle * swept.delta_angle / 8, 2.0);
+  const Real deviation = static_cast<Real>(std::abs(swept.curve.x) + std::abs(swept.curve.y) + arc_deviation);
+  return merged(Aabb<Real>{start, start}, Aabb<Real>{end, end}).grown(w.extents[swept.body] + deviation);
 }
 
 /// Returns the solver's constraint of a contact, or null if it had none.
@@ -81,88 +81,90 @@ const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int 
 
 /// Replaces the first impact by a pair's impact if that is earlier.
 template <class Real>
-void push_toi_event(const WorldData<Real>& w, const Way& way, const SweptPair<Real>& pair, ToiEvent& first) {
-  const double fraction = fraction_of_impact(w, way, pair);
+void update_earliest_impact(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
+                            ToiEvent& first) {
+  const double fraction = fraction_of_impact(w, path, pair);
   if (fraction < first.fraction)
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
 }
 
-/// Finds the first impact of a body whose obstacles all have a contact with it. Computes its trajectory only
-/// when an obstacle may be in the path.
+/// Finds the first impact of a body whose obstacles all have a contact with it. Computes its path only if an
+/// obstacle may be on it.
 template <class Real>
-void meet_pairs(const WorldData<Real>& w, const SweptBody& flight, double from, ImpactSearch& search,
-                ToiEvent& first) {
-  const int body = flight.body;
-  const FastPassing<Real> passing(w, body);
-  const SweptBoxes<Real> boxes(w, flight, search.dt);
-  std::optional<Way> way;
+void find_impact_in_contacts(const WorldData<Real>& w, const SweptBody& swept, double from,
+                             ImpactSearch& search, ToiEvent& first) {
+  const int body = swept.body;
+  const RelativeMotionTest<Real> motion_test(w, body);
+  const SweptAabbTest<Real> aabb_test(w, swept, search.dt);
+  std::optional<SweptPath> path;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool is_a = (edge & 1) == 0;
-    if (!flight.expected && !passing.may_be_blocked_by(is_a ? contact.body_b : contact.body_a)) return;
+    if (!swept.expected && !motion_test.may_be_blocked_by(is_a ? contact.body_b : contact.body_a)) return;
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
-    if (boxes.are_clear(shape, other)) return;
-    if (!way) way.emplace(flight, from, search);
-    push_toi_event(w, *way, {shape, other, constraint_in(w, contact), false, true}, first);
+    if (aabb_test.cannot_collide(shape, other)) return;
+    if (!path) path.emplace(swept, from, search);
+    update_earliest_impact(w, *path, {shape, other, constraint_in(w, contact), false, true}, first);
   });
 }
 
-/// Returns true if the same body pushes both along.
+/// Returns true if the same kinematic body pushes both, or one is the pusher.
 template <class Real>
-bool go_together(const WorldData<Real>& w, const SweptBody& flight, int other) {
-  if (flight.carrier == kNone) return false;
-  if (flight.carrier == other) return true;
-  const SweptBody* met = flight_in(w, other);
-  return met != nullptr && met->carrier == flight.carrier;
+bool have_same_pusher(const WorldData<Real>& w, const SweptBody& swept, int other) {
+  if (swept.pushed_by == kNone) return false;
+  if (swept.pushed_by == other) return true;
+  const SweptBody* other_swept = find_swept_body(w, other);
+  return other_swept != nullptr && other_swept->pushed_by == swept.pushed_by;
 }
 
-/// Finds the first impact by queries of the trees: after an impact the solver has no contacts along the new
-/// trajectory.
+/// Finds the first impact by queries of the trees, because there are no contacts along a path that an impact
+/// has changed.
 template <class Real>
-void meet_all(const WorldData<Real>& w, const Way& way, ToiEvent& first) {
-  const int body = way.flight.body;
-  const bool as_solved = !way.flight.changed;
-  const bool in_contact = as_solved || (way.flight.lifts > 0 && way.flight.impacts == 0);
-  const Aabb<Real> swept = way_of(w, way.flight);
-  const FastPassing<Real> passing(w, body);
-  const SweptBoxes<Real> boxes(w, way.flight, way.search.dt);
+void find_impact_in_trees(const WorldData<Real>& w, const SweptPath& path, ToiEvent& first) {
+  const int body = path.swept.body;
+  const bool as_solved = !path.swept.changed;
+  const bool in_contact = as_solved || (path.swept.lifts > 0 && path.swept.impacts == 0);
+  const Aabb<Real> swept_aabb = swept_aabb_of(w, path.swept);
+  const RelativeMotionTest<Real> motion_test(w, body);
+  const SweptAabbTest<Real> aabb_test(w, path.swept, path.search.dt);
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    const std::uint32_t mask = seen_by(w.shapes[shape].filter);
+    const std::uint32_t mask = effective_mask(w.shapes[shape].filter);
     if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
-      if (!may_meet(w, shape, other) || go_together(w, way.flight, other_body)) return true;
-      if (as_solved && !way.flight.expected && !passing.may_be_blocked_by(other_body)) return true;
-      if (boxes.are_clear(shape, other)) return true;
+      if (!may_create_contact(w, shape, other) || have_same_pusher(w, path.swept, other_body)) return true;
+      if (as_solved && !path.swept.expected && !motion_test.may_be_blocked_by(other_body)) return true;
+      if (aabb_test.cannot_collide(shape, other)) return true;
       const auto* const contact = in_contact ? constraint_between(w, shape, other) : nullptr;
-      push_toi_event(w, way, {shape, other, contact, false, true}, first);
+      update_earliest_impact(w, path, {shape, other, contact, false, true}, first);
       return true;
     };
-    w.static_tree.query(swept, mask, visit);
-    w.dynamic_tree.query(swept, mask, visit);
+    w.static_tree.query(swept_aabb, mask, visit);
+    w.dynamic_tree.query(swept_aabb, mask, visit);
   }
 }
 
-/// Stores the current version of the other body's trajectory.
+/// Sets the version of the other body's motion.
 template <class Real>
-ToiEvent as_it_is(const WorldData<Real>& w, ToiEvent found) {
+ToiEvent with_other_version(const WorldData<Real>& w, ToiEvent found) {
   if (found.other == kNone) return found;
-  if (const SweptBody* other = flight_in(w, w.shapes[found.other].body)) found.other_version = other->version;
+  if (const SweptBody* other = find_swept_body(w, w.shapes[found.other].body))
+    found.other_version = other->version;
   return found;
 }
 
-/// Returns the first impact of a flight from a fraction of the step on.
+/// Returns the first impact of a swept body from a fraction of the step on.
 template <class Real>
-ToiEvent first_toi_event(const WorldData<Real>& w, int place, double from, ImpactSearch& search) {
-  const SweptBody& flight = w.scratch.swept_bodies[place];
-  ToiEvent first{.flight = place, .version = flight.version};
-  if (!w.is_dynamic(flight.body)) return first;
-  if (flight.covered && !flight.changed) {
-    meet_pairs(w, flight, from, search, first);
+ToiEvent first_toi_event(const WorldData<Real>& w, int index, double from, ImpactSearch& search) {
+  const SweptBody& swept = w.scratch.swept_bodies[index];
+  ToiEvent first{.swept_body = index, .version = swept.version};
+  if (!w.is_dynamic(swept.body)) return first;
+  if (swept.covered && !swept.changed) {
+    find_impact_in_contacts(w, swept, from, search, first);
   } else {
-    meet_all(w, Way(flight, from, search), first);
+    find_impact_in_trees(w, SweptPath(swept, from, search), first);
   }
-  return as_it_is(w, first);
+  return with_other_version(w, first);
 }
 
 }  // namespace plumb

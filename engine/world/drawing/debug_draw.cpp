@@ -18,18 +18,18 @@ class Drawing {
  public:
   Drawing(const WorldData<Real>& w, const PastPoses<Real>& before, double fraction, DebugDraw& out,
           const DrawOptions& options)
-      : w_(w), before_(before), fraction_(fraction), out_(out), options_(options) {}
+      : w_(w), previous_(before), fraction_(fraction), out_(out), options_(options) {}
 
   void draw() const {
     for_each_used(w_.bodies, [&](int body) {
-      if (options_.shapes && shows(body)) draw_shapes(body);
+      if (options_.shapes && is_visible(body)) draw_shapes(body);
     });
     if (options_.boxes) draw_boxes();
     if (options_.joints) for_each_used(w_.joints, [&](int joint) { draw_joint(joint); });
     if (options_.contacts || options_.normals || options_.impulses)
       for_each_used(w_.contacts, [&](int contact) { draw_contact(w_.contacts[contact]); });
     for_each_used(w_.bodies, [&](int body) {
-      if (!shows(body)) return;
+      if (!is_visible(body)) return;
       if (options_.centres) draw_centre(body);
       if (options_.names && !w_.extras_of(body).name.empty())
         out_.text(centre(body), w_.extras_of(body).name, DrawRole::Name);
@@ -45,29 +45,33 @@ class Drawing {
   }
 
   // Returns true if the bounds overlap a box.
-  bool shows(const Aabb<double>& box) const { return !options_.bounds || options_.bounds->overlaps(box); }
+  bool is_visible(const Aabb<double>& box) const {
+    return !options_.bounds || options_.bounds->overlaps(box);
+  }
   // Returns true if the bounds may overlap a body, at any angle.
-  bool shows(int body) const {
-    const double reach = static_cast<double>(w_.extents[body]);
-    const Vec2d middle = centre(body), size{reach, reach};
-    return shows(Aabb<double>{middle - size, middle + size});
+  bool is_visible(int body) const {
+    const double extent = static_cast<double>(w_.extents[body]);
+    const Vec2d middle = centre(body), size{extent, extent};
+    return is_visible(Aabb<double>{middle - size, middle + size});
   }
   // Returns true if the bounds may overlap a shape. AABBs are those after the last step, so after changes by
   // calls only the body's size is reliable.
-  bool shows_shape(int shape) const {
+  bool is_shape_visible(int shape) const {
     if (!options_.bounds) return true;
     const Aabb<Real> box = current_aabb(w_, shape);
     return fraction_ == 1
-               ? shows(Aabb<double>{box.lower.template as<double>(), box.upper.template as<double>()})
-               : shows(w_.shapes[shape].body);
+               ? is_visible(Aabb<double>{box.lower.template as<double>(), box.upper.template as<double>()})
+               : is_visible(w_.shapes[shape].body);
   }
 
-  Pose<double> pose(int body) const { return before_.between(w_, body, fraction_); }
+  Pose<double> pose(int body) const { return previous_.between(w_, body, fraction_); }
   Vec2d centre(int body) const { return pose(body).position; }
 
   // Returns the world position of a point in the body's frame, whose origin is the centre of mass.
-  static Vec2d placed(const Pose<double>& pose, Vec2d point) { return pose.position + pose.rotation * point; }
-  Vec2d to_world(int body, Vec2d point) const { return placed(pose(body), point); }
+  static Vec2d transform(const Pose<double>& pose, Vec2d point) {
+    return pose.position + pose.rotation * point;
+  }
+  Vec2d to_world(int body, Vec2d point) const { return transform(pose(body), point); }
   // Returns the world position of an anchor, which is given in the frame of the body's origin.
   Vec2d anchor(int body, Vec2d point) const {
     return to_world(body, point - w_.bodies[body].centre.template as<double>());
@@ -82,17 +86,17 @@ class Drawing {
   }
 
   void draw_shapes(int body) const {
-    const Pose<double> place = pose(body);
+    const Pose<double> body_pose = pose(body);
     for (int shape = w_.bodies[body].first_shape; shape != kNone; shape = w_.shapes[shape].next) {
-      if (!shows_shape(shape)) continue;
+      if (!is_shape_visible(shape)) continue;
       const Convex<Real> convex = w_.convex(shape);
       const double radius = static_cast<double>(convex.radius);
       const DrawRole role = role_of(body, shape);
       Vec2d corners[kMaxCorners];
       for (int i = 0; i < convex.count; ++i)
-        corners[i] = placed(place, convex.corners[i].point.template as<double>());
+        corners[i] = transform(body_pose, convex.corners[i].point.template as<double>());
       if (convex.count == 1) {
-        out_.circle(corners[0], radius, {place.rotation.c, place.rotation.s}, role);
+        out_.circle(corners[0], radius, {body_pose.rotation.c, body_pose.rotation.s}, role);
       } else if (convex.count > 2) {
         out_.polygon(std::span(corners, static_cast<std::size_t>(convex.count)), radius, role);
       } else if (radius > 0) {
@@ -105,7 +109,7 @@ class Drawing {
 
   void draw_boxes() const {
     for_each_used(w_.shapes, [&](int shape) {
-      if (w_.shapes[shape].proxy == kNone || !shows_shape(shape)) return;
+      if (w_.shapes[shape].proxy == kNone || !is_shape_visible(shape)) return;
       const Aabb<Real>& box = w_.boxes[shape];
       const Vec2d a = box.lower.template as<double>(), b = box.upper.template as<double>();
       const Vec2d corners[] = {a, {b.x, a.y}, b, {a.x, b.y}};
@@ -116,14 +120,14 @@ class Drawing {
   void draw_contact(const ContactRecord& contact) const {
     const bool parked = contact.home == ContactHome::Parked;
     if (!parked && contact.home != ContactHome::Graph) return;
-    if (!shows_shape(contact.shape_a) && !shows_shape(contact.shape_b)) return;
+    if (!is_shape_visible(contact.shape_a) && !is_shape_visible(contact.shape_b)) return;
     const ContactConstraint<Real>& constraint =
         parked ? w_.parked[contact.index] : w_.graph.at({contact.colour, contact.index});
     const ContactReading reading = reading_of(w_, contact, constraint);
     const int body = contact.body_a;
-    const Vec2d moved = centre(body) - w_.position[body];
+    const Vec2d offset = centre(body) - w_.position[body];
     for (int i = 0; i < reading.count; ++i) {
-      const Vec2d at = reading.points[i] + moved;
+      const Vec2d at = reading.points[i] + offset;
       if (options_.contacts) out_.point(at, DrawRole::Contact);
       if (options_.normals) out_.segment(at, at + options_.normal_length * reading.normal, DrawRole::Normal);
       if (options_.impulses && reading.impulses[i] > 0) {
@@ -176,7 +180,7 @@ class Drawing {
     const int a = record.body_a, b = record.body_b;
     const JointKind& kind = w_.joint_set.definition(record.slot);
     const Ends ends = ends_of(a, b, kind);
-    if (!shows(box_of(ends, a, b, kind))) return;
+    if (!is_visible(box_of(ends, a, b, kind))) return;
     out_.point(ends.a, DrawRole::JointLine), out_.point(ends.b, DrawRole::JointLine);
     if (const auto* pulley = std::get_if<PulleyDefinition>(&kind)) {
       draw_pulleys(out_, ends.a, pulley->ground_a, pulley->ground_b, ends.b, DrawRole::JointLine);
@@ -184,23 +188,23 @@ class Drawing {
     }
     // Lines from body to anchor, between the anchors, and on to the other body. The centre of a static body
     // has no meaning, so no line starts there.
-    const auto arm = [&](int body, Vec2d end) {
+    const auto draw_arm = [&](int body, Vec2d end) {
       const Vec2d middle = centre(body);
       if (w_.bodies[body].type != BodyType::Static && !(middle == end))
         out_.segment(middle, end, DrawRole::JointLine);
     };
-    arm(a, ends.a);
-    const auto* stick = std::get_if<DistanceDefinition>(&kind);
-    if (stick != nullptr && stick->spring) {
+    draw_arm(a, ends.a);
+    const auto* distance_joint = std::get_if<DistanceDefinition>(&kind);
+    if (distance_joint != nullptr && distance_joint->spring) {
       draw_spring(out_, ends.a, ends.b, DrawRole::JointLine);
     } else if (!(ends.a == ends.b)) {
       out_.segment(ends.a, ends.b, DrawRole::JointLine);
     }
-    arm(b, ends.b);
+    draw_arm(b, ends.b);
   }
 
   const WorldData<Real>& w_;
-  const PastPoses<Real>& before_;
+  const PastPoses<Real>& previous_;
   const double fraction_;
   DebugDraw& out_;
   const DrawOptions& options_;
@@ -209,12 +213,12 @@ class Drawing {
 }  // namespace
 
 void draw_spring(DebugDraw& out, Vec2d from, Vec2d to, DrawRole role) {
-  constexpr int kTurns = 12;
-  const Vec2d way = to - from, across = 1.0 / 16 * perpendicular(way);
+  constexpr int kSegments = 12;
+  const Vec2d direction = to - from, across = 1.0 / 16 * perpendicular(direction);
   Vec2d last = from;
-  for (int i = 1; i <= kTurns; ++i) {
-    const double side = i == kTurns ? 0 : i % 2 == 0 ? 1 : -1;
-    const Vec2d next = from + static_cast<double>(i) / kTurns * way + side * across;
+  for (int i = 1; i <= kSegments; ++i) {
+    const double side = i == kSegments ? 0 : i % 2 == 0 ? 1 : -1;
+    const Vec2d next = from + static_cast<double>(i) / kSegments * direction + side * across;
     out.segment(last, next, role);
     last = next;
   }

@@ -71,18 +71,18 @@ std::string escaped(std::string_view text) {
 
 // Returns the unit normal to the right of the direction from a to b.
 Vec2d right_of(Vec2d a, Vec2d b) {
-  const Vec2d way = b - a;
-  const double length = std::sqrt(length_squared(way));
-  return length > 0 ? (1 / length) * Vec2d{way.y, -way.x} : Vec2d{0, -1};
+  const Vec2d edge = b - a;
+  const double length = std::sqrt(length_squared(edge));
+  return length > 0 ? (1 / length) * Vec2d{edge.y, -edge.x} : Vec2d{0, -1};
 }
 
 }  // namespace
 
 std::string_view name_of(DrawRole role) { return kStyles[static_cast<std::size_t>(role)].name; }
 
-void SvgDraw::reach(Vec2d point, double radius) {
-  const Aabb<double> around{point - Vec2d{radius, radius}, point + Vec2d{radius, radius}};
-  bounds_ = empty_ ? around : merged(bounds_, around);
+void SvgDraw::extend_bounds(Vec2d point, double radius) {
+  const Aabb<double> box{point - Vec2d{radius, radius}, point + Vec2d{radius, radius}};
+  bounds_ = empty_ ? box : merged(bounds_, box);
   empty_ = false;
 }
 
@@ -94,7 +94,7 @@ void SvgDraw::polygon(std::span<const Vec2d> corners, double radius, DrawRole ro
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2d here = corners[i], next = corners[(i + 1) % count];
     const Vec2d out = radius * right_of(here, next);
-    reach(here, radius);
+    extend_bounds(here, radius);
     path += i == 0 ? "M" : radius > 0 ? arc : " L";
     path += pair(here + out);
     if (radius > 0) path += " L" + pair(next + out);
@@ -105,7 +105,7 @@ void SvgDraw::polygon(std::span<const Vec2d> corners, double radius, DrawRole ro
 }
 
 void SvgDraw::circle(Vec2d centre, double radius, Vec2d axis, DrawRole role) {
-  reach(centre, radius);
+  extend_bounds(centre, radius);
   body_ += open("circle", role) + "cx=\"" + number(centre.x) + "\" cy=\"" + number(-centre.y) + "\" r=\"" +
            number(radius) + "\"/>\n";
   segment(centre, centre + radius * axis, role);
@@ -117,18 +117,18 @@ void SvgDraw::capsule(Vec2d start, Vec2d end, double radius, DrawRole role) {
 }
 
 void SvgDraw::segment(Vec2d start, Vec2d end, DrawRole role) {
-  reach(start, 0), reach(end, 0);
+  extend_bounds(start, 0), extend_bounds(end, 0);
   body_ += open("path", role) + "d=\"M" + pair(start) + " L" + pair(end) + "\"/>\n";
 }
 
 // Draws a line of length 0: its round ends make a dot of the stroke's width.
 void SvgDraw::point(Vec2d point, DrawRole role) {
-  reach(point, 0);
+  extend_bounds(point, 0);
   body_ += open("path", role) + "style=\"stroke-width:5\" d=\"M" + pair(point) + " l0 0\"/>\n";
 }
 
 void SvgDraw::text(Vec2d point, std::string_view text, DrawRole role) {
-  reach(point, 0);
+  extend_bounds(point, 0);
   body_ += open("text", role) + "x=\"" + number(point.x) + "\" y=\"" + number(-point.y) + "\">" +
            escaped(text) + "</text>\n";
 }

@@ -19,18 +19,18 @@ constexpr int kIterations = 20;
 /// Shortest fraction of a Newton step that is tried: 2^-8.
 constexpr int kHalvings = 8;
 /// Residual below which Newton's method ends after one more step, as a fraction of the motion.
-constexpr double kFound = 1e-12;
+constexpr double kConverged = 1e-12;
 /// The same, for accepting the result after the last iteration.
-constexpr double kEnough = 1e-9;
+constexpr double kAccepted = 1e-9;
 /// Rounding error of a spring's direction, as a fraction of the coordinates of its ends.
 constexpr double kRounding = 1e-15;
 /// Smallest energy change in a step that is corrected, as a fraction of the energy: far above rounding; in
 /// 1e6 steps such changes add up to 1 %.
-constexpr double kGain = 1e-8;
+constexpr double kMinEnergyError = 1e-8;
 /// Largest fraction by which a motion that loses energy is moved away from the reference motion.
-constexpr double kMostAway = 0.5;
+constexpr double kMaxExtrapolation = 0.5;
 /// Number of halvings in the search for the smallest fraction: to 1e-9.
-constexpr int kSearch = 30;
+constexpr int kBisections = 30;
 
 Vec2d across(Vec2d axis) { return {-axis.y, axis.x}; }
 
@@ -75,7 +75,7 @@ int ElasticStep::add_body(const Body& body) {
 
 /// Computes two sums over springs: dt c / m for each body, and M times the square of the motion's rounding
 /// error.
-void ElasticStep::find_scales(double dt) {
+void ElasticStep::compute_scales(double dt) {
   damping_.assign(bodies_.size(), 0);
   rounding_ = 0;
   for (const Spring& spring : springs_) {
@@ -98,8 +98,8 @@ Vec2d ElasticStep::line_before(const Spring& spring) const {
 
 Vec2d ElasticStep::line_after(const Spring& spring) const {
   const Motion &a = moved_[spring.a], &b = moved_[spring.b];
-  return (bodies_[spring.b].position + b.way + rotation_of(b.turn) * spring.arm_b) -
-         (bodies_[spring.a].position + a.way + rotation_of(a.turn) * spring.arm_a);
+  return (bodies_[spring.b].position + b.displacement + rotation_of(b.rotation) * spring.arm_b) -
+         (bodies_[spring.a].position + a.displacement + rotation_of(a.rotation) * spring.arm_a);
 }
 
 /// Returns the effective damping of a spring over the step, N s/m. With dt c / m = z in sum, the fraction of
@@ -113,21 +113,21 @@ double ElasticStep::damping_of(const Spring& spring) const {
 /// Returns a spring's mean forces for the motion in `moved_`.
 ElasticStep::Line ElasticStep::line_of(const Spring& spring, double dt) const {
   const Vec2d start = line_before(spring), end = line_after(spring), mean = 0.5 * (start + end);
-  const double middle = length_of(mean), lengths = length_of(start) + length_of(end);
-  const double bent = lengths > 0 ? 2 * spring.rest_length / lengths : 0;
+  const double mean_length = length_of(mean), lengths = length_of(start) + length_of(end);
+  const double rest_ratio = lengths > 0 ? 2 * spring.rest_length / lengths : 0;
   const double damping = damping_of(spring);
   const auto mean_arm = [&](int body, Vec2d arm) {
-    const double half = 0.5 * moved_[body].turn;
+    const double half = 0.5 * moved_[body].rotation;
     return sinc(half) * (rotation_of(half) * arm);
   };
   Line line{.arm_a = mean_arm(spring.a, spring.arm_a),
             .arm_b = mean_arm(spring.b, spring.arm_b),
             .axis = axis_of(mean)};
-  const double pull = spring.stiffness * (1 - bent);
+  const double pull = spring.stiffness * (1 - rest_ratio);
   line.pull = pull * mean + (damping / dt * dot(line.axis, end - start)) * line.axis;
   line.across = std::max(pull, 0.0);
   line.along = line.across + 2 * damping / dt;
-  if (lengths > 0) line.along += spring.stiffness * bent * 2 * middle / lengths;
+  if (lengths > 0) line.along += spring.stiffness * rest_ratio * 2 * mean_length / lengths;
   return line;
 }
 
@@ -145,8 +145,8 @@ double ElasticStep::evaluate(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BoundedBody& body = system_.bodies[i];
     const Motion after = moved_by(static_cast<int>(i), dt);
-    body.velocity = after.way - moved_[i].way;
-    body.spin = after.turn - moved_[i].turn;
+    body.velocity = after.displacement - moved_[i].displacement;
+    body.spin = after.rotation - moved_[i].rotation;
     sum += energy_of(static_cast<int>(i), {body.velocity, body.spin});
   }
   return sum;
@@ -156,17 +156,18 @@ double ElasticStep::evaluate(double dt) {
 ElasticStep::Motion ElasticStep::moved_by(int body, double dt) const {
   const Body& b = bodies_[body];
   const Wrench<double>& w = wrenches_[body];
-  const double share = 0.5 * dt * dt;
-  return {free_[body].way + share * Vec2d{b.inverse_mass.x * w.force.x, b.inverse_mass.y * w.force.y},
-          free_[body].turn + share * b.inverse_inertia * w.torque};
+  const double fraction = 0.5 * dt * dt;
+  return {
+      free_[body].displacement + fraction * Vec2d{b.inverse_mass.x * w.force.x, b.inverse_mass.y * w.force.y},
+      free_[body].rotation + fraction * b.inverse_inertia * w.torque};
 }
 
 /// Returns M motion^2 of a body, kg m^2.
 double ElasticStep::energy_of(int body, const Motion& motion) const {
   const Body& b = bodies_[body];
-  return inverse_of(b.inverse_mass.x) * square(motion.way.x) +
-         inverse_of(b.inverse_mass.y) * square(motion.way.y) +
-         inverse_of(b.inverse_inertia) * square(motion.turn);
+  return inverse_of(b.inverse_mass.x) * square(motion.displacement.x) +
+         inverse_of(b.inverse_mass.y) * square(motion.displacement.y) +
+         inverse_of(b.inverse_inertia) * square(motion.rotation);
 }
 
 /// Makes a row for each restoring part of the derivative. A row with stiffness k has the impulse x that
@@ -206,7 +207,7 @@ void ElasticStep::order() {
 }
 
 /// Finds the Newton step from the motion in `moved_`.
-void ElasticStep::find_step(double dt) {
+void ElasticStep::compute_newton_step(double dt) {
   make_rows(dt);
   system_.solve();
   step_.clear();
@@ -217,15 +218,16 @@ void ElasticStep::find_step(double dt) {
 /// last residual.
 double ElasticStep::newton(double dt) {
   double residual = evaluate(dt);
-  for (int iteration = 0; iteration < kIterations && std::isfinite(residual) && residual > bound(kFound);
+  for (int iteration = 0; iteration < kIterations && std::isfinite(residual) && residual > bound(kConverged);
        ++iteration) {
     const double before = residual;
-    find_step(dt);
+    compute_newton_step(dt);
     last_ = moved_;
     double part = 1;
     for (int halving = 0; halving <= kHalvings; ++halving, part *= 0.5) {
       for (std::size_t i = 0; i < bodies_.size(); ++i)
-        moved_[i] = {last_[i].way + part * step_[i].way, last_[i].turn + part * step_[i].turn};
+        moved_[i] = {last_[i].displacement + part * step_[i].displacement,
+                     last_[i].rotation + part * step_[i].rotation};
       residual = evaluate(dt);
       if (residual < before) break;
     }
@@ -248,7 +250,7 @@ double ElasticStep::bound(double fraction) const {
 /// Adds the change of the wrenches by one more Newton step. Without it, the wrenches of a very stiff spring
 /// would have an error of k times the rounding of the motion.
 void ElasticStep::refine(double dt) {
-  find_step(dt);
+  compute_newton_step(dt);
   for (const BoundedRow& row : system_.rows) {
     const double mean = 2 / (dt * dt) * row.impulse;
     wrenches_[row.a] += mean * Wrench<double>{row.linear_a, row.angular_a};
@@ -257,22 +259,22 @@ void ElasticStep::refine(double dt) {
 }
 
 void ElasticStep::solve(double dt) {
-  find_scales(dt);
+  compute_scales(dt);
   order();
-  double least = std::numeric_limits<double>::infinity();
+  double smallest_residual = std::numeric_limits<double>::infinity();
   // A start from rest makes the first Newton step the linearly implicit one. If there are several solutions,
   // it leads to the one that shorter time steps would find.
   for (const double start : {0.0, 1.0, 0.5}) {
     moved_.clear();
-    for (const Motion& free : free_) moved_.push_back({start * free.way, start * free.turn});
+    for (const Motion& free : free_) moved_.push_back({start * free.displacement, start * free.rotation});
     const double residual = newton(dt);
-    if (std::isfinite(residual) && residual <= bound(kEnough)) return refine(dt);
-    if (residual < least) least = residual, best_ = moved_;
+    if (std::isfinite(residual) && residual <= bound(kAccepted)) return refine(dt);
+    if (residual < smallest_residual) smallest_residual = residual, best_ = moved_;
   }
-  if (!std::isfinite(least)) return;  // the wrenches are not finite either: the caller reports it
+  if (!std::isfinite(smallest_residual)) return;  // the wrenches are not finite either: the caller reports it
   moved_ = best_;
   evaluate(dt);
-  hold_energy(dt);
+  conserve_energy(dt);
 }
 
 int ElasticStep::group_of(const Spring& spring) const {
@@ -295,13 +297,13 @@ void ElasticStep::find_groups(double dt) {
     Group& group = groups_[group_of_[body]];
     const Vec2d mass{inverse_of(bodies_[body].inverse_mass.x), inverse_of(bodies_[body].inverse_mass.y)};
     group.mass += mass;
-    group.moment += Vec2d{mass.x * free_[body].way.x, mass.y * free_[body].way.y};
+    group.moment += Vec2d{mass.x * free_[body].displacement.x, mass.y * free_[body].displacement.y};
     group.size += energy_of(body, free_[body]);
   }
   for (const Spring& spring : springs_) {
     Group& group = groups_[group_of(spring)];
-    group.held =
-        group.held || !system_.bodies[spring.a].is_dynamic() || !system_.bodies[spring.b].is_dynamic();
+    group.anchored =
+        group.anchored || !system_.bodies[spring.a].is_dynamic() || !system_.bodies[spring.b].is_dynamic();
     group.size +=
         0.5 * dt * dt * 0.5 * spring.stiffness * square(length_of(line_before(spring)) - spring.rest_length);
   }
@@ -309,15 +311,15 @@ void ElasticStep::find_groups(double dt) {
 
 /// Computes the energy change of each group by the motion in `moved_`: the work of the wrenches that lead to
 /// it, the elastic energy, and the loss in dampers.
-void ElasticStep::find_gains(double dt) {
+void ElasticStep::compute_gains(double dt) {
   for (Group& group : groups_) group.gain = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
-    const Vec2d by_wrench = moved_[i].way - free_[i].way;
+    const Vec2d by_wrench = moved_[i].displacement - free_[i].displacement;
     groups_[group_of_[i]].gain +=
-        inverse_of(body.inverse_mass.x) * by_wrench.x * moved_[i].way.x +
-        inverse_of(body.inverse_mass.y) * by_wrench.y * moved_[i].way.y +
-        inverse_of(body.inverse_inertia) * (moved_[i].turn - free_[i].turn) * moved_[i].turn;
+        inverse_of(body.inverse_mass.x) * by_wrench.x * moved_[i].displacement.x +
+        inverse_of(body.inverse_mass.y) * by_wrench.y * moved_[i].displacement.y +
+        inverse_of(body.inverse_inertia) * (moved_[i].rotation - free_[i].rotation) * moved_[i].rotation;
   }
   for (const Spring& spring : springs_) {
     const Vec2d before = line_before(spring), after = line_after(spring);
@@ -331,46 +333,50 @@ void ElasticStep::find_gains(double dt) {
 /// Corrects the motion of groups so that they conserve energy. The motion is moved towards a reference motion
 /// that conserves energy, or away from it if energy was lost, by the smallest sufficient fraction. The
 /// reference is the motion of the group's centre of mass or, if the group is held, no motion.
-void ElasticStep::hold_energy(double dt) {
+void ElasticStep::conserve_energy(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) moved_[i] = moved_by(static_cast<int>(i), dt);
   best_ = moved_;
   find_groups(dt);
-  find_gains(dt);
+  compute_gains(dt);
   for (Group& group : groups_) {
-    group.differs = std::abs(group.gain) > kGain * group.size;
-    group.least = group.share = group.gain > 0 ? 0 : -kMostAway;
-    group.most = group.gain > 0 ? 1 : 0;
+    group.needs_correction = std::abs(group.gain) > kMinEnergyError * group.size;
+    group.min_fraction = group.fraction = group.gain > 0 ? 0 : -kMaxExtrapolation;
+    group.max_fraction = group.gain > 0 ? 1 : 0;
   }
-  draw(dt);
-  for (Group& group : groups_) group.differs = group.differs && (group.most > 0 || group.gain > 0);
-  for (int halving = 0; halving < kSearch; ++halving) {
-    for (Group& group : groups_) group.share = 0.5 * (group.least + group.most);
-    draw(dt);
-    for (Group& group : groups_) (group.gain > kGain * group.size ? group.least : group.most) = group.share;
+  blend(dt);
+  for (Group& group : groups_)
+    group.needs_correction = group.needs_correction && (group.max_fraction > 0 || group.gain > 0);
+  for (int halving = 0; halving < kBisections; ++halving) {
+    for (Group& group : groups_) group.fraction = 0.5 * (group.min_fraction + group.max_fraction);
+    blend(dt);
+    for (Group& group : groups_)
+      (group.gain > kMinEnergyError * group.size ? group.min_fraction : group.max_fraction) = group.fraction;
   }
-  for (Group& group : groups_) group.share = group.most;
-  draw(dt);
-  const double share = 2 / (dt * dt);
+  for (Group& group : groups_) group.fraction = group.max_fraction;
+  blend(dt);
+  const double fraction = 2 / (dt * dt);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!groups_[group_of_[i]].differs) continue;
+    if (!groups_[group_of_[i]].needs_correction) continue;
     const Body& body = bodies_[i];
-    const Vec2d way = share * (moved_[i].way - free_[i].way);
-    wrenches_[i] = {{inverse_of(body.inverse_mass.x) * way.x, inverse_of(body.inverse_mass.y) * way.y},
-                    inverse_of(body.inverse_inertia) * share * (moved_[i].turn - free_[i].turn)};
+    const Vec2d displacement = fraction * (moved_[i].displacement - free_[i].displacement);
+    wrenches_[i] = {
+        {inverse_of(body.inverse_mass.x) * displacement.x, inverse_of(body.inverse_mass.y) * displacement.y},
+        inverse_of(body.inverse_inertia) * fraction * (moved_[i].rotation - free_[i].rotation)};
   }
 }
 
 /// Sets the motion in `moved_` to that in `best_`, moved towards the reference by the groups' fractions, and
 /// computes the energy gains.
-void ElasticStep::draw(double dt) {
+void ElasticStep::blend(double dt) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Group& group = groups_[group_of_[i]];
-    const Vec2d centre = group.held ? Vec2d{}
-                                    : Vec2d{group.mass.x > 0 ? group.moment.x / group.mass.x : 0,
-                                            group.mass.y > 0 ? group.moment.y / group.mass.y : 0};
-    moved_[i] = {best_[i].way + group.share * (centre - best_[i].way), (1 - group.share) * best_[i].turn};
+    const Vec2d centre = group.anchored ? Vec2d{}
+                                        : Vec2d{group.mass.x > 0 ? group.moment.x / group.mass.x : 0,
+                                                group.mass.y > 0 ? group.moment.y / group.mass.y : 0};
+    moved_[i] = {best_[i].displacement + group.fraction * (centre - best_[i].displacement),
+                 (1 - group.fraction) * best_[i].rotation};
   }
-  find_gains(dt);
+  compute_gains(dt);
 }
 
 }  // namespace plumb

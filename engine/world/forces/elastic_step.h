@@ -39,7 +39,9 @@ class ElasticStep {
   const Body& body(int index) const { return bodies_[index]; }
 
   /// Sets a body's displacement (m) and rotation (rad) over the step without the springs.
-  void set_free_motion(int body, Vec2d way, double turn) { free_[body] = {way, turn}; }
+  void set_free_motion(int body, Vec2d displacement, double rotation) {
+    free_[body] = {displacement, rotation};
+  }
   /// Computes the springs' mean wrenches over a step of `dt` s. They are not finite if no motion was found.
   void solve(double dt);
   const Wrench<double>& wrench(int body) const { return wrenches_[body]; }
@@ -47,8 +49,8 @@ class ElasticStep {
  private:
   /// Displacement over the step.
   struct Motion {
-    Vec2d way{};      ///< m
-    double turn = 0;  ///< rad
+    Vec2d displacement{};  ///< m
+    double rotation = 0;   ///< rad
   };
   /// A spring over the step.
   struct Line {
@@ -59,12 +61,13 @@ class ElasticStep {
   };
   /// Group of bodies connected by springs. Energies are multiplied by dt^2 / 2, in kg m^2.
   struct Group {
-    Vec2d mass{}, moment{};                 ///< kg along x and y; these times the free motion, kg m
-    bool differs = false;                   ///< its motion is corrected
-    bool held = false;                      ///< one of its bodies is not moved by forces
-    double size = 0;                        ///< energy at the start
-    double gain = 0;                        ///< energy that the motion adds
-    double least = 0, most = 1, share = 0;  ///< fraction of the correction, and its bounds during the search
+    Vec2d mass{}, moment{};         ///< kg along x and y; these times the free motion, kg m
+    bool needs_correction = false;  ///< its motion is corrected
+    bool anchored = false;          ///< one of its bodies is not moved by forces
+    double size = 0;                ///< energy at the start
+    double gain = 0;                ///< energy that the motion adds
+    double min_fraction = 0, max_fraction = 1,
+           fraction = 0;  ///< fraction of the correction, and its bounds during the search
   };
 
   Vec2d line_before(const Spring& spring) const;
@@ -75,17 +78,17 @@ class ElasticStep {
   double evaluate(double dt);
   void make_rows(double dt);
   void order();
-  void find_scales(double dt);
-  void find_step(double dt);
+  void compute_scales(double dt);
+  void compute_newton_step(double dt);
   void refine(double dt);
   double bound(double fraction) const;
   double newton(double dt);
   void find_groups(double dt);
-  void find_gains(double dt);
-  void draw(double dt);
+  void compute_gains(double dt);
+  void blend(double dt);
   int group_of(const Spring& spring) const;
   double damping_of(const Spring& spring) const;
-  void hold_energy(double dt);
+  void conserve_energy(double dt);
 
   BoundedRows system_;
   std::vector<Body> bodies_;

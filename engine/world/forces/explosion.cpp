@@ -8,16 +8,17 @@
 namespace plumb {
 namespace {
 
-// Returns true if another body lies between the centre of the explosion and the body's point at `way` from
+// Returns true if another body lies between the centre of the explosion and the body's point at `offset` from
 // it.
 template <class Real>
-bool covered(const BasicWorld<Real>& world, int body, Vec2d centre, Vec2d way, const QueryFilter& cover) {
+bool is_occluded(const BasicWorld<Real>& world, int body, Vec2d centre, Vec2d offset,
+                 const QueryFilter& cover) {
   QueryFilter filter = cover;
   const auto others = [&](ShapeId shape) {
     return world.data().shapes[static_cast<int>(shape.index)].body != body && cover.condition(shape);
   };
   filter.condition = others;
-  return ray_cast_closest(world, centre, way, filter).has_value();
+  return ray_cast_closest(world, centre, offset, filter).has_value();
 }
 
 }  // namespace
@@ -27,19 +28,19 @@ void explode(BasicWorld<Real>& world, const Blast& blast, const ExplosionOptions
   require_finite("explosion", "centre", blast.centre);
   require_positive("explosion", "radius", blast.radius);
   require_finite("explosion", "impulse", blast.impulse);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   const Lock<Real> lock(w, options.occlusion && options.cover.condition.asks());
   WrenchList list;
   for_each_law_body(w, true, [&](int body) {
     const Vec2d to_body = w.position[body] - blast.centre;
-    const double reach = blast.radius + static_cast<double>(w.extents[body]);
-    if (length_squared(to_body) >= reach * reach) return;
-    const Rotation<double> turn = exact_rotation(w, body);
+    const double range = blast.radius + static_cast<double>(w.extents[body]);
+    if (length_squared(to_body) >= range * range) return;
+    const Rotation<double> rotation = normalised_rotation(w, body);
     Wrench<double> sum;
     for_each_solid_shape(w, body, [&](int shape) {
-      const LawShape placed(w, shape, turn, to_body);
+      const LawShape placed(w, shape, rotation, to_body);
       visit_blast(blast, placed.convex(), [&](Vec2d impulse, Vec2d point) {
-        if (options.occlusion && covered(world, body, blast.centre, point, options.cover)) return;
+        if (options.occlusion && is_occluded(world, body, blast.centre, point, options.cover)) return;
         sum += {impulse, cross(point - to_body, impulse)};
       });
     });
@@ -49,7 +50,7 @@ void explode(BasicWorld<Real>& world, const Blast& blast, const ExplosionOptions
   });
   for (const BodyWrench& item : list) {
     wake_pushed(w, item.body);
-    push_body(w, item.body, item.wrench.force, item.wrench.torque);
+    apply_body_impulse(w, item.body, item.wrench.force, item.wrench.torque);
   }
 }
 

@@ -20,15 +20,15 @@ void apply_wind(BasicWorld<Real>& world, const Wind& wind, double dt, LawOptions
   require_finite("wind", "velocity", wind.velocity);
   require_not_negative("wind", "density", wind.density);
   require_positive("wind", "dt", dt);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   apply_to_bodies(w, options.wakes, [&](int body) {
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     const Vec2d velocity = motion.velocity.template as<double>();
     const double spin = static_cast<double>(motion.angular_velocity);
-    const Rotation<double> turn = exact_rotation(w, body);
+    const Rotation<double> rotation = normalised_rotation(w, body);
     WindLoad sum;
     for_each_solid_shape(w, body, [&](int shape) {
-      const LawShape placed(w, shape, turn, {});
+      const LawShape placed(w, shape, rotation, {});
       const WindLoad load = wind_load(wind, placed.convex(), velocity, spin);
       sum.wrench += load.wrench, sum.power += load.power;
     });
@@ -44,7 +44,7 @@ void apply_water(BasicWorld<Real>& world, const Water& water, double dt, LawOpti
   require_not_negative("water", "linear_drag", water.linear_drag);
   require_not_negative("water", "angular_drag", water.angular_drag);
   require_positive("water", "dt", dt);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   const Vec2d gravity = w.settings.gravity;
   const double g = std::sqrt(length_squared(gravity));
   const Vec2d up = g > 0 ? (-1 / g) * gravity : Vec2d{0, 1};
@@ -52,19 +52,19 @@ void apply_water(BasicWorld<Real>& world, const Water& water, double dt, LawOpti
   const Rotation<double> level{up.y, up.x};
 
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     const Vec2d velocity = motion.velocity.template as<double>();
     const double spin = static_cast<double>(motion.angular_velocity);
     // Evaluated at the middle of the step, so that floating bodies bob without gaining energy.
     const Vec2d centre = w.position[body] + (0.5 * dt) * velocity;
     const double height = dot(up, centre) - water.level;
     if (height >= static_cast<double>(w.extents[body])) return {};
-    const Rotation<double> turn =
-        product(level, product(exact_rotation(w, body), rotation_of(0.5 * dt * spin)));
+    const Rotation<double> rotation =
+        product(level, product(normalised_rotation(w, body), rotation_of(0.5 * dt * spin)));
     Wrench<double> lift, drag;
     double power = 0;
     for_each_solid_shape(w, body, [&](int shape) {
-      const LawShape placed(w, shape, turn, {0, height});
+      const LawShape placed(w, shape, rotation, {0, height});
       const Submerged part = submerged_part(placed.convex());
       if (part.area == 0) return;
       const Vec2d arm = level.inverse() * (part.centroid - Vec2d{0, height});

@@ -20,7 +20,7 @@ namespace {
 template <class Real>
 LawBody view_of(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
-  const BodyMotion<Real>& motion = w.motion[body];
+  const SolverBody<Real>& motion = w.motion[body];
   return {{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
           w.position[body],
           record.angle,
@@ -44,8 +44,9 @@ Wrench<double> known_load(const WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-Vec2d place_of(const WorldData<Real>& w, int body, double dt) {
-  return w.position[body] + (place_share(w, body, dt) * dt) * w.motion[body].velocity.template as<double>();
+Vec2d evaluation_point(const WorldData<Real>& w, int body, double dt) {
+  return w.position[body] +
+         (evaluation_fraction(w, body, dt) * dt) * w.motion[body].velocity.template as<double>();
 }
 
 void check(const Attraction& law, double dt) {
@@ -62,7 +63,7 @@ void check(const Attraction& law, double dt) {
 
 template <class Real>
 void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options) {
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   const Lock<Real> lock(w);
   apply_to_bodies(w, options.wakes, [&](int body) { return law(view_of(w, body)); });
 }
@@ -72,9 +73,9 @@ void apply_linear_drag(BasicWorld<Real>& world, const LinearDragRates& rates, do
   require_not_negative("linear drag", "linear", rates.linear);
   require_not_negative("linear drag", "angular", rates.angular);
   require_positive("linear drag", "dt", dt);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     const Wrench<double> load = known_load(w, body);
     return {mean_linear_drag(motion.velocity.template as<double>(), rates.linear,
                              static_cast<double>(motion.inverse_mass), load.force, dt),
@@ -87,9 +88,9 @@ template <class Real>
 void apply_quadratic_drag(BasicWorld<Real>& world, double coefficient, double dt, LawOptions options) {
   require_not_negative("quadratic drag", "coefficient", coefficient);
   require_positive("quadratic drag", "dt", dt);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     return {mean_quadratic_drag(motion.velocity.template as<double>(), coefficient,
                                 static_cast<double>(motion.inverse_mass), known_load(w, body).force, dt),
             0};
@@ -101,10 +102,10 @@ void apply_attraction(BasicWorld<Real>& world, Vec2d centre, const Attraction& l
                       LawOptions options) {
   check(law, dt);
   require_finite("attraction", "centre", centre);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const double mass = static_cast<double>(w.bodies[body].mass);
-    return {attraction_force(law, mass, place_of(w, body, dt) - centre), 0};
+    return {attraction_force(law, mass, evaluation_point(w, body, dt) - centre), 0};
   });
 }
 
@@ -113,15 +114,15 @@ void apply_attraction_to_body(BasicWorld<Real>& world, BodyId centre, const Attr
                               LawOptions options) {
   check(law, dt);
   world.position(centre);  // throws for an invalid handle
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   const int source = static_cast<int>(centre.index);
-  const Vec2d place = place_of(w, source, dt);
+  const Vec2d source_position = evaluation_point(w, source, dt);
   WrenchList list;
   Vec2d reaction{};
   for_each_law_body(w, options.wakes, [&](int body) {
     if (body == source) return;
     const double mass = static_cast<double>(w.bodies[body].mass);
-    const Vec2d force = attraction_force(law, mass, place_of(w, body, dt) - place);
+    const Vec2d force = attraction_force(law, mass, evaluation_point(w, body, dt) - source_position);
     list.add(body, {force, 0});
     if (is_sound(Wrench<double>{force, 0})) reaction -= force;
   });
@@ -138,29 +139,29 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
   require_finite("spring", "point_a", point_a);
   require_finite("spring", "point_b", point_b);
   require_positive("spring", "dt", dt);
-  WorldData<Real>& w = settled(world);
+  WorldData<Real>& w = unlocked_with_masses(world);
   const Vec2d end_a = world.world_point(a, point_a), end_b = world.world_point(b, point_b);
   const int body_a = static_cast<int>(a.index), body_b = static_cast<int>(b.index);
   const bool moves_a = w.is_dynamic(body_a), moves_b = w.is_dynamic(body_b);
   const bool awake = (moves_a && w.bodies[body_a].awake) || (moves_b && w.bodies[body_b].awake);
   if (!awake && !options.wakes) return;
 
-  const Vec2d way = end_b - end_a;
-  const double length = std::sqrt(length_squared(way));
+  const Vec2d line = end_b - end_a;
+  const double length = std::sqrt(length_squared(line));
   if (length == 0) return;  // the direction is undefined
-  const Vec2d axis = (1 / length) * way;
+  const Vec2d axis = (1 / length) * line;
   const double rate = dot(axis, world.velocity_at(b, end_b) - world.velocity_at(a, end_a));
   const Vec2d arm_a = end_a - w.position[body_a], arm_b = end_b - w.position[body_b];
   const auto mobility = [&](int body, Vec2d arm) {
-    const double turn = cross(arm, axis);
+    const double rotation = cross(arm, axis);
     return static_cast<double>(w.motion[body].inverse_mass) +
-           static_cast<double>(w.motion[body].inverse_inertia) * turn * turn;
+           static_cast<double>(w.motion[body].inverse_inertia) * rotation * rotation;
   };
   const double inverse_mass = mobility(body_a, arm_a) + mobility(body_b, arm_b);
   // spring_tension extrapolates to the middle of the step. The length is shifted such that it then refers to
-  // the bodies' positions at place_share.
+  // the bodies' positions at evaluation_fraction.
   const auto shift = [&](BodyId body, int index, Vec2d end) {
-    return (place_share(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
+    return (evaluation_fraction(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
   };
   const double length_then = length + shift(b, body_b, end_b) - shift(a, body_a, end_a);
   const Vec2d pull = spring_tension(spring, length_then, rate, inverse_mass, dt) * axis;

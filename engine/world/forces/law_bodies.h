@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/forces/wrench.h"
-#include "engine/world/queries/placed_shape.h"
+#include "engine/world/queries/transformed_shape.h"
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/sleeping.h"
 #include "engine/world/state/validate.h"
@@ -23,9 +23,9 @@ struct BodyWrench {
 /// List of wrenches that keeps its memory from call to call. Uses may be nested.
 class WrenchList {
  public:
-  WrenchList() : items_(std::move(kept())) { items_.clear(); }
+  WrenchList() : items_(std::move(cache())) { items_.clear(); }
   ~WrenchList() {
-    if (items_.capacity() > kept().capacity()) kept() = std::move(items_);
+    if (items_.capacity() > cache().capacity()) cache() = std::move(items_);
   }
   WrenchList(const WrenchList&) = delete;
   WrenchList& operator=(const WrenchList&) = delete;
@@ -35,7 +35,7 @@ class WrenchList {
   auto end() const { return items_.end(); }
 
  private:
-  static std::vector<BodyWrench>& kept() {
+  static std::vector<BodyWrench>& cache() {
     thread_local std::vector<BodyWrench> list;
     return list;
   }
@@ -73,7 +73,7 @@ void quarantine_pushed(WorldData<Real>& w, int body, const Wrench<double>& wrenc
 /// = 1/6 would lose three quarters of its energy in ten periods. Assumes that the next step has as many
 /// substeps as the last.
 template <class Real>
-double place_share(const WorldData<Real>& w, int body, double dt) {
+double evaluation_fraction(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return 0.5;
   const bool flies_exactly = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
@@ -141,7 +141,7 @@ void apply_to_bodies(WorldData<Real>& w, bool wakes, Law&& wrench_of) {
 /// decreases by W M^-1 W dt in the step, and must not change sign. `power` (W) is that of the wrench for the
 /// motion that it opposes.
 template <class Real>
-Wrench<double> bounded_drag(const BodyMotion<Real>& motion, const Wrench<double>& wrench, double power,
+Wrench<double> bounded_drag(const SolverBody<Real>& motion, const Wrench<double>& wrench, double power,
                             double dt) {
   const double loss = dt * (static_cast<double>(motion.inverse_mass) * length_squared(wrench.force) +
                             static_cast<double>(motion.inverse_inertia) * wrench.torque * wrench.torque);
@@ -152,12 +152,12 @@ Wrench<double> bounded_drag(const BodyMotion<Real>& motion, const Wrench<double>
 class LawShape {
  public:
   template <class Real>
-  LawShape(const WorldData<Real>& w, int shape, Rotation<double> turn, Vec2d offset)
+  LawShape(const WorldData<Real>& w, int shape, Rotation<double> rotation, Vec2d offset)
       : count_(w.forms[shape].count), radius_(static_cast<double>(w.forms[shape].radius)) {
     const Convex<Real> local = w.convex(shape);
     for (int i = 0; i < count_; ++i) {
-      corners_[i] = {offset + turn * local.corners[i].point.template as<double>(),
-                     turn * local.corners[i].normal.template as<double>()};
+      corners_[i] = {offset + rotation * local.corners[i].point.template as<double>(),
+                     rotation * local.corners[i].normal.template as<double>()};
     }
   }
   Convex<double> convex() const { return {corners_, count_, radius_}; }

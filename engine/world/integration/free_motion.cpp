@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/room.h"
-#include "engine/math/small_turn.h"
+#include "engine/core/capacity.h"
+#include "engine/math/small_rotation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/prefetch_awake_bodies.h"
 
@@ -45,32 +45,34 @@ DampedMeans damped_means(double x) {
 template <class Real>
 VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time) {
   const BodyRecord<Real>& record = w.bodies[body];
-  const BodyMotion<Real>& motion = w.motion[body];
+  const SolverBody<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(time);
-  VelocityIncrement<Real> kick;
-  kick.body = body;
-  if (record.type != BodyType::Dynamic) return kick;
+  VelocityIncrement<Real> increment;
+  increment.body = body;
+  if (record.type != BodyType::Dynamic) return increment;
   const Vec2<Real> gravity = w.settings.gravity.template as<Real>();
   const BodyExtras<Real>& own = w.extras_of(body);
   const Load<Real> load = w.loads.get(body);
-  kick.velocity = t * (own.gravity_scale * gravity + motion.inverse_mass * load.force);
-  kick.spin = t * motion.inverse_inertia * load.torque;
-  if (own.linear_damping > 0) kick.keep = static_cast<Real>(decay(time * double(own.linear_damping)));
-  if (own.angular_damping > 0) kick.keep_spin = static_cast<Real>(decay(time * double(own.angular_damping)));
-  kick.locked_x = record.lock_x, kick.locked_y = record.lock_y;
-  return kick;
+  increment.velocity = t * (own.gravity_scale * gravity + motion.inverse_mass * load.force);
+  increment.spin = t * motion.inverse_inertia * load.torque;
+  if (own.linear_damping > 0)
+    increment.damping_factor = static_cast<Real>(decay(time * double(own.linear_damping)));
+  if (own.angular_damping > 0)
+    increment.spin_damping_factor = static_cast<Real>(decay(time * double(own.angular_damping)));
+  increment.locked_x = record.lock_x, increment.locked_y = record.lock_y;
+  return increment;
 }
 
 template <class Real>
-void apply(const VelocityIncrement<Real>& kick, BodyMotion<Real>& motion) {
-  motion.velocity = kick.keep * (motion.velocity + kick.velocity);
-  motion.angular_velocity = kick.keep_spin * (motion.angular_velocity + kick.spin);
-  if (kick.locked_x) motion.velocity.x = 0;
-  if (kick.locked_y) motion.velocity.y = 0;
+void apply(const VelocityIncrement<Real>& increment, SolverBody<Real>& motion) {
+  motion.velocity = increment.damping_factor * (motion.velocity + increment.velocity);
+  motion.angular_velocity = increment.spin_damping_factor * (motion.angular_velocity + increment.spin);
+  if (increment.locked_x) motion.velocity.x = 0;
+  if (increment.locked_y) motion.velocity.y = 0;
 }
 
 // Returns the weight of the velocity before the increment in the mean velocity that moves a body.
-constexpr double share_before(Integrator integrator) {
+constexpr double old_velocity_weight(Integrator integrator) {
   return integrator == Integrator::VelocityVerlet ? 0.5 : integrator == Integrator::ExplicitEuler ? 1 : 0;
 }
 
@@ -78,59 +80,60 @@ constexpr double share_before(Integrator integrator) {
 // alone, `keep` the fraction of a velocity that damping leaves, and `x` is c times the time. Returns the
 // displacement.
 template <class Value, class Real>
-Value coast(Value& velocity, Value gain, Real keep, double x, Real time) {
+Value integrate_damped(Value& velocity, Value gain, Real damping_factor, double x, Real time) {
   const Value before = velocity;
-  if (keep == 1) {
+  if (damping_factor == 1) {
     velocity = before + gain;
     return (Real(0.5) * time) * (before + velocity);
   }
   const DampedMeans means = damped_means(x);
   const Real first = static_cast<Real>(means.first), second = static_cast<Real>(means.second);
-  velocity = keep * before + first * gain;
+  velocity = damping_factor * before + first * gain;
   return time * (first * before + second * gain);
 }
 
 // Moves a body in free flight through the step. Exact for constant acceleration.
 template <class Real>
-void fly(WorldData<Real>& w, int body, double dt) {
-  const VelocityIncrement<Real> kick = velocity_increment_of(w, body, dt);
+void integrate_free_body(WorldData<Real>& w, int body, double dt) {
+  const VelocityIncrement<Real> increment = velocity_increment_of(w, body, dt);
   const BodyExtras<Real>& own = w.extras_of(body);
-  BodyMotion<Real>& motion = w.motion[body];
+  SolverBody<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(dt);
-  motion.moved = coast(motion.velocity, kick.velocity, kick.keep, dt * double(own.linear_damping), t);
-  if (kick.locked_x) motion.moved.x = motion.velocity.x = 0;
-  if (kick.locked_y) motion.moved.y = motion.velocity.y = 0;
-  motion.turned =
-      coast(motion.angular_velocity, kick.spin, kick.keep_spin, dt * double(own.angular_damping), t);
-  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
+  motion.delta_position = integrate_damped(motion.velocity, increment.velocity, increment.damping_factor,
+                                           dt * double(own.linear_damping), t);
+  if (increment.locked_x) motion.delta_position.x = motion.velocity.x = 0;
+  if (increment.locked_y) motion.delta_position.y = motion.velocity.y = 0;
+  motion.delta_angle = integrate_damped(motion.angular_velocity, increment.spin,
+                                        increment.spin_damping_factor, dt * double(own.angular_damping), t);
+  if (motion.delta_angle != 0) w.rotation[body] = rotated_by(w.rotation[body], motion.delta_angle);
 }
 
 // Returns true if a body is in free flight under gravity alone, without an applied load.
 template <class Real>
-bool falls_only(const BodyRecord<Real>& record) {
+bool has_gravity_only(const BodyRecord<Real>& record) {
   return record.type == BodyType::Dynamic && record.uncommon == kNone && !record.lock_x && !record.lock_y;
 }
 
 // Moves a body in free flight under gravity alone, which adds `gain` to its velocity.
 template <class Real>
-void fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
-  BodyMotion<Real>& motion = w.motion[body];
+void integrate_free_fall(WorldData<Real>& w, int body, Vec2<Real> gain, Real dt) {
+  SolverBody<Real>& motion = w.motion[body];
   const Vec2<Real> before = motion.velocity;
   motion.velocity += gain;
-  motion.moved = (Real(0.5) * dt) * (before + motion.velocity);
-  motion.turned = Real(0.5) * dt * (motion.angular_velocity + motion.angular_velocity);
-  if (motion.turned != 0) w.rotation[body] = turned_by(w.rotation[body], motion.turned);
+  motion.delta_position = (Real(0.5) * dt) * (before + motion.velocity);
+  motion.delta_angle = Real(0.5) * dt * (motion.angular_velocity + motion.angular_velocity);
+  if (motion.delta_angle != 0) w.rotation[body] = rotated_by(w.rotation[body], motion.delta_angle);
 }
 
 // Bodies per block of a shared loop: about 5 us of work.
-constexpr int kBodies = 256;
+constexpr int kBodiesPerBlock = 256;
 
 template <class Real, class Visit>
-void for_each_kick(WorldData<Real>& w, const Visit& visit) {
-  std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
-  w.crew.ranges(static_cast<int>(kicks.size()), kBodies, [&](int first, int last) {
+void for_each_increment(WorldData<Real>& w, const Visit& visit) {
+  std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  w.crew.ranges(static_cast<int>(increments.size()), kBodiesPerBlock, [&](int first, int last) {
     const Visit own = visit;  // a local copy, which no pointer can change
-    VelocityIncrement<Real>* const list = kicks.data();
+    VelocityIncrement<Real>* const list = increments.data();
     for (int i = first; i < last; ++i) own(list[i]);
   });
 }
@@ -144,19 +147,20 @@ bool moves_by_substeps(const BodyRecord<Real>& record, Integrator integrator) {
 // Counts in each block the bodies that move by substeps, and reserves memory for their increments. Returns
 // the index of the first increment of each block.
 template <class Real>
-const int* place_kicks(WorldData<Real>& w, int blocks, Integrator integrator) {
+const int* reserve_increments(WorldData<Real>& w, int blocks, Integrator integrator) {
   std::vector<int>& firsts = w.scratch.block_firsts;
-  make_room(firsts, blocks + 1);
+  resize_with_growth(firsts, blocks + 1);
   firsts[0] = 0;
   const int count = static_cast<int>(w.awake.size());
   w.crew.blocks(blocks, [&](int block) {
     int found = 0;
-    for (int i = block * kBodies; i < std::min(count, (block + 1) * kBodies); ++i)
+    for (int i = block * kBodiesPerBlock; i < std::min(count, (block + 1) * kBodiesPerBlock); ++i)
       found += static_cast<int>(moves_by_substeps(w.bodies[w.awake[i]], integrator));
     firsts[block + 1] = found;
   });
   for (int block = 0; block < blocks; ++block) firsts[block + 1] += firsts[block];
-  make_room(w.scratch.kicks, firsts[blocks]), make_room(w.scratch.starts, firsts[blocks]);
+  resize_with_growth(w.scratch.velocity_increments, firsts[blocks]),
+      resize_with_growth(w.scratch.start_velocities, firsts[blocks]);
   return firsts.data();
 }
 
@@ -164,48 +168,49 @@ const int* place_kicks(WorldData<Real>& w, int blocks, Integrator integrator) {
 
 template <class Real>
 void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator) {
-  std::vector<VelocityIncrement<Real>>& kicks = w.scratch.kicks;
-  kicks.clear(), w.scratch.starts.clear();
+  std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  increments.clear(), w.scratch.start_velocities.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
   const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
   const PrefetchAwakeBodies<Real> ahead(w);
   const int count = static_cast<int>(w.awake.size());
   // Moves a free body, or stores the increment of another one.
-  const auto prepare = [&w, &ahead, h, dt, gain, loaded, articulated, integrator](int place,
+  const auto prepare = [&w, &ahead, h, dt, gain, loaded, articulated, integrator](int index,
                                                                                   const auto& add) {
-    ahead.prefetch_motion(place);
-    const int body = w.awake[place];
+    ahead.prefetch_motion(index);
+    const int body = w.awake[index];
     const BodyRecord<Real>& record = w.bodies[body];
     if (!moves_by_substeps(record, integrator)) {
-      if (!loaded && falls_only(record)) {
-        fall(w, body, gain, static_cast<Real>(dt));
+      if (!loaded && has_gravity_only(record)) {
+        integrate_free_fall(w, body, gain, static_cast<Real>(dt));
       } else {
-        fly(w, body, dt);
+        integrate_free_body(w, body, dt);
       }
       return;
     }
-    BodyMotion<Real>& motion = w.motion[body];
-    motion.moved = {}, motion.turned = 0;
-    VelocityIncrement<Real> kick = velocity_increment_of(w, body, h);
-    kick.in_tree = articulated && w.scratch.trees.holds[body];
-    add(kick, BodyVelocity<Real>{motion.velocity, motion.angular_velocity});
+    SolverBody<Real>& motion = w.motion[body];
+    motion.delta_position = {}, motion.delta_angle = 0;
+    VelocityIncrement<Real> increment = velocity_increment_of(w, body, h);
+    increment.in_tree = articulated && w.scratch.trees.is_link[body];
+    add(increment, BodyVelocity<Real>{motion.velocity, motion.angular_velocity});
   };
   if (!w.crew.shares()) {
-    for (int place = 0; place < count; ++place) {
-      prepare(place, [&](const VelocityIncrement<Real>& kick, const BodyVelocity<Real>& start) {
-        kicks.push_back(kick), w.scratch.starts.push_back(start);
+    for (int index = 0; index < count; ++index) {
+      prepare(index, [&](const VelocityIncrement<Real>& increment, const BodyVelocity<Real>& start) {
+        increments.push_back(increment), w.scratch.start_velocities.push_back(start);
       });
     }
     return;
   }
-  const int blocks = (count + kBodies - 1) / kBodies;
-  const int* const firsts = place_kicks(w, blocks, integrator);
+  const int blocks = (count + kBodiesPerBlock - 1) / kBodiesPerBlock;
+  const int* const firsts = reserve_increments(w, blocks, integrator);
   w.crew.blocks(blocks, [&](int block) {
     int next = firsts[block];
-    for (int place = block * kBodies; place < std::min(count, (block + 1) * kBodies); ++place) {
-      prepare(place, [&](const VelocityIncrement<Real>& kick, const BodyVelocity<Real>& start) {
-        kicks[next] = kick, w.scratch.starts[next] = start;
+    for (int index = block * kBodiesPerBlock; index < std::min(count, (block + 1) * kBodiesPerBlock);
+         ++index) {
+      prepare(index, [&](const VelocityIncrement<Real>& increment, const BodyVelocity<Real>& start) {
+        increments[next] = increment, w.scratch.start_velocities[next] = start;
         ++next;
       });
     }
@@ -214,71 +219,72 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
 
 template <class Real>
 void integrate_velocities(WorldData<Real>& w) {
-  for_each_kick(w, [&w](VelocityIncrement<Real>& kick) {
-    if (kick.in_tree) return;
-    BodyMotion<Real>& motion = w.motion[kick.body];
-    apply(kick, motion);
-    kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
+  for_each_increment(w, [&w](VelocityIncrement<Real>& increment) {
+    if (increment.in_tree) return;
+    SolverBody<Real>& motion = w.motion[increment.body];
+    apply(increment, motion);
+    increment.velocity_before = motion.velocity, increment.spin_before = motion.angular_velocity;
   });
 }
 
 template <class Real>
 void integrate_and_warm_start(WorldData<Real>& w) {
-  for_each_kick(w, [&w](VelocityIncrement<Real>& kick) {
-    if (kick.in_tree) return;
-    BodyMotion<Real>& motion = w.motion[kick.body];
-    const Vec2<Real> gained = motion.velocity - kick.velocity_before;
-    const Real spin_gained = motion.angular_velocity - kick.spin_before;
-    apply(kick, motion);
-    kick.velocity_before = motion.velocity, kick.spin_before = motion.angular_velocity;
+  for_each_increment(w, [&w](VelocityIncrement<Real>& increment) {
+    if (increment.in_tree) return;
+    SolverBody<Real>& motion = w.motion[increment.body];
+    const Vec2<Real> gained = motion.velocity - increment.velocity_before;
+    const Real spin_gained = motion.angular_velocity - increment.spin_before;
+    apply(increment, motion);
+    increment.velocity_before = motion.velocity, increment.spin_before = motion.angular_velocity;
     motion.velocity += gained, motion.angular_velocity += spin_gained;
   });
 }
 
 template <class Real>
 void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
-  const Real share = Real(share_before(integrator));
-  for_each_kick(w, [&w, h, share](const VelocityIncrement<Real>& kick) {
-    if (kick.in_tree) return;
-    BodyMotion<Real>& motion = w.motion[kick.body];
-    if (kick.locked_x) motion.velocity.x = 0;
-    if (kick.locked_y) motion.velocity.y = 0;
-    motion.moved += h * motion.velocity;
-    Real turn = h * motion.angular_velocity;
-    if (share != 0 && motion.velocity == kick.velocity_before &&
-        motion.angular_velocity == kick.spin_before && kick.keep == 1 && kick.keep_spin == 1 &&
-        w.bodies[kick.body].first_joint == kNone) {
-      motion.moved -= (share * h) * kick.velocity;
-      turn -= (share * h) * kick.spin;
-      if (kick.locked_x) motion.moved.x = 0;
-      if (kick.locked_y) motion.moved.y = 0;
+  const Real weight = Real(old_velocity_weight(integrator));
+  for_each_increment(w, [&w, h, weight](const VelocityIncrement<Real>& increment) {
+    if (increment.in_tree) return;
+    SolverBody<Real>& motion = w.motion[increment.body];
+    if (increment.locked_x) motion.velocity.x = 0;
+    if (increment.locked_y) motion.velocity.y = 0;
+    motion.delta_position += h * motion.velocity;
+    Real delta_angle = h * motion.angular_velocity;
+    if (weight != 0 && motion.velocity == increment.velocity_before &&
+        motion.angular_velocity == increment.spin_before && increment.damping_factor == 1 &&
+        increment.spin_damping_factor == 1 && w.bodies[increment.body].first_joint == kNone) {
+      motion.delta_position -= (weight * h) * increment.velocity;
+      delta_angle -= (weight * h) * increment.spin;
+      if (increment.locked_x) motion.delta_position.x = 0;
+      if (increment.locked_y) motion.delta_position.y = 0;
     }
-    if (turn == 0) return;
-    motion.turned += turn;
-    w.rotation[kick.body] = turned_by(w.rotation[kick.body], turn);
+    if (delta_angle == 0) return;
+    motion.delta_angle += delta_angle;
+    w.rotation[increment.body] = rotated_by(w.rotation[increment.body], delta_angle);
   });
 }
 
 template <class Real>
 void enforce_motion_locks(WorldData<Real>& w) {
-  for (const VelocityIncrement<Real>& kick : w.scratch.kicks) {
-    BodyMotion<Real>& motion = w.motion[kick.body];
-    if (kick.locked_x) motion.moved.x = motion.velocity.x = 0;
-    if (kick.locked_y) motion.moved.y = motion.velocity.y = 0;
+  for (const VelocityIncrement<Real>& increment : w.scratch.velocity_increments) {
+    SolverBody<Real>& motion = w.motion[increment.body];
+    if (increment.locked_x) motion.delta_position.x = motion.velocity.x = 0;
+    if (increment.locked_y) motion.delta_position.y = motion.velocity.y = 0;
   }
 }
 
 template <class Real>
 Vec2d free_acceleration(const WorldData<Real>& w, int body) {
-  const double share = static_cast<double>(w.extras_of(body).gravity_scale);
+  const double scale = static_cast<double>(w.extras_of(body).gravity_scale);
   const Vec2<Real> force = w.motion[body].inverse_mass * w.loads.get(body).force;
-  return share * w.settings.gravity + force.template as<double>();
+  return scale * w.settings.gravity + force.template as<double>();
 }
 
 template <class Real>
 Real bounce_threshold(const WorldData<Real>& w, double dt) {
   if (w.settings.thresholds.bounce >= 0) return static_cast<Real>(w.settings.thresholds.bounce);
-  return static_cast<Real>(tuning::kRestingSteps * dt * std::sqrt(length_squared(w.settings.gravity)));
+  return static_cast<Real>(tuning::kBounceThresholdSteps * dt *
+                           std::sqrt(length_squared(w.settings.gravity)));
 }
 
 #define PLUMB_FOR(Real)                                                         \

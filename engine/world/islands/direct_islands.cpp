@@ -21,50 +21,51 @@ ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Re
 }
 
 template <class Real>
-bool is_swept(const WorldData<Real>& w, const JointRecord& joint) {
+bool is_outside_trees(const WorldData<Real>& w, const JointRecord& joint) {
   const bool a = w.is_dynamic(joint.body_a), b = w.is_dynamic(joint.body_b);
   return joint.active && (a || b) && !in_hinge_tree(w, a ? joint.body_a : joint.body_b);
 }
 
 // Returns the number of active joints that are not part of hinge trees.
 template <class Real>
-int swept_joints(const WorldData<Real>& w) {
-  return w.joint_set.active_count() - w.scratch.trees.hinges;
+int joints_outside_trees(const WorldData<Real>& w) {
+  return w.joint_set.active_count() - w.scratch.trees.hinge_count;
 }
 
 // Returns true if an island with this number of rows is solved directly.
 constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
 
-// Values of island_size that mark an island with joints. It is solved by iterations (kSwept), as one system
-// (kJointed), or as one system if that costs little (kJointedIfCheap).
-constexpr int kSwept = tuning::kSlenderRows + 1, kJointed = -1, kJointedIfCheap = -2;
+// Values of island_size that mark an island with joints. It is solved by iterations (kIterated), as one
+// system (kJointed), or as one system if that costs little (kJointedIfCheap).
+constexpr int kIterated = tuning::kSlenderRows + 1, kJointed = -1, kJointedIfCheap = -2;
 
 constexpr bool is_jointed(int size) { return size == kJointed || size == kJointedIfCheap; }
 
-// Returns true for trees of a few similar hinges without contacts. Iterations hold these well and cost less.
+// Returns true for trees of a few similar hinges without contacts. Iterations are accurate enough for these,
+// and cost less.
 template <class Real>
 bool left_to_iterations(const WorldData<Real>& w, int body) {
   const Scratch<Real>& s = w.scratch;
   return w.settings.solver != Solver::Direct && body < static_cast<int>(s.not_a_tree.size()) &&
-         s.not_a_tree[s.tree_of[body]] == kLeftToIterations;
+         s.not_a_tree[s.tree_root_of[body]] == kLeftToIterations;
 }
 
 // Prepares to hand joints over to the iterations: scales the impulses of the joints for which `left` returns
 // true, and those of contacts at their bodies. The iterations start from them.
 template <class Real, class Left>
 void hand_over_joints(WorldData<Real>& w, const Left& left) {
-  std::vector<Real>& carry = w.scratch.carry;
-  carry.clear();
+  std::vector<Real>& warm_start_fraction = w.scratch.warm_start_fraction;
+  warm_start_fraction.clear();
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!left(joint)) return;
-    const Real fraction = w.joint_set.hand_over(joint.slot);
+    const Real fraction = w.joint_set.take_over(joint.slot);
     if (fraction == 1) return;
-    if (carry.empty()) carry.assign(w.bodies.size(), 1);
-    carry[joint.body_a] = carry[joint.body_b] = fraction;
+    if (warm_start_fraction.empty()) warm_start_fraction.assign(w.bodies.size(), 1);
+    warm_start_fraction[joint.body_a] = warm_start_fraction[joint.body_b] = fraction;
   });
-  if (carry.empty()) return;
+  if (warm_start_fraction.empty()) return;
   w.graph.for_each([&](ContactConstraint<Real>& c) {
-    const auto of = [&](int body) { return w.is_dynamic(body) ? carry[body] : Real(1); };
+    const auto of = [&](int body) { return w.is_dynamic(body) ? warm_start_fraction[body] : Real(1); };
     scale_impulses(c, std::min(of(c.body_a), of(c.body_b)));
   });
 }
@@ -77,7 +78,7 @@ void choose_jointed(WorldData<Real>& w) {
   s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
   s.heaviest.assign(w.bodies.size(), 0);
   s.island_joints.assign(w.bodies.size(), 0);
-  s.island_bounded.assign(w.bodies.size(), 0);
+  s.island_bounded_rows.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     const Real mass = w.bodies[body].mass;
     if (!w.is_dynamic(body)) continue;
@@ -91,22 +92,22 @@ void choose_jointed(WorldData<Real>& w) {
     return s.island_of[w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b];
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!is_swept(w, joint)) return;
+    if (!is_outside_trees(w, joint)) return;
     const int root = root_of(joint);
     ++s.island_joints[root];
-    s.island_bounded[root] += w.joint_set.bounded_rows(joint.slot);
+    s.island_bounded_rows[root] += w.joint_set.bounded_rows(joint.slot);
   });
   for (const int body : w.awake) {
     if (!w.is_dynamic(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
     // Each contact counts two rows in island_size.
     const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
                        s.island_size[body] <= 2 * tuning::kJointedContacts;
-    const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
+    const bool similar_masses = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     const bool few = w.settings.integrator == Integrator::VelocityVerlet &&
-                     s.island_bounded[body] <= tuning::kFewBoundedRows &&
+                     s.island_bounded_rows[body] <= tuning::kFewBoundedRows &&
                      s.island_size[body] <= 2 * tuning::kFewContacts && !left_to_iterations(w, body);
-    const bool always = !alike || w.settings.solver == Solver::Direct;
-    s.island_size[body] = small && always ? kJointed : small && few ? kJointedIfCheap : kSwept;
+    const bool always = !similar_masses || w.settings.solver == Solver::Direct;
+    s.island_size[body] = small && always ? kJointed : small && few ? kJointedIfCheap : kIterated;
   }
   // From here on: joints less bodies.
   for (const int body : w.awake)
@@ -117,16 +118,16 @@ void choose_jointed(WorldData<Real>& w) {
 // body, the factorisation has linear cost.
 template <class Real>
 void choose_slender(WorldData<Real>& w) {
-  std::vector<int>& room = w.scratch.island_room;
-  room.assign(w.bodies.size(), 2 * tuning::kSlenderLoops);
+  std::vector<int>& limits = w.scratch.max_island_rows;
+  limits.assign(w.bodies.size(), 2 * tuning::kSlenderLoops);
   for (const int body : w.awake) {
     if (!w.is_dynamic(body)) continue;
-    int& left = room[w.scratch.island_of[body]];
-    left = w.bodies[body].constraints > tuning::kSlenderContacts ? -tuning::kSlenderRows : left + 2;
+    int& limit = limits[w.scratch.island_of[body]];
+    limit = w.bodies[body].constraints > tuning::kSlenderContacts ? -tuning::kSlenderRows : limit + 2;
   }
   for (const int body : w.awake) {
     int& size = w.scratch.island_size[body];
-    if (size > tuning::kDirectRows && size <= tuning::kSlenderRows && size <= room[body])
+    if (size > tuning::kDirectRows && size <= tuning::kSlenderRows && size <= limits[body])
       size = tuning::kDirectRows;
   }
 }
@@ -136,37 +137,37 @@ void choose_slender(WorldData<Real>& w) {
 template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.scratch.island_of, w.bodies.size());
-  const auto tie = [&](int a, int b) {
+  const auto connect = [&](int a, int b) {
     if (w.is_dynamic(a) && w.is_dynamic(b)) islands.join(a, b);
   };
-  w.graph.for_each([&](const ContactConstraint<Real>& c) { tie(c.body_a, c.body_b); });
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { connect(c.body_a, c.body_b); });
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (is_swept(w, joint)) tie(joint.body_a, joint.body_b);
+    if (is_outside_trees(w, joint)) connect(joint.body_a, joint.body_b);
   });
   w.scratch.island_size.assign(w.bodies.size(), 0);
-  w.scratch.island_place.assign(w.bodies.size(), kNone);
+  w.scratch.island_index.assign(w.bodies.size(), kNone);
   const auto count = [&](int a, int b, int rows) {
     w.scratch.island_size[islands.find(w.is_dynamic(a) ? a : b)] += rows;
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
   choose_slender(w);
-  if (swept_joints(w) > 0) choose_jointed(w);
-  w.scratch.islands_chosen = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
+  if (joints_outside_trees(w) > 0) choose_jointed(w);
+  w.scratch.has_direct_islands = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
     return is_direct(w.scratch.island_size[body]) || is_jointed(w.scratch.island_size[body]);
   });
 }
 
 template <class Island, class Real>
 Island& island_at(WorldData<Real>& w, std::vector<Island>& islands, int& count, int root) {
-  int& place = w.scratch.island_place[root];
-  if (place == kNone) {
-    place = count++;
-    if (count > static_cast<int>(islands.size())) islands.emplace_back(&w.scratch.room);
-    islands[place].contacts.clear();
-    islands[place].root = root;
+  int& index = w.scratch.island_index[root];
+  if (index == kNone) {
+    index = count++;
+    if (count > static_cast<int>(islands.size())) islands.emplace_back(&w.scratch.memory);
+    islands[index].contacts.clear();
+    islands[index].root = root;
   }
-  return islands[place];
+  return islands[index];
 }
 
 template <class Real>
@@ -198,19 +199,19 @@ void fill_islands(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   const auto root_of = [&](int a, int b) { return s.island_of[w.is_dynamic(a) ? a : b]; };
   const auto jointed_at = [&](int root) -> JointedIsland<Real>& {
-    const bool is_new = s.island_place[root] == kNone;
-    JointedIsland<Real>& island = island_at(w, s.jointed, s.jointed_count, root);
+    const bool is_new = s.island_index[root] == kNone;
+    JointedIsland<Real>& island = island_at(w, s.jointed_islands, s.jointed_count, root);
     if (is_new) island.joints.clear();
     return island;
   };
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
     if (is_jointed(rows)) jointed_at(root).contacts.push_back(&c);
-    if (is_direct(rows)) island_at(w, s.direct, s.direct_count, root).contacts.push_back(&c);
+    if (is_direct(rows)) island_at(w, s.direct_islands, s.direct_count, root).contacts.push_back(&c);
   });
-  if (swept_joints(w) == 0) return;
+  if (joints_outside_trees(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (!is_swept(w, joint)) return;
+    if (!is_outside_trees(w, joint)) return;
     const int root = root_of(joint.body_a, joint.body_b);
     if (is_jointed(s.island_size[root])) jointed_at(root).joints.push_back(joint.slot);
   });
@@ -223,53 +224,53 @@ void order_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   int kept = 0;
   for (int i = 0; i < s.jointed_count; ++i) {
-    JointedIsland<Real>& island = s.jointed[i];
+    JointedIsland<Real>& island = s.jointed_islands[i];
     int& size = s.island_size[island.root];
-    const double most = size == kJointed ? tuning::kJointedCost
-                                         : tuning::kFewCost * static_cast<double>(island.joints.size());
-    if (order_jointed_island(w, island) <= std::min(most, tuning::kJointedCost)) {
+    const double max_cost = size == kJointed ? tuning::kJointedCost
+                                             : tuning::kFewCost * static_cast<double>(island.joints.size());
+    if (order_jointed_island(w, island) <= std::min(max_cost, tuning::kJointedCost)) {
       if (kept != i) {
-        std::swap(s.jointed[kept], island);
-        s.island_place[s.jointed[kept].root] = kept;
+        std::swap(s.jointed_islands[kept], island);
+        s.island_index[s.jointed_islands[kept].root] = kept;
       }
       ++kept;
     } else {
-      size = kSwept, s.island_place[island.root] = kNone;
+      size = kIterated, s.island_index[island.root] = kNone;
     }
   }
   s.jointed_count = kept;
-  s.islands_chosen = kept > 0 || s.direct_count > 0;
+  s.has_direct_islands = kept > 0 || s.direct_count > 0;
 }
 
 // Hands the joints that are no longer solved with their island over to the iterations.
 template <class Real>
-void hand_over_left(WorldData<Real>& w) {
+void hand_over_unselected(WorldData<Real>& w) {
   hand_over_joints(w, [&](const JointRecord& joint) {
     const int body = w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b;
-    return is_swept(w, joint) && !is_jointed(w.scratch.island_size[w.scratch.island_of[body]]);
+    return is_outside_trees(w, joint) && !is_jointed(w.scratch.island_size[w.scratch.island_of[body]]);
   });
 }
 
 // Leaves an island to the iterations for the rest of the step.
 template <class Real>
-void give_up(WorldData<Real>& w, DirectIsland<Real>& island) {
+void solve_by_iterations(WorldData<Real>& w, DirectIsland<Real>& island) {
   for (ContactConstraint<Real>* c : island.contacts) c->hardness = hardness_of(w, *c);
   island.contacts.clear(), island.system.rows.clear();
 }
 
 template <class Real>
-Real separation_now(const BodyMotion<Real>* motion, const DirectRow<Real>& row, Real at_start) {
-  const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
-  return at_start + dot(row.linear_b, b.moved - a.moved) + row.angular_a * a.turned +
-         row.angular_b * b.turned;
+Real current_separation(const SolverBody<Real>* motion, const DirectRow<Real>& row, Real at_start) {
+  const SolverBody<Real>&a = motion[row.a], &b = motion[row.b];
+  return at_start + dot(row.linear_b, b.delta_position - a.delta_position) + row.angular_a * a.delta_angle +
+         row.angular_b * b.delta_angle;
 }
 
 // Calls `act(island)` for the islands of contacts, in parallel: they have no dynamic body in common.
 template <class Real, class Act>
 void for_each_direct(WorldData<Real>& w, const Act& act) {
-  constexpr int kIslands = 2;
-  w.crew.ranges(w.scratch.direct_count, kIslands, [&](int first, int last) {
-    for (int i = first; i < last; ++i) act(w.scratch.direct[i]);
+  constexpr int kIslandsPerTask = 2;
+  w.crew.ranges(w.scratch.direct_count, kIslandsPerTask, [&](int first, int last) {
+    for (int i = first; i < last; ++i) act(w.scratch.direct_islands[i]);
   });
 }
 
@@ -280,19 +281,19 @@ void prepare_direct_islands(WorldData<Real>& w) {
   w.scratch.direct_count = w.scratch.jointed_count = 0;
   const bool articulated = w.settings.solver == Solver::Direct;
   if (!articulated && !w.settings.direct_islands) return;
-  if (w.graph.empty() && swept_joints(w) == 0) return;
+  if (w.graph.empty() && joints_outside_trees(w) == 0) return;
   const bool are_new = !w.scratch.islands_known;
   if (are_new) find_islands(w);
   w.scratch.islands_known = true;
-  if (w.scratch.islands_chosen) {
+  if (w.scratch.has_direct_islands) {
     fill_islands(w);
     if (are_new) order_jointed(w);
   }
-  if (are_new && swept_joints(w) > 0) hand_over_left(w);
-  if (!w.scratch.islands_chosen) return;
+  if (are_new && joints_outside_trees(w) > 0) hand_over_unselected(w);
+  if (!w.scratch.has_direct_islands) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     add_rows(island);
-    if (island.system.order(w.motion.data()) > tuning::kDirectCost) return give_up(w, island);
+    if (island.system.order(w.motion.data()) > tuning::kDirectCost) return solve_by_iterations(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.assemble(w.motion.data());
   });
@@ -300,7 +301,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
 }
 
 template <class Real>
-void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push) {
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool use_bias) {
   if (w.scratch.direct_count == 0) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     if (island.system.rows.empty()) return;  // solved by iterations
@@ -310,15 +311,15 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
         if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
           continue;
         DirectRow<Real>& row = island.system.rows[next++];
-        const Real s = separation_now(w.motion.data(), row, c->separation[k]);
+        const Real s = current_separation(w.motion.data(), row, c->separation[k]);
         const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)][0].bias_rate;
-        row.bias = s > 0 ? s * step.inverse_h : push ? std::max(rate * s, -c->push_speed) : Real(0);
+        row.bias = s > 0 ? s * step.inverse_h : use_bias ? std::max(rate * s, -c->push_speed) : Real(0);
       }
     }
-    if (island.system.find(w.motion.data(), push)) {
+    if (island.system.find(w.motion.data(), use_bias)) {
       island.system.apply(w.motion.data());
     } else if (island.system.contradicted()) {
-      give_up(w, island);
+      solve_by_iterations(w, island);
     }
   });
 }
@@ -331,10 +332,11 @@ void hand_over_all(WorldData<Real>& w) {
 template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.direct_count; ++i) {
-    for (ContactConstraint<Real>* c : w.scratch.direct[i].contacts) c->hardness = hardness_of(w, *c);
-    w.scratch.island_place[w.scratch.direct[i].root] = kNone;
+    for (ContactConstraint<Real>* c : w.scratch.direct_islands[i].contacts) c->hardness = hardness_of(w, *c);
+    w.scratch.island_index[w.scratch.direct_islands[i].root] = kNone;
   }
-  for (int i = 0; i < w.scratch.jointed_count; ++i) w.scratch.island_place[w.scratch.jointed[i].root] = kNone;
+  for (int i = 0; i < w.scratch.jointed_count; ++i)
+    w.scratch.island_index[w.scratch.jointed_islands[i].root] = kNone;
 }
 
 #define PLUMB_FOR(Real)                                                                 \

@@ -3,9 +3,9 @@
 #include "engine/world/contact_solver/contact_step.h"
 #include "engine/world/world_data.h"
 
-/// Direct solve of small islands of contacts, in addition to the iterations. It holds towers, and heavy loads
-/// on light bodies, as well as a single contact. Islands with joints are chosen here too, and solved in
-/// engine/world/islands/jointed_islands.h. Larger islands are solved by iterations alone.
+/// Direct solve of small islands of contacts, in addition to the iterations. Towers, and heavy loads
+/// on light bodies, become as stable as a single contact. Islands with joints are chosen here too, and solved
+/// in engine/world/islands/jointed_islands.h. Larger islands are solved by iterations alone.
 namespace plumb {
 
 /// Finds the islands and factorises their systems, at the start of a step. Joints must be prepared.
@@ -15,7 +15,7 @@ void prepare_direct_islands(WorldData<Real>& w);
 /// Finds impulses that satisfy all rows of each island: with depenetration before bodies move (`push`),
 /// without it afterwards.
 template <class Real>
-void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool push);
+void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool use_bias);
 
 /// Scales the impulses of joints that were solved with their island, and of contacts at their bodies, so that
 /// another solver may start from them.

@@ -16,7 +16,7 @@ struct FrictionRays {
 
 /// Returns the ray impulses that are equivalent to a contact's impulses. Two points have four rays for three
 /// impulses: one of the rays gets no impulse, so that the rows do not depend on each other.
-inline FrictionRays rays_of(const LastImpulses& c, double friction) {
+inline FrictionRays rays_of(const ContactImpulses& c, double friction) {
   FrictionRays out;
   if (!(friction > 0)) return out;
   const double normal[2] = {std::max(c.normal[0], 0.0), std::max(c.normal[1], 0.0)};
@@ -36,11 +36,11 @@ inline FrictionRays rays_of(const LastImpulses& c, double friction) {
 /// which its rows were made by du/ds = mu^2 k / (1 + mu^2 k), with k the mobility along its tangent over that
 /// along its normal. So changing s by (1 + mu^2 k) (u - s) leads to u = s at once.
 template <class Real>
-bool renew_slips(JointedIsland<Real>& island, bool hold) {
+bool update_slips(JointedIsland<Real>& island, bool midpoint) {
   // Tolerated error of a velocity along the normal, as a fraction of the largest one. Contacts that stick
   // have none, because their slip is 0 at first. Contacts that keep sliding begin with the slip of the last
   // substep. At 1e-3 a drum of bodies takes 40 % more instructions, at 1e-5 57 %.
-  constexpr double kSame = 1e-2;
+  constexpr double kTolerance = 1e-2;
   bool changed = false;
   for (FrictionCone<Real>& cone : island.cones) {
     const ContactConstraint<Real>& c = *cone.contact;
@@ -52,18 +52,18 @@ bool renew_slips(JointedIsland<Real>& island, bool hold) {
       return dot(t, velocity) + double(c.arm_tangent_b) * spin_b - double(c.arm_tangent_a) * spin_a;
     };
     double sliding = along(b.velocity - a.velocity, a.spin, b.spin);
-    if (hold)
-      sliding = 0.5 * (sliding +
-                       along(before_b.before - before_a.before, before_a.spin_before, before_b.spin_before));
+    if (midpoint)
+      sliding = 0.5 * (sliding + along(before_b.start_velocity - before_a.start_velocity, before_a.start_spin,
+                                       before_b.start_spin));
     const double missing = std::abs(sliding - double(c.surface_speed)) - cone.slip;
-    if (missing * cone.last < 0) cone.gain = std::max(0.5 * cone.gain, 1.0);
-    cone.last = missing;
+    if (missing * cone.last_change < 0) cone.gain = std::max(0.5 * cone.gain, 1.0);
+    cone.last_change = missing;
     const double slip = std::max(cone.slip + cone.gain * missing, 0.0);
-    const double change = cone.friction * (slip - cone.slip) * (hold ? 2 : 1);
+    const double change = cone.friction * (slip - cone.slip) * (midpoint ? 2 : 1);
     for (int i = cone.first; i < cone.first + cone.count; ++i) {
       BoundedRow& row = island.system.rows[i];
-      row.wanted -= change;
-      changed = changed || (row.lower < row.upper && island.system.is_felt(i, change, kSame));
+      row.target -= change;
+      changed = changed || (row.lower < row.upper && island.system.is_significant(i, change, kTolerance));
     }
     cone.slip = slip;
   }

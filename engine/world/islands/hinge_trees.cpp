@@ -14,31 +14,32 @@ namespace plumb {
 namespace {
 
 template <class Real>
-bool may_hold(const WorldData<Real>& w) {
+bool may_use_trees(const WorldData<Real>& w) {
   if (w.joint_set.active_count() == 0 || w.settings.integrator != Integrator::VelocityVerlet) return false;
   return w.settings.solver == Solver::Direct ||
          (w.settings.solver == Solver::SoftSteps && w.settings.direct_islands);
 }
 
-// Leaves trees of a few similar links to the iterations, which hold these well and cost less.
+// Leaves trees of a few similar links to the iterations, which are accurate enough and cost less.
 template <class Real>
-void leave_to_sweeps(WorldData<Real>& w) {
+void leave_to_iterations(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   s.island_size.assign(w.bodies.size(), 0);
   s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
   s.heaviest.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     if (!w.is_dynamic(body)) continue;
-    const int set = s.tree_of[body];
+    const int set = s.tree_root_of[body];
     ++s.island_size[set];
     s.lightest[set] = std::min(s.lightest[set], w.bodies[body].mass);
     s.heaviest[set] = std::max(s.heaviest[set], w.bodies[body].mass);
   }
   for (const int body : w.awake) {
-    if (!w.is_dynamic(body) || s.tree_of[body] != body) continue;
-    const bool alike = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
+    if (!w.is_dynamic(body) || s.tree_root_of[body] != body) continue;
+    const bool similar_masses = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     const int size = s.island_size[body];
-    if (alike && size >= tuning::kSweptLinksLeast && size <= tuning::kSweptLinksMost && !s.not_a_tree[body])
+    if (similar_masses && size >= tuning::kMinIteratedLinks && size <= tuning::kMaxIteratedLinks &&
+        !s.not_a_tree[body])
       s.not_a_tree[body] = kLeftToIterations;
   }
 }
@@ -48,11 +49,11 @@ void leave_to_sweeps(WorldData<Real>& w) {
 template <class Real>
 void find_sets(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
-  UnionFind sets(s.tree_of, w.bodies.size());
+  UnionFind sets(s.tree_root_of, w.bodies.size());
   std::vector<char>&bad = s.not_a_tree, &grounded = s.tree_grounded;
   bad.assign(w.bodies.size(), 0), grounded.assign(w.bodies.size(), 0);
   // Marks the root of the body's set.
-  const auto spoil = [&](int body) {
+  const auto exclude = [&](int body) {
     if (w.is_dynamic(body)) bad[sets.find(body)] = 1;
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -60,130 +61,132 @@ void find_sets(WorldData<Real>& w) {
     if (!joint.active || !(a || b)) return;
     const int set_a = a ? sets.find(joint.body_a) : kNone, set_b = b ? sets.find(joint.body_b) : kNone;
     if (a && b) {
-      const bool spoilt = set_a == set_b || bad[set_a] || bad[set_b] || (grounded[set_a] && grounded[set_b]);
-      const bool held = grounded[set_a] || grounded[set_b];
+      const bool excluded =
+          set_a == set_b || bad[set_a] || bad[set_b] || (grounded[set_a] && grounded[set_b]);
+      const bool anchored = grounded[set_a] || grounded[set_b];
       sets.join(set_a, set_b);
-      bad[std::min(set_a, set_b)] = spoilt, grounded[std::min(set_a, set_b)] = held;
+      bad[std::min(set_a, set_b)] = excluded, grounded[std::min(set_a, set_b)] = anchored;
     } else {
       const int set = a ? set_a : set_b;
       if (grounded[set]) bad[set] = 1;
       grounded[set] = 1;
     }
-    if (!w.joint_set.is_hinge(joint.slot)) spoil(joint.body_a), spoil(joint.body_b);
+    if (!w.joint_set.is_hinge(joint.slot)) exclude(joint.body_a), exclude(joint.body_b);
     for (const int body : {joint.body_a, joint.body_b})
-      if (w.bodies[body].lock_x || w.bodies[body].lock_y) spoil(body);
+      if (w.bodies[body].lock_x || w.bodies[body].lock_y) exclude(body);
   });
-  w.graph.for_each([&](const ContactConstraint<Real>& c) { spoil(c.body_a), spoil(c.body_b); });
+  w.graph.for_each([&](const ContactConstraint<Real>& c) { exclude(c.body_a), exclude(c.body_b); });
   for (const int body : w.awake)
-    if (w.is_dynamic(body)) s.tree_of[body] = sets.find(body);
-  if (w.settings.solver != Solver::Direct) leave_to_sweeps(w);
+    if (w.is_dynamic(body)) s.tree_root_of[body] = sets.find(body);
+  if (w.settings.solver != Solver::Direct) leave_to_iterations(w);
 }
 
 // Builds trees. The root is the non-dynamic body that a hinge connects, or else body a of the first joint.
 template <class Real>
-class TreeMaker {
+class TreeBuilder {
  public:
-  explicit TreeMaker(WorldData<Real>& w) : w_(w), trees_(w.scratch.trees), place_(w.scratch.link_place) {
-    place_.assign(w.bodies.size(), kNone);
+  explicit TreeBuilder(WorldData<Real>& w)
+      : w_(w), trees_(w.scratch.trees), link_index_(w.scratch.link_index) {
+    link_index_.assign(w.bodies.size(), kNone);
   }
 
   void add_tree(int root, int joint) {
-    assert(place_[root] == kNone || !w_.is_dynamic(root));
+    assert(link_index_[root] == kNone || !w_.is_dynamic(root));
     first_ = static_cast<int>(trees_.links.size());
-    trees_.firsts.push_back(first_);
-    TreeLink link;
+    trees_.offsets.push_back(first_);
+    ArticulatedLink link;
     link.body = root;
-    link.moves = w_.is_dynamic(root);
+    link.is_dynamic = w_.is_dynamic(root);
     add(link, nullptr);
-    if (link.moves) {
-      place_[root] = 0;
+    if (link.is_dynamic) {
+      link_index_[root] = 0;
     } else {
       const bool at_b = w_.joints[joint].body_a == root;
       add_child(0, joint, at_b ? w_.joints[joint].body_b : w_.joints[joint].body_a);
     }
     for (int next = first_; next < static_cast<int>(trees_.links.size()); ++next) {
       const int body = trees_.links[next].body;
-      if (!trees_.links[next].moves) continue;
+      if (!trees_.links[next].is_dynamic) continue;
       for_each_edge(w_.joints, w_.bodies[body].first_joint, [&](int edge, const JointRecord& record) {
         const int other = (edge & 1) == 0 ? record.body_b : record.body_a;
-        if (record.active && w_.is_dynamic(other) && place_[other] == kNone)
+        if (record.active && w_.is_dynamic(other) && link_index_[other] == kNone)
           add_child(next - first_, edge / 2, other);
       });
     }
-    measure();
+    compute_lengths();
   }
 
  private:
-  void add(const TreeLink& link, Vec2<Real>* impulse) {
+  void add(const ArticulatedLink& link, Vec2<Real>* impulse) {
     trees_.links.push_back(link);
     trees_.impulses.push_back(impulse);
-    if (link.moves) trees_.holds[link.body] = 1;
+    if (link.is_dynamic) trees_.is_link[link.body] = 1;
   }
 
   void add_child(int parent, int joint, int body) {
     const JointRecord& record = w_.joints[joint];
-    const HeldHinge<Real> hinge = w_.joint_set.hold(record.slot);
+    const ExternalHinge<Real> hinge = w_.joint_set.set_external(record.slot);
     assert(record.body_a == body || record.body_b == body);
     const bool at_b = record.body_b == body;
-    TreeLink link;
+    ArticulatedLink link;
     link.body = body;
     link.parent = parent;
     link.joint = joint;
     link.sign = at_b ? 1 : -1;
     link.anchor = at_b ? hinge.anchor_b : hinge.anchor_a;
     link.parent_anchor = at_b ? hinge.anchor_a : hinge.anchor_b;
-    place_[body] = static_cast<int>(trees_.links.size()) - first_;
-    ++trees_.hinges;
+    link_index_[body] = static_cast<int>(trees_.links.size()) - first_;
+    ++trees_.hinge_count;
     add(link, hinge.impulse);
   }
 
   // Computes the lengths of the last tree's links.
-  void measure() {
+  void compute_lengths() {
     double largest = 0;
     for (std::size_t i = first_; i < trees_.links.size(); ++i) {
-      TreeLink& link = trees_.links[i];
-      TreeLink& parent = trees_.links[first_ + link.parent];
+      ArticulatedLink& link = trees_.links[i];
+      ArticulatedLink& parent = trees_.links[first_ + link.parent];
       if (link.joint < 0) continue;
       const double own = length_squared(link.anchor), far = length_squared(link.parent_anchor);
-      link.reach_squared = std::max(link.reach_squared, own);
-      if (parent.moves) parent.reach_squared = std::max(parent.reach_squared, far);
+      link.radius_squared = std::max(link.radius_squared, own);
+      if (parent.is_dynamic) parent.radius_squared = std::max(parent.radius_squared, far);
       // A non-dynamic parent may be arbitrarily far away, so its anchor does not count.
-      link.span_squared = own + (parent.moves ? far : 0);
-      largest = std::max(largest, link.span_squared);
+      link.arm_scale_squared = own + (parent.is_dynamic ? far : 0);
+      largest = std::max(largest, link.arm_scale_squared);
     }
     if (largest == 0) largest = 1;
     for (std::size_t i = first_; i < trees_.links.size(); ++i)
-      if (trees_.links[i].span_squared == 0) trees_.links[i].span_squared = largest;
+      if (trees_.links[i].arm_scale_squared == 0) trees_.links[i].arm_scale_squared = largest;
   }
 
   WorldData<Real>& w_;
   HingeTrees<Real>& trees_;
-  std::vector<int>& place_;
+  std::vector<int>& link_index_;
   int first_ = 0;
 };
 
 template <class Real>
 void make_trees(WorldData<Real>& w) {
   const Scratch<Real>& s = w.scratch;
-  TreeMaker<Real> maker(w);
-  const auto is_due = [&](int body) {
-    return w.is_dynamic(body) && !s.not_a_tree[s.tree_of[body]] && !s.trees.holds[body];
+  TreeBuilder<Real> maker(w);
+  const auto needs_tree = [&](int body) {
+    return w.is_dynamic(body) && !s.not_a_tree[s.tree_root_of[body]] && !s.trees.is_link[body];
   };
   w.joints.for_each([&](int index, const JointRecord& joint) {
     if (!joint.active) return;
-    if (!w.is_dynamic(joint.body_a) && is_due(joint.body_b)) maker.add_tree(joint.body_a, index);
-    if (!w.is_dynamic(joint.body_b) && is_due(joint.body_a)) maker.add_tree(joint.body_b, index);
+    if (!w.is_dynamic(joint.body_a) && needs_tree(joint.body_b)) maker.add_tree(joint.body_a, index);
+    if (!w.is_dynamic(joint.body_b) && needs_tree(joint.body_a)) maker.add_tree(joint.body_b, index);
   });
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (joint.active && is_due(joint.body_a) && w.is_dynamic(joint.body_b))
+    if (joint.active && needs_tree(joint.body_a) && w.is_dynamic(joint.body_b))
       maker.add_tree(joint.body_a, kNone);
   });
 }
 
 // Loads rotation, velocity and inverse masses, in double.
 template <class Real>
-void load_body(const WorldData<Real>& w, TreeLink& link) {
-  const BodyMotion<Real>& motion = w.motion[link.body];
+void load_body(const WorldData<Real>& w, ArticulatedLink& link) {
+  const SolverBody<Real>& motion = w.motion[link.body];
   link.velocity = motion.velocity.template as<double>();
   link.spin = static_cast<double>(motion.angular_velocity);
   link.inverse_mass = static_cast<double>(motion.inverse_mass);
@@ -196,11 +199,12 @@ void load_body(const WorldData<Real>& w, TreeLink& link) {
 }
 
 template <class Real>
-void load_hinges(WorldData<Real>& w, std::span<TreeLink> tree, Vec2<Real>* const* impulses, double scale) {
+void load_hinges(WorldData<Real>& w, std::span<ArticulatedLink> tree, Vec2<Real>* const* impulses,
+                 double scale) {
   for (std::size_t i = 0; i < tree.size(); ++i) {
-    TreeLink& link = tree[i];
+    ArticulatedLink& link = tree[i];
     if (link.joint < 0) continue;
-    const TreeLink& parent = tree[link.parent];
+    const ArticulatedLink& parent = tree[link.parent];
     link.gap = (w.position[link.body] - w.position[parent.body]) - parent.rotation * link.parent_anchor +
                link.rotation * link.anchor;
     link.impulse = (scale * link.sign) * impulses[i]->template as<double>();
@@ -208,31 +212,33 @@ void load_hinges(WorldData<Real>& w, std::span<TreeLink> tree, Vec2<Real>* const
 }
 
 template <class Real>
-void load_kicks(WorldData<Real>& w) {
+void load_increments(WorldData<Real>& w) {
   HingeTrees<Real>& trees = w.scratch.trees;
-  std::vector<int>& velocity_increment_of = w.scratch.link_place;
-  for (std::size_t i = 0; i < w.scratch.kicks.size(); ++i)
-    velocity_increment_of[w.scratch.kicks[i].body] = static_cast<int>(i);
-  for (TreeLink& link : trees.links) {
-    if (!link.moves) continue;
-    const VelocityIncrement<Real>& kick = w.scratch.kicks[velocity_increment_of[link.body]];
-    link.kick = kick.velocity.template as<double>();
-    link.spin_kick = static_cast<double>(kick.spin);
-    link.keep = static_cast<double>(kick.keep), link.keep_spin = static_cast<double>(kick.keep_spin);
+  std::vector<int>& velocity_increment_of = w.scratch.link_index;
+  for (std::size_t i = 0; i < w.scratch.velocity_increments.size(); ++i)
+    velocity_increment_of[w.scratch.velocity_increments[i].body] = static_cast<int>(i);
+  for (ArticulatedLink& link : trees.links) {
+    if (!link.is_dynamic) continue;
+    const VelocityIncrement<Real>& increment =
+        w.scratch.velocity_increments[velocity_increment_of[link.body]];
+    link.velocity_increment = increment.velocity.template as<double>();
+    link.spin_increment = static_cast<double>(increment.spin);
+    link.damping_factor = static_cast<double>(increment.damping_factor),
+    link.spin_damping_factor = static_cast<double>(increment.spin_damping_factor);
   }
 }
 
 template <class Real>
-void store(WorldData<Real>& w, std::span<const TreeLink> tree, Vec2<Real>* const* impulses) {
+void store(WorldData<Real>& w, std::span<const ArticulatedLink> tree, Vec2<Real>* const* impulses) {
   for (std::size_t i = 0; i < tree.size(); ++i) {
-    const TreeLink& link = tree[i];
+    const ArticulatedLink& link = tree[i];
     if (link.joint >= 0) *impulses[i] = (link.sign * link.impulse).template as<Real>();
-    if (!link.moves) continue;
-    BodyMotion<Real>& motion = w.motion[link.body];
+    if (!link.is_dynamic) continue;
+    SolverBody<Real>& motion = w.motion[link.body];
     motion.velocity = link.velocity.template as<Real>();
     motion.angular_velocity = static_cast<Real>(link.spin);
-    motion.moved = link.moved.template as<Real>();
-    motion.turned = static_cast<Real>(link.turned);
+    motion.delta_position = link.moved.template as<Real>();
+    motion.delta_angle = static_cast<Real>(link.turned);
     w.rotation[link.body] = {static_cast<Real>(link.rotation.c), static_cast<Real>(link.rotation.s)};
   }
 }
@@ -245,29 +251,29 @@ void find_hinge_trees(WorldData<Real>& w) {
   w.topology_changed = false;
   w.scratch.islands_known = false;
   HingeTrees<Real>& trees = w.scratch.trees;
-  trees.links.clear(), trees.impulses.clear(), trees.firsts.clear();
-  trees.holds.assign(w.bodies.size(), 0);
-  trees.hinges = 0;
-  w.joint_set.let_go();
-  if (!may_hold(w)) return;
+  trees.links.clear(), trees.impulses.clear(), trees.offsets.clear();
+  trees.is_link.assign(w.bodies.size(), 0);
+  trees.hinge_count = 0;
+  w.joint_set.clear_external();
+  if (!may_use_trees(w)) return;
   find_sets(w);
   make_trees(w);
-  trees.firsts.push_back(static_cast<int>(trees.links.size()));
+  trees.offsets.push_back(static_cast<int>(trees.links.size()));
 }
 
 template <class Real>
 void move_hinge_trees(WorldData<Real>& w, double h, int substeps) {
   HingeTrees<Real>& trees = w.scratch.trees;
   if (trees.empty()) return;
-  load_kicks(w);
-  for (TreeLink& link : trees.links) load_body(w, link);
+  load_increments(w);
+  for (ArticulatedLink& link : trees.links) load_body(w, link);
   const double warm_start = w.last_h > 0 ? h / w.last_h : 1;
-  for (std::size_t i = 0; i + 1 < trees.firsts.size(); ++i) {
-    const std::span<TreeLink> tree{trees.links.data() + trees.firsts[i],
-                                   trees.links.data() + trees.firsts[i + 1]};
-    Vec2<Real>* const* impulses = trees.impulses.data() + trees.firsts[i];
+  for (std::size_t i = 0; i + 1 < trees.offsets.size(); ++i) {
+    const std::span<ArticulatedLink> tree{trees.links.data() + trees.offsets[i],
+                                          trees.links.data() + trees.offsets[i + 1]};
+    Vec2<Real>* const* impulses = trees.impulses.data() + trees.offsets[i];
     load_hinges(w, tree, impulses, warm_start);
-    move_tree(tree, h, substeps);
+    integrate_tree(tree, h, substeps);
     store<Real>(w, tree, impulses);
   }
 }

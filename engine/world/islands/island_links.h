@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "engine/math/small_turn.h"
+#include "engine/math/small_rotation.h"
 #include "engine/world/world_data.h"
 
 /// Bodies of an island with joints.
@@ -14,30 +14,30 @@ namespace plumb {
 /// Returns the index of a body among the island's links; adds the body if it is new.
 template <class Real>
 int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
-  int& place = w.scratch.link_of[body];
-  if (place < static_cast<int>(island.links.size()) && island.links[place].body == body) return place;
-  place = static_cast<int>(island.links.size());
-  const BodyMotion<Real>& motion = w.motion[body];
+  int& index = w.scratch.link_of[body];
+  if (index < static_cast<int>(island.links.size()) && island.links[index].body == body) return index;
+  index = static_cast<int>(island.links.size());
+  const SolverBody<Real>& motion = w.motion[body];
   const BodyRecord<Real>& record = w.bodies[body];
   const double inverse_mass = motion.inverse_mass;
   island.links.push_back({body});
   island.system.bodies.push_back(
       {.inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
        .inverse_inertia = motion.inverse_inertia});
-  return place;
+  return index;
 }
 
 /// Begins an island without links.
 template <class Real>
-void start_links(WorldData<Real>& w, JointedIsland<Real>& island) {
-  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.sizes.clear();
+void clear_links(WorldData<Real>& w, JointedIsland<Real>& island) {
+  island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.block_sizes.clear();
   w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
 }
 
 /// Finds the bodies of an island's joints and contacts.
 template <class Real>
 void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
-  start_links(w, island);
+  clear_links(w, island);
   const auto add = [&](int a, int b) {
     const int link_a = link_at(w, island, a);
     island.blocks.emplace_back(link_a, link_at(w, island, b));
@@ -65,20 +65,20 @@ double link_length(const JointedIsland<Real>& island, const BoundedRow& row, dou
 
 /// Translates and rotates a body within a substep.
 template <class Real>
-void shift(WorldData<Real>& w, int body, Vec2d way, double turn) {
-  BodyMotion<Real>& motion = w.motion[body];
-  motion.moved += way.template as<Real>();
-  if (turn == 0) return;
-  motion.turned += static_cast<Real>(turn);
-  w.rotation[body] = turned_by(w.rotation[body], static_cast<Real>(turn));
+void displace_body(WorldData<Real>& w, int body, Vec2d displacement, double rotation) {
+  SolverBody<Real>& motion = w.motion[body];
+  motion.delta_position += displacement.template as<Real>();
+  if (rotation == 0) return;
+  motion.delta_angle += static_cast<Real>(rotation);
+  w.rotation[body] = rotated_by(w.rotation[body], static_cast<Real>(rotation));
 }
 
 /// Stores the poses of an island's bodies before they are shifted.
 template <class Real>
-void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
+void save_displacements(const WorldData<Real>& w, JointedIsland<Real>& island) {
   for (JointedLink& link : island.links) {
-    const BodyMotion<Real>& motion = w.motion[link.body];
-    link.moved = motion.moved.template as<double>(), link.turned = motion.turned;
+    const SolverBody<Real>& motion = w.motion[link.body];
+    link.delta_position = motion.delta_position.template as<double>(), link.delta_angle = motion.delta_angle;
   }
 }
 
@@ -86,21 +86,21 @@ void note_poses(const WorldData<Real>& w, JointedIsland<Real>& island) {
 /// no body rotates by more than `most`, rad, or moves by more than that fraction of its extent. Returns the
 /// fraction.
 template <class Real>
-double shift_links(WorldData<Real>& w, const JointedIsland<Real>& island, double most) {
-  double share = 1;
+double displace_links(WorldData<Real>& w, const JointedIsland<Real>& island, double max_rotation) {
+  double fraction = 1;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
-    const BoundedRows::Shift& s = island.system.shifts[i];
-    const double turn = std::abs(s.turn), way = length(s.way);
-    const double longest = most * double(w.extents[island.links[i].body]);
-    if (turn * share > most) share = most / turn;
-    if (longest > 0 && way * share > longest) share = longest / way;
+    const BoundedRows::Displacement& s = island.system.displacements[i];
+    const double rotation = std::abs(s.rotation), displacement = length(s.translation);
+    const double longest = max_rotation * double(w.extents[island.links[i].body]);
+    if (rotation * fraction > max_rotation) fraction = max_rotation / rotation;
+    if (longest > 0 && displacement * fraction > longest) fraction = longest / displacement;
   }
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     if (!w.is_dynamic(island.links[i].body)) continue;
-    const BoundedRows::Shift& s = island.system.shifts[i];
-    shift(w, island.links[i].body, share * s.way, share * s.turn);
+    const BoundedRows::Displacement& s = island.system.displacements[i];
+    displace_body(w, island.links[i].body, fraction * s.translation, fraction * s.rotation);
   }
-  return share;
+  return fraction;
 }
 
 }  // namespace plumb

@@ -12,43 +12,43 @@
 namespace plumb {
 namespace {
 
-// Mechanisms with more loops than this are not closed. A net of 8 x 8 bodies tied to their neighbours has 49.
-// The cost grows with the square of the number of loops; a net of 30 x 30 is open in each step, and closing
-// it would double the cost of its step.
-constexpr int kLoops = 64;
+// Mechanisms with more loops than this are not closed. A net of 8 x 8 bodies jointed to their neighbours
+// has 49. The cost grows with the square of the number of loops; a net of 30 x 30 is open in each step, and
+// closing it would double the cost of its step.
+constexpr int kMaxLoops = 64;
 
-// A joint is closed if it is open by more than this fraction of its link (joint_opening.h), and one step has
-// opened it by as much. Gaps that a load opens over many steps, and holds open, are left: after each closing
-// they would open again, and a lying ragdoll would creep without end. At 0.007, 270 of 2,000 random
+// A joint is closed if its gap exceeds this fraction of its link (joint_opening.h), and one step has opened
+// it by as much. Gaps that a persistent load keeps open are left: after each correction they would open
+// again, and a lying ragdoll would creep without end. At 0.007, 270 of 2,000 random
 // mechanisms open by more than 1 % of their shortest link (557 without closing), at 0.004 193. When all gaps
 // were closed, propellers of long blades lost more than 2 % of their energy in 3 s with one substep per step
 // at 0.005; this was not measured with the present rule.
-constexpr double kOpening = 0.007;
+constexpr double kMaxGap = 0.007;
 // Rounds of closing.
 constexpr int kCloseRounds = 4;
 
-// Number of substeps from which kOpening holds; with fewer, joints may open by proportionally more.
+// Number of substeps from which kMaxGap holds; with fewer, joints may open by proportionally more.
 // Otherwise, long blades would open in each step of 1/60 s, and closing them each time would take their spin.
-constexpr int kSubsteps = 4;
+constexpr int kReferenceSubsteps = 4;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // Marks of a joint, by slot.
 enum : char { kNotOpen, kOpen, kCollected };
 
-// Rows of displacements, which close gaps, or of velocities, which keep them closed.
-enum class Of { Displacements, Velocities };
+// Level of the rows: position-level rows close gaps, velocity-level rows keep them closed.
+enum class Level { Position, Velocity };
 
 // A mechanism (bodies that joints connect) whose gaps are being closed.
 template <class Real>
 class Mechanism {
  public:
-  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double opening)
-      : w_(w), island_(island), h_(h), opening_(opening) {}
+  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double max_gap)
+      : w_(w), island_(island), h_(h), max_gap_(max_gap) {}
 
   // Returns true if the step has opened the joint. Costs much less than `collect`.
   bool has_opened(int joint) {
-    start();
+    clear_constraints();
     island_.joints.push_back(joint);
     find_links(w_, island_);
     return has_opened();
@@ -58,8 +58,8 @@ class Mechanism {
   // many loops.
   bool collect(int joint) {
     std::vector<char>& marks = w_.scratch.open_joints;
-    start();
-    start_links(w_, island_);
+    clear_constraints();
+    clear_links(w_, island_);
     const auto add = [&](int slot) {
       if (marks[slot] == kCollected) return;
       marks[slot] = kCollected;
@@ -79,59 +79,59 @@ class Mechanism {
         });
       }
     }
-    tied_ = island_.links.size();
-    return static_cast<int>(island_.joints.size() - tied_) <= kLoops;
+    joined_count_ = island_.links.size();
+    return static_cast<int>(island_.joints.size() - joined_count_) <= kMaxLoops;
   }
 
   void close() {
-    make_joint_rows(Of::Displacements);
+    make_joint_rows(Level::Position);
     collect_contacts();
     if (order() > tuning::kJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
-      if (round > 0) make_joint_rows(Of::Displacements);
+      if (round > 0) make_joint_rows(Level::Position);
       if (round > 0 && !is_open()) break;
-      make_contact_rows(Of::Displacements);
-      move();
+      make_contact_rows(Level::Position);
+      correct_positions();
     }
-    hold();
+    project_velocities();
   }
 
  private:
-  void start() { island_.joints.clear(), island_.contacts.clear(); }
+  void clear_constraints() { island_.joints.clear(), island_.contacts.clear(); }
 
   // Adds the contacts of the mechanism's bodies. Other bodies at these contacts stay where they are.
   void collect_contacts() {
-    for (std::size_t link = 0; link < tied_; ++link) {
+    for (std::size_t link = 0; link < joined_count_; ++link) {
       const int body = island_.links[link].body;
       if (!w_.is_dynamic(body)) continue;
       for_each_edge(w_.contacts, w_.bodies[body].first_contact, [&](int edge, const ContactRecord& record) {
         if (record.home != ContactHome::Graph) return;
         const int other = (edge & 1) != 0 ? record.body_a : record.body_b;
-        const int place = link_at(w_, island_, other);
-        const bool tied = place < static_cast<int>(tied_);
-        if (tied && (edge & 1) != 0) return;  // added from its other body
-        if (!tied) island_.system.bodies[place] = {};
+        const int index = link_at(w_, island_, other);
+        const bool joined = index < static_cast<int>(joined_count_);
+        if (joined && (edge & 1) != 0) return;  // added from its other body
+        if (!joined) island_.system.bodies[index] = {};
         island_.contacts.push_back(&constraint_of(w_, record));
         const int own = static_cast<int>(link);
-        island_.blocks.emplace_back((edge & 1) != 0 ? place : own, (edge & 1) != 0 ? own : place);
+        island_.blocks.emplace_back((edge & 1) != 0 ? index : own, (edge & 1) != 0 ? own : index);
       });
     }
   }
 
   // Finds an elimination order; returns the cost of elimination in that order.
   double order() {
-    island_.sizes.assign(island_.blocks.size(), 0);
-    for (const BoundedRow& row : island_.system.rows) ++island_.sizes[row.block];
+    island_.block_sizes.assign(island_.blocks.size(), 0);
+    for (const BoundedRow& row : island_.system.rows) ++island_.block_sizes[row.block];
     for (std::size_t i = 0; i < island_.contacts.size(); ++i)
-      island_.sizes[island_.joints.size() + i] = island_.contacts[i]->count;
-    return island_.system.order(island_.blocks, island_.sizes);
+      island_.block_sizes[island_.joints.size() + i] = island_.contacts[i]->count;
+    return island_.system.order(island_.blocks, island_.block_sizes);
   }
 
   // Adds a joint's rows: rigid ones, limits, and motors, whose coordinate must not change. If an angle was
-  // beyond a limit when the step began, another stage turns it back, so here its limit only prevents that it
-  // goes farther.
-  void make_joint_rows(Of of) {
-    island_.system.rows.clear(), island_.allowed.clear();
+  // beyond a limit when the step began, another stage corrects it, so here its limit only prevents further
+  // rotation.
+  void make_joint_rows(Level level) {
+    island_.system.rows.clear(), island_.max_gaps.clear();
     std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
     for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
       rows.clear();
@@ -141,66 +141,66 @@ class Mechanism {
           w_.joint_set.began_beyond_limits(island_.joints[block], Real(2 * tuning::kLimitSlack));
       for (const JointSolverRow<Real>& from : rows) {
         if (from.role == RowRole::Spring) continue;
-        if (from.role == RowRole::Motor && of == Of::Velocities) continue;
+        if (from.role == RowRole::Motor && level == Level::Velocity) continue;
         BoundedRow row{.a = link_a, .b = link_b};
         row.linear_a = from.row.linear_a.template as<double>();
         row.linear_b = from.row.linear_b.template as<double>();
         row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
         row.block = block;
-        island_.allowed.push_back(opening_ * link_length(island_, row, from.length));
+        island_.max_gaps.push_back(max_gap_ * link_length(island_, row, from.length));
         double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
         if (turns_back && from.role == RowRole::Limit && is_angular(row)) gap = std::max(gap, 0.0);
-        from.role == RowRole::Limit ? add_one_sided(row, gap, of) : add_rigid(row, gap, of);
+        from.role == RowRole::Limit ? add_one_sided(row, gap, level) : add_rigid(row, gap, level);
       }
     }
   }
 
-  void make_contact_rows(Of of) {
+  void make_contact_rows(Level level) {
     int block = static_cast<int>(island_.joints.size());
     for (const ContactConstraint<Real>* c : island_.contacts) {
-      const BodyMotion<Real>&a = w_.motion[c->body_a], &b = w_.motion[c->body_b];
+      const SolverBody<Real>&a = w_.motion[c->body_a], &b = w_.motion[c->body_b];
       const Vec2d n = c->normal.template as<double>();
-      const double closed = dot(n, (b.moved - a.moved).template as<double>());
+      const double closed = dot(n, (b.delta_position - a.delta_position).template as<double>());
       for (int i = 0; i < c->count; ++i) {
         BoundedRow row{.a = island_.blocks[block].first, .b = island_.blocks[block].second};
         row.linear_a = -n, row.linear_b = n;
         row.angular_a = -double(c->arm_a[i]), row.angular_b = c->arm_b[i];
         row.block = block;
-        const double gap = double(c->separation[i]) + closed + double(c->arm_b[i]) * b.turned -
-                           double(c->arm_a[i]) * a.turned;
-        add_one_sided(row, std::max(gap, 0.0), of);
+        const double gap = double(c->separation[i]) + closed + double(c->arm_b[i]) * b.delta_angle -
+                           double(c->arm_a[i]) * a.delta_angle;
+        add_one_sided(row, std::max(gap, 0.0), level);
       }
       ++block;
     }
   }
 
-  void add_rigid(BoundedRow row, double gap, Of of) {
+  void add_rigid(BoundedRow row, double gap, Level level) {
     row.gap = gap;
-    row.wanted = of == Of::Displacements ? -gap : 0;
+    row.target = level == Level::Position ? -gap : 0;
     row.lower = -kUnbounded, row.upper = kUnbounded;
     row.state = BoundedRow::kFree;
-    push(row, of);
+    push_row(row, level);
   }
 
   // Adds a unilateral row. A gap may close. A velocity may remain that closes it faster than the next substep
   // allows.
-  void add_one_sided(BoundedRow row, double gap, Of of) {
+  void add_one_sided(BoundedRow row, double gap, Level level) {
     row.gap = std::min(gap, 0.0);
-    row.wanted = of == Of::Displacements ? -gap : std::min(-std::max(gap, 0.0) / h_, 0.0);
-    if (of == Of::Velocities) row.wanted = std::min(row.wanted, rate_of(row));
+    row.target = level == Level::Position ? -gap : std::min(-std::max(gap, 0.0) / h_, 0.0);
+    if (level == Level::Velocity) row.target = std::min(row.target, rate_of(row));
     row.lower = 0, row.upper = kUnbounded;
     row.state = row.gap < 0 ? BoundedRow::kFree : BoundedRow::kLower;
-    push(row, of);
+    push_row(row, level);
   }
 
-  void push(BoundedRow& row, Of of) {
-    if (of == Of::Displacements) row.softening = tuning::kCloseSoftness;
+  void push_row(BoundedRow& row, Level level) {
+    if (level == Level::Position) row.softening = tuning::kCloseSoftness;
     island_.system.rows.push_back(row);
   }
 
   double rate_of(const BoundedRow& row) const {
     const auto along = [&](int link, Vec2d linear, double angular) {
-      const BodyMotion<Real>& motion = w_.motion[island_.links[link].body];
+      const SolverBody<Real>& motion = w_.motion[island_.links[link].body];
       return dot(linear, motion.velocity.template as<double>()) + angular * double(motion.angular_velocity);
     };
     return along(row.a, row.linear_a, row.angular_a) + along(row.b, row.linear_b, row.angular_b);
@@ -210,10 +210,10 @@ class Mechanism {
   // another stage turns them back.
   bool is_open(std::size_t i) const {
     const BoundedRow& row = island_.system.rows[i];
-    return !is_angular_limit(row) && std::abs(row.gap) > island_.allowed[i];
+    return !is_angular_limit(row) && std::abs(row.gap) > island_.max_gaps[i];
   }
   bool is_open() const {
-    for (std::size_t i = 0; i < island_.allowed.size(); ++i)
+    for (std::size_t i = 0; i < island_.max_gaps.size(); ++i)
       if (is_open(i)) return true;
     return false;
   }
@@ -222,51 +222,53 @@ class Mechanism {
   static bool is_angular_limit(const BoundedRow& row) { return row.lower == 0 && is_angular(row); }
 
   // Returns true if the step has opened a row by more than the allowed gap. Earlier gaps are left to the
-  // solver, because a load may hold them open.
+  // solver, because a load may keep them open.
   bool has_opened() {
-    note_poses(w_, island_);
-    for (const JointedLink& link : island_.links) shift(w_, link.body, -link.moved, -link.turned);
-    make_joint_rows(Of::Displacements);
+    save_displacements(w_, island_);
+    for (const JointedLink& link : island_.links)
+      displace_body(w_, link.body, -link.delta_position, -link.delta_angle);
+    make_joint_rows(Level::Position);
     std::pmr::vector<double>& before = island_.impulses;
     before.clear();
     for (const BoundedRow& row : island_.system.rows) before.push_back(std::abs(row.gap));
-    for (const JointedLink& link : island_.links) shift(w_, link.body, link.moved, link.turned);
-    make_joint_rows(Of::Displacements);
+    for (const JointedLink& link : island_.links)
+      displace_body(w_, link.body, link.delta_position, link.delta_angle);
+    make_joint_rows(Level::Position);
     assert(before.size() == island_.system.rows.size());
     for (std::size_t i = 0; i < before.size(); ++i)
-      if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i] + island_.allowed[i]) return true;
+      if (is_open(i) && std::abs(island_.system.rows[i].gap) > before[i] + island_.max_gaps[i]) return true;
     return false;
   }
 
-  void move() {
+  void correct_positions() {
     BoundedRows& system = island_.system;
     for (BoundedBody& body : system.bodies) body.velocity = {}, body.spin = 0;
     system.solve();
-    system.shifts.clear();
-    for (const BoundedBody& body : system.bodies) system.shifts.push_back({body.velocity, body.spin});
-    shift_links(w_, island_, tuning::kLinkTurn);
+    system.displacements.clear();
+    for (const BoundedBody& body : system.bodies) system.displacements.push_back({body.velocity, body.spin});
+    displace_links(w_, island_, tuning::kMaxCloseRotation);
   }
 
   // Removes the part of the velocities that opens the joints. It is a projection in the metric of the masses
   // onto a set that contains rest, so it adds no energy.
-  void hold() {
+  void project_velocities() {
     BoundedRows& system = island_.system;
-    make_joint_rows(Of::Velocities), make_contact_rows(Of::Velocities);
+    make_joint_rows(Level::Velocity), make_contact_rows(Level::Velocity);
     const auto energy = [&] {
       double sum = 0;
       for (const BoundedBody& body : system.bodies) sum += energy_of(body);
       return sum;
     };
     for (std::size_t i = 0; i < island_.links.size(); ++i) {
-      const BodyMotion<Real>& motion = w_.motion[island_.links[i].body];
+      const SolverBody<Real>& motion = w_.motion[island_.links[i].body];
       system.bodies[i].velocity = motion.velocity.template as<double>();
       system.bodies[i].spin = motion.angular_velocity;
     }
     const double before = energy();
     system.solve();
     if (energy() > before) return;  // a moving body beside it pushes it: keep the velocities
-    for (std::size_t i = 0; i < tied_; ++i) {
-      BodyMotion<Real>& motion = w_.motion[island_.links[i].body];
+    for (std::size_t i = 0; i < joined_count_; ++i) {
+      SolverBody<Real>& motion = w_.motion[island_.links[i].body];
       if (!is_dynamic(motion)) continue;
       motion.velocity = system.bodies[i].velocity.template as<Real>();
       motion.angular_velocity = static_cast<Real>(system.bodies[i].spin);
@@ -281,16 +283,16 @@ class Mechanism {
 
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
-  const double h_, opening_;
-  std::size_t tied_ = 0;  // number of links that joints connect; bodies in contact follow them
+  const double h_, max_gap_;
+  std::size_t joined_count_ = 0;  // number of links that joints connect; bodies in contact follow them
 };
 
 // Returns true if the island of a joint is known to have too many loops.
 template <class Real>
-bool is_net(const WorldData<Real>& w, int joint) {
+bool has_many_loops(const WorldData<Real>& w, int joint) {
   if (!w.scratch.islands_known) return false;
   const auto [a, b] = w.joint_set.bodies(joint);
-  return w.scratch.island_joints[w.scratch.island_of[w.is_dynamic(a) ? a : b]] > kLoops;
+  return w.scratch.island_joints[w.scratch.island_of[w.is_dynamic(a) ? a : b]] > kMaxLoops;
 }
 
 }  // namespace
@@ -300,11 +302,11 @@ void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   if (!w.settings.direct_islands && w.settings.solver != Solver::Direct) return;
   std::vector<char>& marks = w.scratch.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kNotOpen);
-  const double opening = kOpening * std::max(kSubsteps / static_cast<double>(substeps), 1.0);
-  if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(opening), marks, &w.crew)) return;
-  Mechanism<Real> mechanism(w, w.scratch.opened, h, opening);
+  const double max_gap = kMaxGap * std::max(kReferenceSubsteps / static_cast<double>(substeps), 1.0);
+  if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(max_gap), marks, &w.crew)) return;
+  Mechanism<Real> mechanism(w, w.scratch.open_mechanism, h, max_gap);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
-    if (marks[joint] != kOpen || is_net(w, joint)) continue;
+    if (marks[joint] != kOpen || has_many_loops(w, joint)) continue;
     if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();
   }
 }

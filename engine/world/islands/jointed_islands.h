@@ -30,16 +30,16 @@ void begin_jointed_substep(WorldData<Real>& w);
 
 /// Stores the velocities after forces, before any impulse.
 template <class Real>
-void note_free_velocities(WorldData<Real>& w);
+void save_free_velocities(WorldData<Real>& w);
 
 /// Updates the stored velocities after impacts within the substep. Impacts also move the bodies, so the
 /// displacement of the substep continues as if the new velocities had held from its start.
 template <class Real>
-void note_blows(WorldData<Real>& w);
+void add_impact_velocities(WorldData<Real>& w);
 
 /// Finds the impulses x, and sets the bodies' velocities to those of the displacement, (v_0 + v')/2.
 template <class Real>
-void hold_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step);
+void solve_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step);
 
 /// Finds the impulses y after the motion, so that velocities satisfy the constraints. In the `last` substep
 /// (with Solver::Direct in every substep) first moves bodies to close gaps.

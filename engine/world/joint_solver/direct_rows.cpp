@@ -22,10 +22,10 @@ constexpr double kFarApart = 100, kMany = 96;
 constexpr int kRefinements = 2;
 constexpr double kExact = 1e-8;
 // Rows contradict each other (a body is pushed out of two walls at once) if the last refinement leaves more
-// than kInVain of the previous residual, while no impulse falls by more than kPulls times the largest rise:
+// than kStalled of the previous residual, while no impulse falls by more than kPulls times the largest rise:
 // all rows press, and more refinements do not help. Redundant supports that are not level leave a residual
 // too, but some of their impulses fall until those rows no longer press.
-constexpr double kInVain = 0.5, kPulls = 0.1;
+constexpr double kStalled = 0.5, kPulls = 0.1;
 // Maximum number of times that rows are removed or come back before giving up.
 constexpr int kTries = 10;
 // Number of attempts that may fail to reduce the number of wrong rows, before rows are changed one at a time.
@@ -34,14 +34,14 @@ constexpr int kPatience = 3;
 constexpr double kEntered = 1e-5;
 // Returns J_r M^-1 J_s^T: the coupling of two rows through one body that both act on.
 template <class Real>
-double coupling(const BodyMotion<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,
+double coupling(const SolverBody<Real>& body, Vec2<Real> linear_r, Real angular_r, Vec2<Real> linear_s,
                 Real angular_s) {
   return double(body.inverse_mass) * (double(linear_r.x) * linear_s.x + double(linear_r.y) * linear_s.y) +
          double(body.inverse_inertia) * angular_r * angular_s;
 }
 
 template <class Real>
-double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const DirectRow<Real>& s) {
+double coupling(const SolverBody<Real>* motion, const DirectRow<Real>& r, const DirectRow<Real>& s) {
   double sum = 0;
   if (r.a == s.a) sum += coupling(motion[r.a], r.linear_a, r.angular_a, s.linear_a, s.angular_a);
   if (r.a == s.b) sum += coupling(motion[r.a], r.linear_a, r.angular_a, s.linear_b, s.angular_b);
@@ -52,14 +52,14 @@ double coupling(const BodyMotion<Real>* motion, const DirectRow<Real>& r, const 
 
 // Non-dynamic bodies are only read: several islands may stand on one.
 template <class Real>
-void push(BodyMotion<Real>& motion, Vec2<Real> impulse, Real angular_impulse) {
+void push(SolverBody<Real>& motion, Vec2<Real> impulse, Real angular_impulse) {
   if (is_dynamic(motion)) motion.apply(impulse, angular_impulse);
 }
 
 }  // namespace
 
 template <class Real>
-double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
+double DirectRows<Real>::order(const SolverBody<Real>* motion) {
   // Blocks are neighbours if they act on the same dynamic body.
   const int count = rows.empty() ? 0 : rows.back().block + 1;
   block_first_.assign(count + 1, 0);
@@ -93,7 +93,7 @@ double DirectRows<Real>::order(const BodyMotion<Real>* motion) {
 }
 
 template <class Real>
-void DirectRows<Real>::note_masses(const BodyMotion<Real>* motion) {
+void DirectRows<Real>::note_masses(const SolverBody<Real>* motion) {
   Real least = std::numeric_limits<Real>::max(), most = 0;
   for (const DirectRow<Real>& row : rows) {
     for (const int body : {row.a, row.b}) {
@@ -106,7 +106,7 @@ void DirectRows<Real>::note_masses(const BodyMotion<Real>* motion) {
 }
 
 template <class Real>
-void DirectRows<Real>::assemble(const BodyMotion<Real>* motion) {
+void DirectRows<Real>::assemble(const SolverBody<Real>* motion) {
   note_masses(motion);
   push_.made = relax_.made = false;
   all_.reset(first_);
@@ -148,7 +148,7 @@ int DirectRows<Real>::change_sides(Factors& factors) {
 }
 
 template <class Real>
-bool DirectRows<Real>::find(BodyMotion<Real>* motion, bool push) {
+bool DirectRows<Real>::find(SolverBody<Real>* motion, bool push) {
   Factors& factors = push ? push_ : relax_;
   x_.resize(rows.size());
   for (DirectRow<Real>& row : rows) row.taken = 0;
@@ -199,7 +199,7 @@ bool DirectRows<Real>::find(BodyMotion<Real>* motion, bool push) {
 
 // Solves for the impulses x of the active rows. Returns the largest requested rate, m/s.
 template <class Real>
-double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMatrix& matrix) {
+double DirectRows<Real>::solve(const SolverBody<Real>* motion, const EnvelopeMatrix& matrix) {
   const int count = matrix.size();
   double asked = 0, load = 0;
   const DirectRow<Real>* const all = rows.data();
@@ -227,7 +227,7 @@ double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMat
     }
     if (rest <= kExact * std::max(load, asked)) break;
     if (refinement == kRefinements) {
-      contradicted_ = rest > kInVain * before && least > -kPulls * most;
+      contradicted_ = rest > kStalled * before && least > -kPulls * most;
       break;
     }
     before = rest;
@@ -239,8 +239,8 @@ double DirectRows<Real>::solve(const BodyMotion<Real>* motion, const EnvelopeMat
 
 // Returns the velocity error of a row, m/s: J v + bias.
 template <class Real>
-double DirectRows<Real>::rate_of(const BodyMotion<Real>* motion, const DirectRow<Real>& row) const {
-  const BodyMotion<Real>&a = motion[row.a], &b = motion[row.b];
+double DirectRows<Real>::rate_of(const SolverBody<Real>* motion, const DirectRow<Real>& row) const {
+  const SolverBody<Real>&a = motion[row.a], &b = motion[row.b];
   return double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
                 dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias);
 }
@@ -257,7 +257,7 @@ double DirectRows<Real>::response_of(int place) const {
 
 // Removes the impulses of inactive rows from the bodies.
 template <class Real>
-void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
+void DirectRows<Real>::take_back(SolverBody<Real>* motion) {
   DirectRow<Real>* const all = rows.data();
   const int* const sequence = sequence_.data();
   for (int i = 0, count = all_.size(); i < count; ++i) {
@@ -272,7 +272,7 @@ void DirectRows<Real>::take_back(BodyMotion<Real>* motion) {
 
 // Applies them again, so that rows keep their load if iterations solve them instead.
 template <class Real>
-void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
+void DirectRows<Real>::give_back(SolverBody<Real>* motion) {
   for (DirectRow<Real>& row : rows) {
     if (row.taken == 0) continue;
     push(motion[row.a], row.taken * row.linear_a, row.taken * row.angular_a);
@@ -285,7 +285,7 @@ void DirectRows<Real>::give_back(BodyMotion<Real>* motion) {
 // Sums each body's impulses before its velocity is rounded. Between a heavy load and the ground the impulses
 // on a light body are large and nearly cancel.
 template <class Real>
-void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
+void DirectRows<Real>::apply(SolverBody<Real>* motion) {
   // Local pointers: the compiler must assume that a write to velocities changes any other pointer.
   DirectRow<Real>* const all = rows.data();
   const double* const x = x_.data();
@@ -305,7 +305,7 @@ void DirectRows<Real>::apply(BodyMotion<Real>* motion) {
         turning += impulse * static_cast<double>(is_a ? row.angular_a : row.angular_b);
       }
     }
-    BodyMotion<Real>& moving = motion[body];
+    SolverBody<Real>& moving = motion[body];
     if (!is_dynamic(moving)) continue;  // other islands may stand on it too
     moving.velocity =
         (moving.velocity.template as<double>() + double(moving.inverse_mass) * push).template as<Real>();

@@ -5,7 +5,7 @@
 
 #include "engine/linear_algebra/block_order.h"
 #include "engine/linear_algebra/envelope_matrix.h"
-#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
@@ -51,18 +51,18 @@ class DirectRows {
   std::pmr::vector<DirectRow<Real>> rows;  ///< filled by the caller, rows of one constraint side by side
 
   /// Orders the rows (reverse Cuthill-McKee, 1969). Returns the cost of factorising them, in multiplications.
-  double order(const BodyMotion<Real>* motion);
+  double order(const SolverBody<Real>* motion);
   /// Computes J M^-1 J^T for the present masses and Jacobians, and forgets all factorisations.
-  void assemble(const BodyMotion<Real>* motion);
+  void assemble(const SolverBody<Real>* motion);
   /// Solves for the missing impulses of the pass with depenetration (`push`) or of the pass without it.
   /// Returns false, having changed nothing but `active`, if a few attempts found no valid set of pressing
   /// rows, or if the rows contradict each other.
-  bool find(BodyMotion<Real>* motion, bool push);
+  bool find(SolverBody<Real>* motion, bool push);
   /// Returns true if the rows in `find` were infeasible, such as those of a body pushed out of two walls at
   /// once. Its result is then invalid.
   bool contradicted() const { return contradicted_; }
   /// Applies the result of `find`.
-  void apply(BodyMotion<Real>* motion);
+  void apply(SolverBody<Real>* motion);
 
  private:
   /// A factorisation of the rows that press in one pass.
@@ -75,12 +75,12 @@ class DirectRows {
 
   void factorise(Factors& factors, int from);
   int change_sides(Factors& factors);
-  double solve(const BodyMotion<Real>* motion, const EnvelopeMatrix& matrix);
-  double rate_of(const BodyMotion<Real>* motion, const DirectRow<Real>& row) const;
+  double solve(const SolverBody<Real>* motion, const EnvelopeMatrix& matrix);
+  double rate_of(const SolverBody<Real>* motion, const DirectRow<Real>& row) const;
   double response_of(int place) const;
-  void take_back(BodyMotion<Real>* motion);
-  void give_back(BodyMotion<Real>* motion);
-  void note_masses(const BodyMotion<Real>* motion);
+  void take_back(SolverBody<Real>* motion);
+  void give_back(SolverBody<Real>* motion);
+  void note_masses(const SolverBody<Real>* motion);
 
   std::pmr::vector<int> sequence_;  // place -> row
   std::pmr::vector<int> place_;     // row -> place

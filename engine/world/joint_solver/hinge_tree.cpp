@@ -12,80 +12,80 @@ namespace {
 
 // Maximum rotation of a body in a substep, rad, by its spin or as a pendulum. The energy error is about an
 // eighth of its square.
-constexpr double kTurn = 0.125;
-constexpr int kMostParts = 64;
+constexpr double kMaxRotation = 0.125;
+constexpr int kMaxParts = 64;
 // Tolerance of closing hinges, as a fraction of the arms, and the maximum number of Newton steps for it.
-constexpr double kClosed = 1e-11;
-constexpr int kMostNewtonSteps = 16;
+constexpr double kGapTolerance = 1e-11;
+constexpr int kMaxNewtonSteps = 16;
 // Gap, as a fraction of the arms, above which the Newton steps have failed. Where they converge, they leave
 // less than a thousandth of it; where they fail, more than a hundred times as much.
-constexpr double kOpen = 1e-6;
+constexpr double kFailedGap = 1e-6;
 // Maximum closing speed of a gap that existed before, in arms per second. A scene that starts with its joints
 // open is pulled together without a burst.
 constexpr double kGapSpeed = 4;
-// Ratio of demanded to current inertia above which a link's inertia is raised within a substep.
+// Ratio of required to current inertia above which a link's inertia is raised within a substep.
 constexpr double kHeavier = 1.01;
 // Growth of the gap in a Newton step above which the iteration diverges.
-constexpr double kDiverges = 2;
+constexpr double kDivergence = 2;
 
 // ---- Motion
 
-// Returns `keep` to the power of `share`, a power of two up to 1.
-double kept(double keep, double share) {
-  for (; share < 1 && keep != 1; share *= 2) keep = std::sqrt(keep);
+// Returns a damping factor to the power of `fraction`, a power of two up to 1.
+double damping_over(double keep, double fraction) {
+  for (; fraction < 1 && keep != 1; fraction *= 2) keep = std::sqrt(keep);
   return keep;
 }
 
-// Applies a share of the forces and the damping of a substep.
-void kick(std::span<TreeLink> tree, double share) {
-  if (share == 0) return;
-  for (TreeLink& link : tree) {
-    if (!link.moves) continue;
-    link.velocity += share * link.kick;
-    link.spin += share * link.spin_kick;
-    link.velocity *= kept(link.keep, share);
-    link.spin *= kept(link.keep_spin, share);
+// Applies a fraction of the forces and the damping of a substep.
+void apply_forces(std::span<ArticulatedLink> tree, double fraction) {
+  if (fraction == 0) return;
+  for (ArticulatedLink& link : tree) {
+    if (!link.is_dynamic) continue;
+    link.velocity += fraction * link.velocity_increment;
+    link.spin += fraction * link.spin_increment;
+    link.velocity *= damping_over(link.damping_factor, fraction);
+    link.spin *= damping_over(link.spin_damping_factor, fraction);
   }
 }
 
 // Computes sine and cosine - 1 of a rotation.
-void find_turn(TreeLink& link, double x) {
-  if (std::abs(x) > kTurn) {
+void set_rotation(ArticulatedLink& link, double x) {
+  if (std::abs(x) > kMaxRotation) {
     const Rotation<double> turn = rotation_of(x);
-    link.sine = turn.s, link.less_cosine = turn.c - 1;
+    link.sine = turn.s, link.cosine_minus_one = turn.c - 1;
     return;
   }
   const double y = x * x;
   link.sine = x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72))));
-  link.less_cosine = -0.5 * y * (1 - y / 12 * (1 - y / 30 * (1 - y / 56)));
+  link.cosine_minus_one = -0.5 * y * (1 - y / 12 * (1 - y / 30 * (1 - y / 56)));
 }
 
-Vec2d turn_of(const TreeLink& link, Vec2d arm) {
-  return link.less_cosine * arm + link.sine * perpendicular(arm);
+Vec2d arm_displacement(const ArticulatedLink& link, Vec2d arm) {
+  return link.cosine_minus_one * arm + link.sine * perpendicular(arm);
 }
 
 // Predicts the hinges' gaps after h. Returns the square of the largest deviation from the target gap, as a
 // fraction of the arms.
-double predict(std::span<TreeLink> tree, double h) {
+double predict_gaps(std::span<ArticulatedLink> tree, double h) {
   double widest = 0;
-  find_turn(tree[0], h * tree[0].spin);
+  set_rotation(tree[0], h * tree[0].spin);
   for (std::size_t i = 1; i < tree.size(); ++i) {
-    TreeLink& link = tree[i];
-    const TreeLink& parent = tree[link.parent];
-    find_turn(link, h * link.spin);
-    link.next_gap = link.gap + h * (link.velocity - parent.velocity) +
-                    (turn_of(link, link.arm) - turn_of(parent, link.parent_arm));
-    const double share = length_squared(link.open - link.next_gap) / link.span_squared;
-    // Also true for NaN: nothing is closed then.
-    if (!(share <= widest)) widest = share;
+    ArticulatedLink& link = tree[i];
+    const ArticulatedLink& parent = tree[link.parent];
+    set_rotation(link, h * link.spin);
+    link.predicted_gap = link.gap + h * (link.velocity - parent.velocity) +
+                         (arm_displacement(link, link.arm) - arm_displacement(parent, link.parent_arm));
+    const double error = length_squared(link.target_gap - link.predicted_gap) / link.arm_scale_squared;
+    // Also true for NaN, for which no gap counts as closed.
+    if (!(error <= widest)) widest = error;
   }
   return widest;
 }
 
-void place(std::span<TreeLink> tree) {
-  for (TreeLink& link : tree) {
+void update_arms(std::span<ArticulatedLink> tree) {
+  for (ArticulatedLink& link : tree) {
     if (link.joint < 0) continue;
-    const TreeLink& parent = tree[link.parent];
+    const ArticulatedLink& parent = tree[link.parent];
     link.arm = link.rotation * link.anchor;
     link.parent_arm = parent.rotation * link.parent_anchor;
     const Vec2d half = 0.5 * link.gap;
@@ -95,131 +95,136 @@ void place(std::span<TreeLink> tree) {
   }
 }
 
-void move(std::span<TreeLink> tree, double h) {
-  for (TreeLink& link : tree) {
+void integrate_positions(std::span<ArticulatedLink> tree, double h) {
+  for (ArticulatedLink& link : tree) {
     link.moved += h * link.velocity;
     link.turned += h * link.spin;
     const Rotation<double> q = link.rotation;
-    link.rotation = {q.c + (link.less_cosine * q.c - link.sine * q.s),
-                     q.s + (link.less_cosine * q.s + link.sine * q.c)};
-    link.gap = link.next_gap;
+    link.rotation = {q.c + (link.cosine_minus_one * q.c - link.sine * q.s),
+                     q.s + (link.cosine_minus_one * q.s + link.sine * q.c)};
+    link.gap = link.predicted_gap;
   }
-  place(tree);
+  update_arms(tree);
 }
 
 // ---- The system
 
 // Computes articulated inertias from the ends to the root: M of a link at its hinge, with the spin left free,
 //     mass = M_vv - M_vw M_vw^T / M_ww.
-// Raises links' inertia to what loads demand; returns true if any is raised.
-bool assemble(std::span<TreeLink> tree) {
+// Raises the inertia of links to the required one; returns true if any is raised.
+bool compute_articulated_inertia(std::span<ArticulatedLink> tree) {
   bool loaded = false;
-  for (TreeLink& link : tree) {
-    const double m = link.moves ? 1 / link.inverse_mass : 0;
+  for (ArticulatedLink& link : tree) {
+    const double m = link.is_dynamic ? 1 / link.inverse_mass : 0;
     link.mass = {m, 0, m};
     link.coupling = -m * perpendicular(link.lever);
     link.inertia = 1 / link.inverse_inertia;  // infinite if it does not rotate
-    link.excess = 0;
-    if (link.demand > link.inertia) {
-      link.excess = 1 - link.inertia / link.demand;
-      link.inertia = link.demand;
+    link.added_fraction = 0;
+    if (link.required_inertia > link.inertia) {
+      link.added_fraction = 1 - link.inertia / link.required_inertia;
+      link.inertia = link.required_inertia;
       loaded = true;
     }
-    link.turning = link.inertia + m * length_squared(link.lever);
+    link.hinge_inertia = link.inertia + m * length_squared(link.lever);
   }
   for (std::size_t i = tree.size(); i-- > 0;) {
-    TreeLink& link = tree[i];
-    if (!link.moves) break;
-    // About a fixed hinge the whole subtree rotates, so the load's part of that inertia is smaller.
-    if (!tree[link.parent].moves) link.excess *= link.inertia / link.turning;
-    link.turning = link.inverse_inertia > 0 ? 1 / link.turning : 0;
-    const Vec2d c = link.coupling, share = link.turning * c;
-    link.mass = {link.mass.xx - share.x * c.x, link.mass.xy - share.x * c.y, link.mass.yy - share.y * c.y};
+    ArticulatedLink& link = tree[i];
+    if (!link.is_dynamic) break;
+    // The whole subtree rotates about a fixed hinge, so the added fraction of that inertia is smaller.
+    if (!tree[link.parent].is_dynamic) link.added_fraction *= link.inertia / link.hinge_inertia;
+    link.hinge_inertia = link.inverse_inertia > 0 ? 1 / link.hinge_inertia : 0;
+    const Vec2d c = link.coupling, scaled = link.hinge_inertia * c;
+    link.mass = {link.mass.xx - scaled.x * c.x, link.mass.xy - scaled.x * c.y, link.mass.yy - scaled.y * c.y};
     if (i == 0) break;
-    TreeLink& parent = tree[link.parent];
+    ArticulatedLink& parent = tree[link.parent];
     const Vec2d p = perpendicular(link.from_parent), momentum = link.mass.times(p);
     parent.mass = {parent.mass.xx + link.mass.xx, parent.mass.xy + link.mass.xy,
                    parent.mass.yy + link.mass.yy};
     parent.coupling += momentum;
-    parent.turning += dot(p, momentum);
+    parent.hinge_inertia += dot(p, momentum);
   }
   return loaded;
 }
 
 // Returns the velocity change of a free root.
-Vec2d free_change(const TreeLink& root, Vec2d pull) {
-  const HingeMass& m = root.mass;
+Vec2d free_root_change(const ArticulatedLink& root, Vec2d pull) {
+  const ArticulatedMass& m = root.mass;
   const double inverse = 1 / (m.xx * m.yy - m.xy * m.xy);
   return -inverse * Vec2d{m.yy * pull.x - m.xy * pull.y, m.xx * pull.y - m.xy * pull.x};
 }
 
-// Solves for the impulses that change the hinge velocities by `rate`, and applies them.
-void solve(std::span<TreeLink> tree) {
-  for (TreeLink& link : tree) link.pull = {}, link.twist = 0;
+// Solves for the impulses that change the hinge velocities by `target_rate`, and applies them.
+void solve(std::span<ArticulatedLink> tree) {
+  for (ArticulatedLink& link : tree) link.bias_impulse = {}, link.angular_bias_impulse = 0;
   for (std::size_t i = tree.size(); i-- > 1;) {
-    TreeLink& link = tree[i];
-    link.pull -= (link.twist * link.turning) * link.coupling;
-    const Vec2d pull = link.mass.times(link.rate) + link.pull;
-    TreeLink& parent = tree[link.parent];
-    parent.pull += pull;
-    parent.twist += dot(perpendicular(link.from_parent), pull);
+    ArticulatedLink& link = tree[i];
+    link.bias_impulse -= (link.angular_bias_impulse * link.hinge_inertia) * link.coupling;
+    const Vec2d pull = link.mass.times(link.target_rate) + link.bias_impulse;
+    ArticulatedLink& parent = tree[link.parent];
+    parent.bias_impulse += pull;
+    parent.angular_bias_impulse += dot(perpendicular(link.from_parent), pull);
   }
-  TreeLink& root = tree[0];
-  root.change = {}, root.spin_change = 0;
-  if (root.moves) {
-    root.change = free_change(root, root.pull - (root.twist * root.turning) * root.coupling);
-    root.spin_change = -root.turning * (root.twist + dot(root.coupling, root.change));
-    root.velocity += root.change;
+  ArticulatedLink& root = tree[0];
+  root.hinge_change = {}, root.spin_change = 0;
+  if (root.is_dynamic) {
+    root.hinge_change = free_root_change(
+        root, root.bias_impulse - (root.angular_bias_impulse * root.hinge_inertia) * root.coupling);
+    root.spin_change =
+        -root.hinge_inertia * (root.angular_bias_impulse + dot(root.coupling, root.hinge_change));
+    root.velocity += root.hinge_change;
     root.spin += root.spin_change;
   }
   for (std::size_t i = 1; i < tree.size(); ++i) {
-    TreeLink& link = tree[i];
-    const TreeLink& parent = tree[link.parent];
-    link.change = parent.change + cross(parent.spin_change, link.from_parent) + link.rate;
-    link.spin_change = -link.turning * (link.twist + dot(link.coupling, link.change));
-    link.change_impulse = link.mass.times(link.change) + link.pull;
-    link.found += link.change_impulse;
-    link.velocity += link.change - cross(link.spin_change, link.lever);
+    ArticulatedLink& link = tree[i];
+    const ArticulatedLink& parent = tree[link.parent];
+    link.hinge_change = parent.hinge_change + cross(parent.spin_change, link.from_parent) + link.target_rate;
+    link.spin_change =
+        -link.hinge_inertia * (link.angular_bias_impulse + dot(link.coupling, link.hinge_change));
+    link.impulse_change = link.mass.times(link.hinge_change) + link.bias_impulse;
+    link.accumulated_impulse += link.impulse_change;
+    link.velocity += link.hinge_change - cross(link.spin_change, link.lever);
     link.spin += link.spin_change;
   }
 }
 
 // Undoes the last `solve`.
-void undo(std::span<TreeLink> tree) {
-  for (TreeLink& link : tree) {
-    link.found -= link.change_impulse;
-    link.velocity -= link.change - cross(link.spin_change, link.lever);
+void undo(std::span<ArticulatedLink> tree) {
+  for (ArticulatedLink& link : tree) {
+    link.accumulated_impulse -= link.impulse_change;
+    link.velocity -= link.hinge_change - cross(link.spin_change, link.lever);
     link.spin -= link.spin_change;
   }
 }
 
-// ---- Loads. h^2 k is the inertia that a substep needs to follow the stiffness k.
+// ---- Loads. A substep h follows the geometric stiffness k of a load if the inertia is at least h^2 k.
 
-// Computes the inertia that the impulses of `share` of a substep demand of each link. Returns true if any
-// link has less.
-bool find_demands(std::span<TreeLink> tree, double h, double share, Vec2d TreeLink::*impulse) {
-  for (TreeLink& link : tree) link.demand = 0;
-  const double scale = h / share;
+// Computes the inertia that each link requires for the impulses of a fraction of a substep. Returns true if
+// any link has less.
+bool find_required_inertias(std::span<ArticulatedLink> tree, double h, double fraction,
+                            Vec2d ArticulatedLink::*impulse) {
+  for (ArticulatedLink& link : tree) link.required_inertia = 0;
+  const double scale = h / fraction;
   bool heavier = false;
   for (std::size_t i = tree.size(); i-- > 0;) {
-    TreeLink& link = tree[i];
+    ArticulatedLink& link = tree[i];
     if (i > 0) {
       const Vec2d by = scale * link.*impulse;
-      tree[link.parent].demand -= dot(link.parent_lever, by);
-      link.demand += dot(link.lever, by);
+      tree[link.parent].required_inertia -= dot(link.parent_lever, by);
+      link.required_inertia += dot(link.lever, by);
     }
-    heavier = heavier || (link.moves && link.demand > kHeavier * link.inertia);
+    heavier = heavier || (link.is_dynamic && link.required_inertia > kHeavier * link.inertia);
   }
   return heavier;
 }
 
 // Damps relative rotation of two bodies, by the fraction of their inertia that loads added.
-void damp(std::span<TreeLink> tree) {
+void damp(std::span<ArticulatedLink> tree) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
-    TreeLink &link = tree[i], &parent = tree[link.parent];
-    if (!parent.moves || link.inverse_inertia == 0 || parent.inverse_inertia == 0) continue;
+    ArticulatedLink &link = tree[i], &parent = tree[link.parent];
+    if (!parent.is_dynamic || link.inverse_inertia == 0 || parent.inverse_inertia == 0) continue;
     const double a = 1 / parent.inertia, b = 1 / link.inertia;
-    const double twist = std::max(link.excess, parent.excess) * (link.spin - parent.spin) / (a + b);
+    const double twist =
+        std::max(link.added_fraction, parent.added_fraction) * (link.spin - parent.spin) / (a + b);
     parent.spin += a * twist;
     link.spin -= b * twist;
   }
@@ -227,32 +232,32 @@ void damp(std::span<TreeLink> tree) {
 
 // ---- A substep
 
-struct Held {
+struct PositionResult {
   bool heavier = false;  // the impulses raised the inertia of links
   bool closed = false;
 };
 
-// Solves for velocities that close the hinges at the end of the motion. `share` of the motion's forces act
-// before.
-Held hold(std::span<TreeLink> tree, double h, double share) {
-  constexpr double kEnough = kClosed * kClosed, kFails = kOpen * kOpen;
+// Solves for velocities that close the hinges at the end of the motion (RATTLE's position stage). `fraction`
+// of the motion's forces act before.
+PositionResult solve_positions(std::span<ArticulatedLink> tree, double h, double fraction) {
+  constexpr double kTolerance = kGapTolerance * kGapTolerance, kFailed = kFailedGap * kFailedGap;
   bool heavier = false;
   double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kMostNewtonSteps; ++i) {
-    const double gap = predict(tree, h);
-    if (gap <= kEnough || i == kMostNewtonSteps) return {heavier, gap <= kFails};
+  for (int i = 0; i <= kMaxNewtonSteps; ++i) {
+    const double gap = predict_gaps(tree, h);
+    if (gap <= kTolerance || i == kMaxNewtonSteps) return {heavier, gap <= kFailed};
     if (i > 0 && !(gap < before)) {
-      if (gap <= kDiverges * before) return {heavier, gap <= kFails};
+      if (gap <= kDivergence * before) return {heavier, gap <= kFailed};
       undo(tree);
-      predict(tree, h);
-      return {heavier, before <= kFails};
+      predict_gaps(tree, h);
+      return {heavier, before <= kFailed};
     }
-    for (TreeLink& link : tree) link.rate = (1 / h) * (link.open - link.next_gap);
+    for (ArticulatedLink& link : tree) link.target_rate = (1 / h) * (link.target_gap - link.predicted_gap);
     solve(tree);
-    if (i == 0 && find_demands(tree, h, share, &TreeLink::found)) {
+    if (i == 0 && find_required_inertias(tree, h, fraction, &ArticulatedLink::accumulated_impulse)) {
       heavier = true;
       undo(tree);
-      assemble(tree);
+      compute_articulated_inertia(tree);
       solve(tree);
     }
     before = gap;
@@ -260,128 +265,135 @@ Held hold(std::span<TreeLink> tree, double h, double share) {
   return {heavier, false};
 }
 
-// Solves for velocities that keep the hinges closed.
-void fit(std::span<TreeLink> tree) {
+// Solves for velocities that keep the hinges closed (RATTLE's velocity stage).
+void solve_velocities(std::span<ArticulatedLink> tree) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
-    TreeLink& link = tree[i];
-    const TreeLink& parent = tree[link.parent];
-    link.rate = (parent.velocity + cross(parent.spin, link.parent_lever)) -
-                (link.velocity + cross(link.spin, link.lever));
+    ArticulatedLink& link = tree[i];
+    const ArticulatedLink& parent = tree[link.parent];
+    link.target_rate = (parent.velocity + cross(parent.spin, link.parent_lever)) -
+                       (link.velocity + cross(link.spin, link.lever));
   }
   solve(tree);
 }
 
 // Sets the part of each gap that stays open, because it is too large to close in one substep. No warm start:
 // when a light link under a heavy load has rotated a little, the old impulse would spin it up.
-void begin(std::span<TreeLink> tree, double h) {
+void set_target_gaps(std::span<ArticulatedLink> tree, double h) {
   for (std::size_t i = 1; i < tree.size(); ++i) {
-    TreeLink& link = tree[i];
-    link.found = {}, link.open = {};
+    ArticulatedLink& link = tree[i];
+    link.accumulated_impulse = {}, link.target_gap = {};
     const double gap = length_squared(link.gap), most = kGapSpeed * h;
-    if (gap > most * most * link.span_squared)
-      link.open = (1 - most * std::sqrt(link.span_squared / gap)) * link.gap;
+    if (gap > most * most * link.arm_scale_squared)
+      link.target_gap = (1 - most * std::sqrt(link.arm_scale_squared / gap)) * link.gap;
   }
 }
 
 // Returns the number of parts that a substep is divided into: a power of two.
-int parts_of(std::span<const TreeLink> tree, double h) {
+int substep_parts(std::span<const ArticulatedLink> tree, double h) {
   double fastest = 0;  // rad/s, squared
-  for (const TreeLink& link : tree) {
-    if (!link.moves || link.reach_squared == 0) continue;
-    const double swing = std::sqrt(link.reach_squared * length_squared(link.kick)) /
-                         (h * (link.reach_squared + link.inverse_mass / link.inverse_inertia));
+  for (const ArticulatedLink& link : tree) {
+    if (!link.is_dynamic || link.radius_squared == 0) continue;
+    const double swing = std::sqrt(link.radius_squared * length_squared(link.velocity_increment)) /
+                         (h * (link.radius_squared + link.inverse_mass / link.inverse_inertia));
     fastest = std::max({fastest, link.spin * link.spin, swing});
   }
   const double turn = h * std::sqrt(fastest);
   int parts = 1;
-  while (parts < kMostParts && turn > parts * kTurn) parts *= 2;
+  while (parts < kMaxParts && turn > parts * kMaxRotation) parts *= 2;
   return parts;
 }
 
-// A tree on its way through a step.
-class Passage {
+// Integrates a tree through a step.
+class TreeIntegrator {
  public:
-  Passage(std::span<TreeLink> tree, double h)
+  TreeIntegrator(std::span<ArticulatedLink> tree, double h)
       : tree_(tree),
         h_(h),
-        frame_(velocity_of_hold(tree)),
-        most_(energy_of(tree, frame_)),
-        driven_(!tree[0].moves && (tree[0].velocity != Vec2d{} || tree[0].spin != 0)) {
+        frame_(base_velocity(tree)),
+        energy_limit_(kinetic_energy(tree, frame_)),
+        driven_(!tree[0].is_dynamic && (tree[0].velocity != Vec2d{} || tree[0].spin != 0)) {
     double widest = 0, momentum = 0;
-    for (const TreeLink& link : tree) {
+    for (const ArticulatedLink& link : tree) {
       widest = std::max(widest, length_squared(link.gap));
-      momentum += mass_of(link) * std::sqrt(length_squared(link.kick));
-      spare_ += 0.5 * (mass_of(link) * length_squared(link.kick) +
-                       inertia_of(link) * link.spin_kick * link.spin_kick);
+      momentum += mass_of(link) * std::sqrt(length_squared(link.velocity_increment));
+      energy_tolerance_ += 0.5 * (mass_of(link) * length_squared(link.velocity_increment) +
+                                  inertia_of(link) * link.spin_increment * link.spin_increment);
     }
-    // Closing a hinge that was open may lift bodies.
-    spare_ += momentum / h * std::sqrt(widest);
+    // Closing an open hinge may lift bodies.
+    energy_tolerance_ += momentum / h * std::sqrt(widest);
   }
 
-  // Moves the tree through a share of a substep, a power of two. If its hinges cannot be closed at the end,
-  // as light links would have to rotate too far, or only where the tree has not the energy to go, moves it
-  // through the halves instead. Leaves out the smallest part that it has not the energy for.
-  void move_by(double share) {
-    for (TreeLink& link : tree_) link.velocity_before = link.velocity, link.spin_before = link.spin;
-    const double acts = due_ + 0.5 * share, t = share * h_;
-    find_demands(tree_, t, 1 / share, &TreeLink::impulse);
-    bool loaded = assemble(tree_);
-    due_ == 0.5 * share ? kick(tree_, share) : (kick(tree_, due_), kick(tree_, 0.5 * share));
-    begin(tree_, t);
-    const Held held = hold(tree_, t, acts / share);
-    const double work = share * work_of(tree_, frame_);
-    const bool lacks = !driven_ && most_ + work < -spare_, last = share * kMostParts <= 1;
-    if (lacks || (!held.closed && !last)) {
-      for (TreeLink& link : tree_) link.velocity = link.velocity_before, link.spin = link.spin_before;
-      finish();
-      if (!last) move_by(0.5 * share), move_by(0.5 * share);
+  // Integrates a fraction of a substep, a power of two. Integrates its halves instead if the hinges cannot be
+  // closed at its end, because light links would have to rotate too far, or if that would need more energy
+  // than the tree has. Skips the smallest part if it would need more energy.
+  void advance(double fraction) {
+    for (ArticulatedLink& link : tree_) link.velocity_before = link.velocity, link.spin_before = link.spin;
+    const double acts = velocity_lag_ + 0.5 * fraction, t = fraction * h_;
+    find_required_inertias(tree_, t, 1 / fraction, &ArticulatedLink::impulse);
+    bool loaded = compute_articulated_inertia(tree_);
+    velocity_lag_ == 0.5 * fraction
+        ? apply_forces(tree_, fraction)
+        : (apply_forces(tree_, velocity_lag_), apply_forces(tree_, 0.5 * fraction));
+    set_target_gaps(tree_, t);
+    const PositionResult result = solve_positions(tree_, t, acts / fraction);
+    const double work = fraction * work_of(tree_, frame_);
+    const bool lacks_energy = !driven_ && energy_limit_ + work < -energy_tolerance_,
+               last = fraction * kMaxParts <= 1;
+    if (lacks_energy || (!result.closed && !last)) {
+      for (ArticulatedLink& link : tree_) link.velocity = link.velocity_before, link.spin = link.spin_before;
+      synchronise_velocities();
+      if (!last) advance(0.5 * fraction), advance(0.5 * fraction);
       return;
     }
-    loaded = loaded || held.heavier;
-    move(tree_, t);
-    strained_ = strained_ || loaded, loaded_ = loaded;
-    for (TreeLink& link : tree_) link.impulse = (1 / acts) * link.found;
-    // A hold that turns drives the tree.
-    most_ += work + share * dot(tree_[1].impulse, velocity_of_hold(tree_) - frame_);
-    due_ = 0.5 * share;
-    if (loaded) finish();
+    loaded = loaded || result.heavier;
+    integrate_positions(tree_, t);
+    energy_unchecked_ = energy_unchecked_ || loaded, inertia_raised_ = loaded;
+    for (ArticulatedLink& link : tree_) link.impulse = (1 / acts) * link.accumulated_impulse;
+    // A rotating base does work on the tree.
+    energy_limit_ += work + fraction * dot(tree_[1].impulse, base_velocity(tree_) - frame_);
+    velocity_lag_ = 0.5 * fraction;
+    if (loaded) synchronise_velocities();
   }
 
-  // Brings the velocities to the time of the poses.
-  void finish() {
-    if (due_ == 0) return;
-    kick(tree_, due_);
-    assemble(tree_);
-    if (loaded_) damp(tree_);
-    for (TreeLink& link : tree_) link.found = {};
-    fit(tree_);
-    if (strained_) limit_energy(tree_, frame_, most_), most_ = energy_of(tree_, frame_);
+  // Advances the velocities to the time of the poses.
+  void synchronise_velocities() {
+    if (velocity_lag_ == 0) return;
+    apply_forces(tree_, velocity_lag_);
+    compute_articulated_inertia(tree_);
+    if (inertia_raised_) damp(tree_);
+    for (ArticulatedLink& link : tree_) link.accumulated_impulse = {};
+    solve_velocities(tree_);
+    if (energy_unchecked_)
+      limit_energy(tree_, frame_, energy_limit_), energy_limit_ = kinetic_energy(tree_, frame_);
     // Half of the impulse acts before the motion, half after.
-    for (TreeLink& link : tree_) link.impulse = 0.5 * link.impulse + (0.5 / due_) * link.found;
-    due_ = 0, strained_ = loaded_ = false;
+    for (ArticulatedLink& link : tree_)
+      link.impulse = 0.5 * link.impulse + (0.5 / velocity_lag_) * link.accumulated_impulse;
+    velocity_lag_ = 0, energy_unchecked_ = inertia_raised_ = false;
   }
 
  private:
-  const std::span<TreeLink> tree_;
-  const double h_;     // s, a substep
-  const Vec2d frame_;  // m/s, in which energy is measured
-  double most_;        // J, the energy that forces permit
-  const bool driven_;  // its hold moves, and may lift it
-  double spare_ = 0;   // J, error of that: the energy that forces give to a body at rest in a substep
-  double due_ = 0;     // share of a substep by which the velocities lag behind
-  bool loaded_ = false, strained_ = false;  // inertia was raised in the last motion, since the last check
+  const std::span<ArticulatedLink> tree_;
+  const double h_;       // s, a substep
+  const Vec2d frame_;    // m/s, in which energy is measured
+  double energy_limit_;  // J, initial energy plus the work of forces
+  const bool driven_;    // its base moves, and may do work on it
+  // J, error of the limit: the energy that forces give to a body at rest in a substep.
+  double energy_tolerance_ = 0;
+  double velocity_lag_ = 0;        // fraction of a substep by which the velocities lag behind
+  bool inertia_raised_ = false;    // in the last motion
+  bool energy_unchecked_ = false;  // inertia was raised since the last check
 };
 
 }  // namespace
 
-void move_tree(std::span<TreeLink> tree, double h, int substeps) {
-  const int parts = parts_of(tree, h);
-  const double share = 1.0 / parts;
-  for (TreeLink& link : tree) link.moved = {}, link.turned = 0;
-  place(tree);
-  Passage passage(tree, h);
-  for (int left = parts * substeps; left > 0; --left) passage.move_by(share);
-  passage.finish();
+void integrate_tree(std::span<ArticulatedLink> tree, double h, int substeps) {
+  const int parts = substep_parts(tree, h);
+  const double fraction = 1.0 / parts;
+  for (ArticulatedLink& link : tree) link.moved = {}, link.turned = 0;
+  update_arms(tree);
+  TreeIntegrator integrator(tree, h);
+  for (int left = parts * substeps; left > 0; --left) integrator.advance(fraction);
+  integrator.synchronise_velocities();
 }
 
 }  // namespace plumb

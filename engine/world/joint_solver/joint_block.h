@@ -38,17 +38,17 @@ struct JointBlock {
   }
 
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
-                                    JointPass pass, Real share) {
+                                    JointPass pass, Real factor) {
     const Softness<Scalar<Real>> s = pass == kSolve ? soft : Softness<Scalar<Real>>{};
     Real x[N];
-    for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + share * s.bias_rate * row[i].residual;
+    for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + factor * s.bias_rate * row[i].residual;
     for (int i = 1; i < N; ++i)
       for (int j = 0; j < i; ++j) x[i] -= lower[i][j] * x[j];
     for (int i = 0; i < N; ++i) x[i] *= inverse_pivot[i];
     for (int i = N - 2; i >= 0; --i)
       for (int j = i + 1; j < N; ++j) x[i] -= lower[j][i] * x[j];
     for (int i = 0; i < N; ++i) {
-      const Real delta = -share * s.mass_scale * x[i] - s.impulse_scale * impulse[i];
+      const Real delta = -factor * s.mass_scale * x[i] - s.impulse_scale * impulse[i];
       impulse[i] += delta;
       v.apply(row[i], delta);
     }

@@ -12,8 +12,8 @@
 #include "engine/world/joint_solver/joint_block.h"
 #include "engine/world/joint_solver/joint_coordinate.h"
 #include "engine/world/joint_solver/joint_point.h"
-#include "engine/world/joint_solver/joint_share.h"
 #include "engine/world/joint_solver/joint_springs.h"
+#include "engine/world/joint_solver/under_relaxation.h"
 
 namespace plumb {
 
@@ -45,7 +45,7 @@ struct JointConstraint {
   static constexpr bool kPlainHinge = std::is_same_v<Rows, HingeRows<Real>>;
   static constexpr bool kHasRows = kAxial + kBlock > 0;
   static constexpr bool kSoftPoint = Rows::kPoint && Rows::kSoft;
-  static constexpr bool kHasRules = Rows::kTurn || kAxial > 0 || kSoftPoint;
+  static constexpr bool kHasRules = Rows::kAngular || kAxial > 0 || kSoftPoint;
   /// A joint that may have springs.
   static constexpr bool kHasSprings = kHasRules && !kRatchet && !kPulley &&
                                       Rows::kAngle != AngleUse::Geared &&
@@ -54,20 +54,20 @@ struct JointConstraint {
   using If = std::conditional_t<kHas, Part, NoPart<kTag>>;
 
   int joint = 0, a = 0, b = 0;
-  Real share = 1;            ///< under-relaxation factor of its impulses
-  bool alone = false;        ///< no other joint moves its bodies
-  bool with_island = false;  ///< solved with its island: here it is only evaluated
-  Scalar<Real> known_h = 0;  ///< s, substep length that the rules are set for
+  Real under_relaxation = 1;  ///< under-relaxation factor of its impulses
+  bool alone = false;         ///< no other joint moves its bodies
+  bool with_island = false;   ///< solved with its island: here it is only evaluated
+  Scalar<Real> known_h = 0;   ///< s, substep length that the rules are set for
   [[no_unique_address]] If<kHasSprings && !kIsLanes<Real>, JointSprings<Scalar<Real>>, 8> springs{};
   Vec2<Real> offset{};  ///< m, at the start of the step
   [[no_unique_address]] If<kPulley, Vec2<Real>, 5> offset_a{};
   [[no_unique_address]] If<kHasRows, Vec2<Real>, 6> arm_b{};
-  [[no_unique_address]] If<kPlainHinge, bool, 7> held{};  ///< solved elsewhere
+  [[no_unique_address]] If<kPlainHinge, bool, 7> external{};  ///< solved elsewhere
   Rows kind{};
   using Angle = std::conditional_t<kIsLanes<Real>, LaneAngles<Real>, JointAngle>;
   [[no_unique_address]] If<kAngle != AngleUse::None, Angle, 0> angle{};
   [[no_unique_address]] If<kRatchet || kPulley, JointMemory, 1> memory{};
-  [[no_unique_address]] If<Rows::kTurn, JointCoordinate<Real, true>, 2> turn{};
+  [[no_unique_address]] If<Rows::kAngular, JointCoordinate<Real, true>, 2> turn{};
   std::array<JointCoordinate<Real, false>, kAxial> axial{};
   [[no_unique_address]] If<(kBlock > 0), JointBlock<Real, kBlock>, 3> block{};
   using Point = std::conditional_t<kSoftPoint, SoftPoint<Real>, RigidPoint<Real>>;
@@ -80,7 +80,7 @@ struct JointConstraint {
     const Range last_limits = limits();
     kind = Rows(definition, centre_a, centre_b);
     const JointRules rules = rules_of(definition);
-    if constexpr (Rows::kTurn) turn.load(rules.turn);
+    if constexpr (Rows::kAngular) turn.load(rules.angular);
     if constexpr (kAngle != AngleUse::None) {
       if (kind.reference != last.reference) {
         angle.count = TurnCount::New;
@@ -97,13 +97,13 @@ struct JointConstraint {
       // A given length may differ from the distance at which the bodies were placed.
       if (definition.length) memory = {*definition.length, 1};
     }
-    recall();
+    restore_rule();
     known_h = 0;
     if constexpr (kHasSprings) springs = {.any = has_springs(rules)};
   }
 
   /// Sets the rule that follows from the stored state. A sleeping joint may be read before a step sets it.
-  void recall() {
+  void restore_rule() {
     if constexpr (kRatchet)
       if (memory.known != 0) turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
     if constexpr (kPulley)
@@ -115,7 +115,7 @@ struct JointConstraint {
     const JointRules rules = rules_of(definition);
     SpringMobility mobility;
     if constexpr (kHasSprings) mobility = springs.mobility;
-    if constexpr (Rows::kTurn) turn.set_substep(rules.turn, mobility.turn, h);
+    if constexpr (Rows::kAngular) turn.set_substep(rules.angular, mobility.angular, h);
     for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], mobility.axial, h);
     if constexpr (kSoftPoint) point.set_substep(rules.point, mobility.point, h);
     known_h = h;
@@ -123,7 +123,7 @@ struct JointConstraint {
 
   void begin_step(const SolverBodies<Real>& bodies, const Step& step) {
     if constexpr (kPlainHinge)
-      if (held) return;
+      if (external) return;
     offset = find_offset(bodies, b);
     if constexpr (kPulley) offset_a = find_offset_a(bodies);
     if constexpr (kAngle != AngleUse::None) count_turns(bodies, step.h);
@@ -131,84 +131,84 @@ struct JointConstraint {
       const double tooth = kind.tooth_at(angle.start);
       if (memory.known == 0) memory = {tooth, 1};
     }
-    if constexpr (kPulley) recall_length(bodies);
+    if constexpr (kPulley) init_length(bodies);
     if (step.warm_start != 1) scale(step.warm_start);
   }
-  void end_step(const SolverBodies<Real>& bodies) { remember(motion_of(bodies, a, b)); }
+  void end_step(const SolverBodies<Real>& bodies) { store_angles(motion_of(bodies, a, b)); }
 
   /// Evaluates all rows at the present poses.
   [[gnu::always_inline]] void evaluate(const JointMotion<Real>& now, const JointVelocities<Real>& v,
                                        const Step& step, JointTime time) {
     JointRows<Real> rows;
     const JointPose<Real> at = pose(now);
-    if constexpr (kRatchet) click(at.angle);
+    if constexpr (kRatchet) advance_ratchet(at.angle);
     kind.evaluate(at, rows);
     if constexpr (kHasRows) arm_b = rows.arm_b;
-    if (time != JointTime::Between) follow(now, rows, time == JointTime::StepStarts, step.h);
+    if (time != JointTime::Between) update_drift(now, rows, time == JointTime::StepStarts, step.h);
     if constexpr (kIsLanes<Real>) {
-      evaluate_coordinates(at, rows, v, step, {share, alone});
+      evaluate_coordinates(at, rows, v, step, {under_relaxation, alone});
     } else {
-      evaluate_single(at, rows, v, step, {share, alone});
+      evaluate_single(at, rows, v, step, {under_relaxation, alone});
     }
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
       block.factorise(v);
     }
-    remember(now);
+    store_angles(now);
   }
 
-  [[gnu::always_inline]] void follow(const JointMotion<Real>& now, const JointRows<Real>& rows, bool starts,
-                                     Scalar<Real> h) {
-    const auto see = [ starts, h ](auto& coordinate, Real q) __attribute__((always_inline)) {
-      starts ? coordinate.start_at(q) : coordinate.follow(q, h);
+  [[gnu::always_inline]] void update_drift(const JointMotion<Real>& now, const JointRows<Real>& rows,
+                                           bool starts, Scalar<Real> h) {
+    const auto update = [ starts, h ](auto& coordinate, Real q) __attribute__((always_inline)) {
+      starts ? coordinate.start_drift(q) : coordinate.update_drift(q, h);
     };
     // Rotation since the step began (0 at that time), because the angle may have many turns.
-    if constexpr (Rows::kTurn) see(turn, now.turned_b - now.turned_a);
-    for (int i = 0; i < kAxial; ++i) see(axial[i], rows.axial[i].residual);
+    if constexpr (Rows::kAngular) update(turn, now.turned_b - now.turned_a);
+    for (int i = 0; i < kAxial; ++i) update(axial[i], rows.axial[i].residual);
     if constexpr (kSoftPoint)
-      if (!starts) point.follow(rows.point.gap);
+      if (!starts) point.update_drift(rows.point.gap);
   }
 
   /// Evaluates turn, axial and point rows at a pose; `at.angle` and the residuals are the coordinates.
   [[gnu::always_inline]] void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
                                                    const JointVelocities<Real>& v, const Step& step,
-                                                   JointShare<Real> part) {
-    if constexpr (Rows::kTurn) {
+                                                   UnderRelaxation<Real> relaxation) {
+    if constexpr (Rows::kAngular) {
       if (turn_beside_rigid()) {
-        const Real turns = turning_mobility(masses_of(v), rows.point.arm_a, rows.point.arm_b);
-        turn.evaluate_beside_rigid(at.angle, v, turns, step, part);
+        const Real turns = angular_mobility(masses_of(v), rows.point.arm_a, rows.point.arm_b);
+        turn.evaluate_beside_rigid(at.angle, v, turns, step, relaxation);
       } else {
-        turn.evaluate(at.angle, v, step, part);
+        turn.evaluate(at.angle, v, step, relaxation);
       }
     }
     for (int i = 0; i < kAxial; ++i) axial[i].row = rows.axial[i];
     for (int i = 0; i < kAxial; ++i) {
       if (i == 0 && axial_beside_rigid()) {
         axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, held_axial_mobility(v, at, rows), step,
-                                       part);
+                                       relaxation);
       } else {
-        axial[i].evaluate(rows.axial[i].residual, v, step, part);
+        axial[i].evaluate(rows.axial[i].residual, v, step, relaxation);
       }
     }
     if constexpr (kSoftPoint)
       if (point_beside_rigid())
         return point.evaluate_beside_rigid(rows.point, v, held_response(masses_of(v), rows.point), step,
-                                           part);
-    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, part);
+                                           relaxation);
+    if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, relaxation);
   }
 
   /// Does the same for a joint that is alone. Not inlined: it is the larger part of a joint's code.
   [[gnu::noinline]] void evaluate_single(const JointPose<Real>& at, const JointRows<Real>& rows,
                                          const JointVelocities<Real>& v, const Step& step,
-                                         JointShare<Real> part) {
-    evaluate_coordinates(at, rows, v, step, part);
+                                         UnderRelaxation<Real> relaxation) {
+    evaluate_coordinates(at, rows, v, step, relaxation);
   }
 
   // Springs beside rigid rows of the joint respond with their effective mass given these: see
   // engine/joints/spring_mobility.h.
   /// Returns true if the angle has a spring beside a rigid point.
   [[gnu::always_inline]] bool turn_beside_rigid() const {
-    if constexpr (Rows::kTurn && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
+    if constexpr (Rows::kAngular && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
     return false;
   }
   /// Returns true if the first axial coordinate has a spring beside a rigid block or second coordinate.
@@ -218,7 +218,7 @@ struct JointConstraint {
   }
   /// Returns true if the point has a spring beside a rigid angle.
   [[gnu::always_inline]] bool point_beside_rigid() const {
-    if constexpr (Rows::kTurn && kSoftPoint)
+    if constexpr (Rows::kAngular && kSoftPoint)
       return !point.rigid() && point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
     return false;
   }
@@ -230,12 +230,12 @@ struct JointConstraint {
       return line_mobility(masses_of(v), first.angular_a, first.angular_b, second.angular_a,
                            second.angular_b);
     } else {
-      return sliding_mobility(masses_of(v), at.offset, first.linear_b);
+      return slider_mobility(masses_of(v), at.offset, first.linear_b);
     }
   }
 
   /// Returns the least opening of the angle's limits, rad, each with `slack`: negative beyond one of them.
-  [[gnu::always_inline]] Real beyond_limits(Real turned, Scalar<Real> slack) const {
+  [[gnu::always_inline]] Real limit_opening(Real turned, Scalar<Real> slack) const {
     using std::min;
     const Real now = static_cast<Real>(angle.start) + turned;
     Real least = slack;
@@ -248,10 +248,10 @@ struct JointConstraint {
   /// Returns the load of the present rows.
   JointLoad<Real> load(const JointVelocities<Real>& v) const {
     if constexpr (kPlainHinge) return point_load(v, point.point.arm_a, point.point.arm_b);
-    constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kTurn ? 1 : 0);
+    constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kAngular ? 1 : 0);
     JointRow<Real> rows[kRows];
     int count = 0;
-    if constexpr (Rows::kTurn)
+    if constexpr (Rows::kAngular)
       rows[count++] = {{}, {}, turn.count > 0 ? Real(-1) : 0, turn.count > 0 ? Real(1) : 0};
     for (int i = 0; i < kAxial; ++i) rows[count++] = axial[i].count > 0 ? axial[i].row : JointRow<Real>{};
     if constexpr (kBlock > 0)
@@ -263,7 +263,7 @@ struct JointConstraint {
   }
 
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
-    if constexpr (Rows::kTurn) turn.warm_start(v);
+    if constexpr (Rows::kAngular) turn.warm_start(v);
     for (int i = 0; i < kAxial; ++i) axial[i].warm_start(v);
     if constexpr (kBlock > 0) block.warm_start(v);
     if constexpr (Rows::kPoint) point.warm_start(v);
@@ -276,28 +276,28 @@ struct JointConstraint {
   /// is alone: a lost part of their load would rotate a body whose inertia is small about its centre but not
   /// about the joint.
   [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
-                                                Real part) {
+                                                Real relaxation) {
     Softness<Scalar<Real>> soft = step.softness;
-    if (turn_beside_rigid()) solve_point(v, soft, kRelax, part);
-    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, soft, which, part);
+    if (turn_beside_rigid()) solve_point(v, soft, kRelax, relaxation);
+    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, soft, which, relaxation);
     if (axial_beside_rigid()) {
       for (int i = 1; i < kAxial; ++i) axial[i].solve(v, kRelax);
-      solve_block(v, soft, kRelax, part);
+      solve_block(v, soft, kRelax, relaxation);
     }
     if (alone && (turn_beside_rigid() || axial_beside_rigid()))
       soft = {.bias_rate = soft.bias_rate, .mass_scale = 1, .impulse_scale = 0};
     solve_turn(v, which);
     for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
-    solve_block(v, soft, which, part);
-    if (!point_beside_rigid()) solve_point(v, soft, which, part);
+    solve_block(v, soft, which, relaxation);
+    if (!point_beside_rigid()) solve_point(v, soft, which, relaxation);
   }
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Step& step) {
-    solve_coordinates(v, step, kSolve, share);
+    solve_coordinates(v, step, kSolve, under_relaxation);
   }
   [[gnu::always_inline]] void relax(const JointMotion<Real>& now, JointVelocities<Real>& v,
                                     const Step& step) {
     evaluate(now, v, step, JointTime::SubstepEnds);
-    solve_coordinates(v, step, kRelax, share);
+    solve_coordinates(v, step, kRelax, under_relaxation);
   }
 
   /// Returns the pose.
@@ -319,7 +319,7 @@ struct JointConstraint {
   JointPose<Real> pose(const SolverBodies<Real>& bodies) const { return pose(motion_of(bodies, a, b)); }
 
   /// Stores the angles from which turns are counted.
-  [[gnu::always_inline]] void remember(const JointMotion<Real>& now) {
+  [[gnu::always_inline]] void store_angles(const JointMotion<Real>& now) {
     if constexpr (kIsLanes<Real>) {
       return;  // done at the end of the step, by `end_step`
     } else if constexpr (kAngle == AngleUse::Geared) {
@@ -331,9 +331,9 @@ struct JointConstraint {
   }
 
   /// Returns the current pose and rows, at any time; counts turns since the last evaluation.
-  std::pair<JointPose<Real>, JointRows<Real>> look(const SolverBodies<Real>& bodies) const {
+  std::pair<JointPose<Real>, JointRows<Real>> current(const SolverBodies<Real>& bodies) const {
     JointConstraint now = *this;
-    const Vec2<Real> moved_a = bodies.motion[a].moved, moved_b = bodies.motion[b].moved;
+    const Vec2<Real> moved_a = bodies.motion[a].delta_position, moved_b = bodies.motion[b].delta_position;
     JointPose<Real> at{.rotation_a = bodies.rotation[a], .rotation_b = bodies.rotation[b]};
     at.offset = find_offset(bodies, b) + (Rows::kGrounded ? moved_b : moved_b - moved_a);
     if constexpr (kPulley) at.offset_a = find_offset_a(bodies) + moved_a;
@@ -350,7 +350,7 @@ struct JointConstraint {
   std::pair<Vec2<Real>, Real> reaction() const {
     Vec2<Real> linear{};
     Real angular = 0;
-    if constexpr (Rows::kTurn) angular += turn.impulse();
+    if constexpr (Rows::kAngular) angular += turn.impulse();
     if constexpr (kHasRows) {
       const auto count = [&](const JointRow<Real>& row, Real impulse) {
         linear += impulse * row.linear_b;
@@ -366,7 +366,7 @@ struct JointConstraint {
 
   /// Scales all impulses.
   void scale(Real factor) {
-    if constexpr (Rows::kTurn) turn.scale(factor);
+    if constexpr (Rows::kAngular) turn.scale(factor);
     for (auto& coordinate : axial) coordinate.scale(factor);
     if constexpr (kBlock > 0)
       for (Real& impulse : block.impulse) impulse *= factor;
@@ -375,10 +375,10 @@ struct JointConstraint {
 
   /// Clears impulses, counts and rows. A failed step may have left NaNs, which remain NaN when multiplied by
   /// 0, and whose sign depends on how many joints were solved side by side.
-  void forget() {
+  void reset() {
     if constexpr (kHasRows) arm_b = {};
-    if constexpr (Rows::kTurn) turn.forget();
-    for (auto& coordinate : axial) coordinate.forget();
+    if constexpr (Rows::kAngular) turn.reset();
+    for (auto& coordinate : axial) coordinate.reset();
     if constexpr (kBlock > 0) {
       for (auto& row : block.row) row = {};
       for (Real& impulse : block.impulse) impulse = 0;
@@ -389,12 +389,12 @@ struct JointConstraint {
     if constexpr (kRatchet) memory = {};
   }
   /// Clears impulses but keeps counted turns, because a pose does not contain them.
-  void put_elsewhere() {
+  void reset_impulses() {
     scale(0);
     if constexpr (kRatchet) memory = {};
   }
   /// Sets the bodies' own angles, rad, with their turns, for gears that are not counted yet.
-  void meet(double angle_a, double angle_b) {
+  void set_initial_angles(double angle_a, double angle_b) {
     if constexpr (kAngle == AngleUse::Geared)
       if (angle.count == TurnCount::New) angle.a = angle_a, angle.b = angle_b;
   }
@@ -415,7 +415,7 @@ struct JointConstraint {
         visit(x.rule[i].impulse, y.rule[i].impulse), visit(x.rule[i].drift, y.rule[i].drift);
     };
     if constexpr (kHasRows) pair(arm_b, one.arm_b);
-    if constexpr (Rows::kTurn) coordinate(turn, one.turn);
+    if constexpr (Rows::kAngular) coordinate(turn, one.turn);
     for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]), row(axial[i].row, one.axial[i].row);
     if constexpr (kBlock > 0)
       for (int i = 0; i < kBlock; ++i)
@@ -429,15 +429,15 @@ struct JointConstraint {
 
  private:
   [[gnu::always_inline]] void solve_turn(JointVelocities<Real>& v, JointPass which) {
-    if constexpr (Rows::kTurn) turn.solve(v, which);
+    if constexpr (Rows::kAngular) turn.solve(v, which);
   }
   [[gnu::always_inline]] void solve_block(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
-                                          JointPass which, Real part) {
-    if constexpr (kBlock > 0) block.solve(v, soft, which, part);
+                                          JointPass which, Real relaxation) {
+    if constexpr (kBlock > 0) block.solve(v, soft, which, relaxation);
   }
   [[gnu::always_inline]] void solve_point(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
-                                          JointPass which, Real part) {
-    if constexpr (Rows::kPoint) point.solve(v, soft, which, part);
+                                          JointPass which, Real relaxation) {
+    if constexpr (Rows::kPoint) point.solve(v, soft, which, relaxation);
   }
 
   Vec2<Real> find_offset(const SolverBodies<Real>& bodies, int body) const {
@@ -452,7 +452,7 @@ struct JointConstraint {
   /// Returns the limits of the joint's angle, rad. A ratchet's limit follows its angle.
   Range limits() const {
     Range range;
-    if constexpr (Rows::kTurn && !kRatchet) {
+    if constexpr (Rows::kAngular && !kRatchet) {
       for (int i = 0; i < turn.count; ++i) {
         const SolverRule<Real>& rule = turn.rule[i];
         if (rule.role == RowRole::Limit) (rule.sign > 0 ? range.lower : range.upper) = rule.origin;
@@ -468,9 +468,9 @@ struct JointConstraint {
     if constexpr (kAngle == AngleUse::Geared) {
       // Gears are assembled with matching teeth: initially, b gets the matching turn.
       const bool is_new = angle.count == TurnCount::New;
-      angle.a = nearest_turn(angle_of(q_a), angle.a + (is_new ? 0 : h * w_a));
+      angle.a = unwrap_angle(angle_of(q_a), angle.a + (is_new ? 0 : h * w_a));
       const double fits = kind.exact_ratio * angle.a + kind.reference;
-      angle.b = nearest_turn(angle_of(q_b), is_new ? fits : angle.b + h * w_b);
+      angle.b = unwrap_angle(angle_of(q_b), is_new ? fits : angle.b + h * w_b);
       angle.start = angle.b - fits;
       angle.start_a = angle.a;
     } else {
@@ -481,7 +481,7 @@ struct JointConstraint {
       } else {
         double last = angle.b - kind.reference + h * (w_b - w_a);
         if (angle.count == TurnCount::Limited) last = std::min(std::max(last, range.lower), range.upper);
-        angle.start = nearest_turn(now, last);
+        angle.start = unwrap_angle(now, last);
       }
       angle.b = angle.start + kind.reference;
     }
@@ -490,20 +490,20 @@ struct JointConstraint {
   }
 
   /// Advances the ratchet past a tooth; it will not go back behind that tooth.
-  void click(Real now) requires kRatchet {
+  void advance_ratchet(Real now) requires kRatchet {
     const double tooth = kind.tooth_at(now);
     if (tooth > memory.value) memory.value = tooth;
-    recall();
+    restore_rule();
   }
 
   /// Sets the length of a rope without a given one to the placed length.
-  void recall_length(const SolverBodies<Real>& bodies) requires kPulley {
+  void init_length(const SolverBodies<Real>& bodies) requires kPulley {
     if (memory.known == 0) {
       JointRows<Real> rows;
       kind.evaluate(pose(bodies), rows);
       memory = {static_cast<double>(rows.axial[0].residual), 1};
     }
-    recall();
+    restore_rule();
   }
 };
 

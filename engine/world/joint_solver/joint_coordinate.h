@@ -37,17 +37,17 @@ struct JointCoordinate {
   void scale(Real factor) {
     for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
   }
-  void forget() {
+  void reset() {
     row = {};
     for (auto& each : rule) each.impulse = each.drift = 0;
   }
 
   /// Records the coordinate at the start of a step, and at the end of each substep.
-  [[gnu::always_inline]] void start_at(Real q) {
+  [[gnu::always_inline]] void start_drift(Real q) {
     for (int i = 0; i < count; ++i) rule[i].last = q;
   }
-  [[gnu::always_inline]] void follow(Real q, Scalar<Real> h) {
-    for (int i = 0; i < count; ++i) rule[i].follow(q, h);
+  [[gnu::always_inline]] void update_drift(Real q, Scalar<Real> h) {
+    for (int i = 0; i < count; ++i) rule[i].update_drift(q, h);
   }
 
   /// Returns the sum of all rules' lambda along +q.
@@ -74,18 +74,19 @@ struct JointCoordinate {
 
   /// Evaluates the rules at the coordinate `q`, at the pose of `row`.
   [[gnu::always_inline]] void evaluate(Real q, const JointVelocities<Real>& v,
-                                       const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
+                                       const JointStep<Scalar<Real>>& step,
+                                       UnderRelaxation<Real> relaxation) {
     if (count == 0) return;
     inverse_mass = mobility(v);
-    evaluate(q, step, part);
+    evaluate(q, step, relaxation);
   }
   /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`: its response if the
   /// joint is solved alone, with these rows before and after the spring.
   [[gnu::always_inline]] void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held,
                                                     const JointStep<Scalar<Real>>& step,
-                                                    JointShare<Real> part) {
-    inverse_mass = select(part.share < Real(1), mobility(v), held);
-    evaluate(q, step, part);
+                                                    UnderRelaxation<Real> relaxation) {
+    inverse_mass = select(relaxation.factor < Real(1), mobility(v), held);
+    evaluate(q, step, relaxation);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     if (count > 0) apply(v, impulse());
@@ -99,7 +100,7 @@ struct JointCoordinate {
       SolverRule<Real>& r = rule[i];
       const RowTerm<Real>& t = solved[i].term[pass];
       const Real wanted = r.impulse - t.mass * (r.sign * rate + t.bias) - t.scale * r.impulse;
-      const Real total = min(max(wanted, r.lower()), r.most);
+      const Real total = min(max(wanted, r.lower()), r.max_impulse);
       const Real delta = r.sign * (total - r.impulse);
       r.impulse = total;
       rate += inverse_mass * delta;
@@ -109,8 +110,9 @@ struct JointCoordinate {
   }
 
  private:
-  [[gnu::always_inline]] void evaluate(Real q, const JointStep<Scalar<Real>>& step, JointShare<Real> part) {
-    for (int i = 0; i < count; ++i) rule[i].terms(q, inverse_mass, part, step, solved[i].term);
+  [[gnu::always_inline]] void evaluate(Real q, const JointStep<Scalar<Real>>& step,
+                                       UnderRelaxation<Real> relaxation) {
+    for (int i = 0; i < count; ++i) rule[i].terms(q, inverse_mass, relaxation, step, solved[i].term);
   }
   [[gnu::always_inline]] Real along(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {

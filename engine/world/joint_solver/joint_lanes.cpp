@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/joint_solver/joint_opening.h"
 
 namespace plumb {
 namespace {
 
 // Minimum number of joints in a block: fewer cost less when solved one at a time.
-constexpr int kLeastLanes = 3;
+constexpr int kMinLanes = 3;
 // Maximum number of kinds of joints of a colour for which blocks are filled side by side. Joints of further
 // kinds are solved one at a time.
-constexpr int kKinds = 8;
+constexpr int kMaxKinds = 8;
 
 // Calls a function that is inlined and compiled for registers of this many bytes.
 template <int kBytes>
@@ -52,20 +52,20 @@ std::uint64_t kind_of_lanes(const Joint& joint) {
     for (int i = 0; i < coordinate.count; ++i)
       key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
   };
-  if constexpr (Joint::Rows::kTurn) add(joint.turn);
+  if constexpr (Joint::Rows::kAngular) add(joint.turn);
   for (const auto& coordinate : joint.axial) add(coordinate);
   return key;
 }
 
 /// Sets the properties that joints of the kind have in common.
 template <class Lanes, class Joint>
-void take_kind(Lanes& block, const Joint& from) {
+void copy_kind(Lanes& block, const Joint& from) {
   block.alone = from.alone;
   const auto take = [](auto& coordinate, const auto& other) {
     coordinate.count = other.count;
     for (int i = 0; i < other.count; ++i) coordinate.rule[i].role = other.rule[i].role;
   };
-  if constexpr (Joint::Rows::kTurn) take(block.turn, from.turn);
+  if constexpr (Joint::Rows::kAngular) take(block.turn, from.turn);
   for (int i = 0; i < Joint::kAxial; ++i) take(block.axial[i], from.axial[i]);
 }
 
@@ -79,7 +79,8 @@ template <class Lanes, class Joint, class Visit>
     for (int i = 0; i < x.count; ++i) {
       auto& p = x.rule[i];
       auto& q = y.rule[i];
-      visit(p.sign, q.sign), visit(p.origin, q.origin), visit(p.speed, q.speed), visit(p.most, q.most);
+      visit(p.sign, q.sign), visit(p.origin, q.origin), visit(p.speed, q.speed),
+          visit(p.max_impulse, q.max_impulse);
       visit(p.spring.rate, q.spring.rate), visit(p.spring.compliance, q.spring.compliance);
       visit(p.impulse, q.impulse), visit(p.drift, q.drift);
     }
@@ -88,7 +89,7 @@ template <class Lanes, class Joint, class Visit>
   pair(block.kind.anchor_a, one.kind.anchor_a), pair(block.kind.anchor_b, one.kind.anchor_b);
   if constexpr (requires { one.kind.axis; }) pair(block.kind.axis, one.kind.axis);
   if constexpr (Joint::kAngle != AngleUse::None) visit(block.angle.start, one.angle.start);
-  if constexpr (Joint::Rows::kTurn) coordinate(block.turn, one.turn);
+  if constexpr (Joint::Rows::kAngular) coordinate(block.turn, one.turn);
   for (int i = 0; i < Joint::kAxial; ++i) coordinate(block.axial[i], one.axial[i]);
   if constexpr (Joint::kBlock > 0)
     for (int i = 0; i < Joint::kBlock; ++i) visit(block.block.impulse[i], one.block.impulse[i]);
@@ -126,12 +127,13 @@ struct LanePairs {
       return Rotation<Number>{Number::of([&](int i) __attribute__((always_inline)) { return at(i).c; }),
                               Number::of([&](int i) __attribute__((always_inline)) { return at(i).s; })};
     };
-    return {a.moved, b.moved, a.turned, b.turned, rotation(a.place), rotation(b.place)};
+    return {a.delta_position, b.delta_position,  a.delta_angle,
+            b.delta_angle,    rotation(a.place), rotation(b.place)};
   }
   template <class Block>
   [[gnu::always_inline]] void store(const Block& block) const {
-    if (block.gives_way_a) a.store(v.v_a, v.w_a);
-    if (block.gives_way_b) b.store(v.v_b, v.w_b);
+    if (block.dynamic_a) a.store(v.v_a, v.w_a);
+    if (block.dynamic_b) b.store(v.v_b, v.w_b);
   }
 };
 
@@ -144,9 +146,9 @@ void JointBlocks<Joint>::begin(VectorWidth width) {
 }
 
 template <class Joint>
-void JointBlocks<Joint>::sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
+void JointBlocks<Joint>::sort(std::vector<Joint>& joints, const SolverBody<Real>* motion,
                               const std::vector<char>& apart) {
-  ensure_room(alone_, alone_.size() + joints.size());
+  ensure_capacity(alone_, alone_.size() + joints.size());
   if constexpr (kWide)
     if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, apart);
   if constexpr (kNarrow)
@@ -159,27 +161,27 @@ template <int kBytes>
 void JointBlocks<Joint>::add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints,
                                    int count, std::uint64_t kind) {
   if (place == static_cast<int>(blocks.size())) {
-    ensure_room(blocks, blocks.size() + 1);
+    ensure_capacity(blocks, blocks.size() + 1);
     blocks.emplace_back();
   }
   Block<kBytes>& block = blocks[place];
   for (int i = 0; i < block.kLanes; ++i) block.from[i] = joints[std::min(i, count - 1)];
-  block.gives_way_a = (kind & 1) != 0, block.gives_way_b = (kind & 2) != 0;
+  block.dynamic_a = (kind & 1) != 0, block.dynamic_b = (kind & 2) != 0;
   ++count_;
 }
 
 template <class Joint>
 template <int kBytes>
-void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion,
+void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const SolverBody<Real>* motion,
                                    const std::vector<char>& apart) {
   constexpr int kLanes = Block<kBytes>::kLanes;
-  struct Waiting {
+  struct PartialBlock {
     std::uint64_t kind;
     int count = 0;
     Joint* joint[kLanes];
-  } waiting[kKinds];
+  } partial[kMaxKinds];
   int kinds = 0;
-  const auto add = [&](const Waiting& from) {
+  const auto add = [&](const PartialBlock& from) {
     if constexpr (kNarrow) {
       if (from.count <= Block<16>::kLanes) {
         append(places_, -1 - narrow_);
@@ -193,7 +195,7 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<
   };
   for (Joint& joint : joints) {
     if constexpr (Joint::kPlainHinge)
-      if (joint.held) continue;
+      if (joint.external) continue;
     if (!apart.empty() && apart[joint.joint]) {
       alone_.push_back(&joint);
       continue;
@@ -201,19 +203,19 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const BodyMotion<
     const std::uint64_t kind = kind_of_lanes(joint) << 2 | std::uint64_t{is_dynamic(motion[joint.b])} << 1 |
                                std::uint64_t{is_dynamic(motion[joint.a])};
     int place = 0;
-    while (place < kinds && waiting[place].kind != kind) ++place;
-    if (place == kKinds) {
+    while (place < kinds && partial[place].kind != kind) ++place;
+    if (place == kMaxKinds) {
       alone_.push_back(&joint);
       continue;
     }
-    Waiting& of_kind = waiting[place];
+    PartialBlock& of_kind = partial[place];
     if (place == kinds) ++kinds, of_kind.kind = kind;
     of_kind.joint[of_kind.count++] = &joint;
     if (of_kind.count == kLanes) add(of_kind), of_kind.count = 0;
   }
   for (int place = 0; place < kinds; ++place) {
-    const Waiting& rest = waiting[place];
-    if (rest.count >= kLeastLanes) {
+    const PartialBlock& rest = partial[place];
+    if (rest.count >= kMinLanes) {
       add(rest);
     } else {
       alone_.insert(alone_.end(), rest.joint, rest.joint + rest.count);
@@ -247,7 +249,7 @@ template <class Run>
 
 template <class Joint>
 void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& bodies,
-                                 const JointStep<Real>& step, ShareOf share, const void* data) {
+                                 const JointStep<Real>& step, FactorOf factor_of, const void* data) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
         for (int i = 0; i < block.kLanes; ++i) {
@@ -256,39 +258,40 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         }
         load_masses(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
         load_masses(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
-        take_kind(block.joint, *block.from[0]);
+        copy_kind(block.joint, *block.from[0]);
         const auto load = [&](Number & x, const auto& lane) __attribute__((always_inline)) {
           x = Number::of([&](int i) __attribute__((always_inline)) { return static_cast<Real>(lane(i)); });
         };
         visit_inputs(block.joint, *block.from[0], in_lanes(block.from, load));
-        block.joint.share = 1;
+        block.joint.under_relaxation = 1;
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
         // Evaluates twice if the joints are under-relaxed: the factor follows from their rows, and their
         // effective masses from the factor. A loop keeps the code small.
-        for (bool has_share = false;; has_share = true) {
+        for (bool has_factor = false;; has_factor = true) {
           block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
-          if (has_share) return;
+          if (has_factor) return;
           store_results(block);
           bool all = true;
           for (int i = 0; i < block.kLanes; ++i) {
-            block.from[i]->share = share(data, *block.from[i]);
-            all = all && block.from[i]->share == 1;
+            block.from[i]->under_relaxation = factor_of(data, *block.from[i]);
+            all = all && block.from[i]->under_relaxation == 1;
           }
           if (all) return;
-          block.joint.share =
-              Number::of([&](int i) __attribute__((always_inline)) { return block.from[i]->share; });
+          block.joint.under_relaxation = Number::of([&](int i) __attribute__((always_inline)) {
+            return block.from[i]->under_relaxation;
+          });
         }
       });
 }
 
 template <class Joint>
-void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& of,
-                               const JointStep<Real>& settings) {
+void JointBlocks<Joint>::run_stage(JointStage stage, int first, int last, const SolverBodies<Real>& of,
+                                   const JointStep<Real>& settings) {
   const SolverBodies<Real> bodies = of;  // local copies: no pointer can change them
   const JointStep<Real> step = settings;
-  switch (pass) {
-    case JointSweep::WarmStart:
+  switch (stage) {
+    case JointStage::WarmStart:
       return for_each(
           first,
           last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
@@ -296,7 +299,7 @@ void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const Solve
             block.joint.warm_start(pairs.v);
             pairs.store(block);
           });
-    case JointSweep::Solve:
+    case JointStage::Solve:
       return for_each(
           first,
           last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
@@ -304,7 +307,7 @@ void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const Solve
             block.joint.solve(pairs.v, step);
             pairs.store(block);
           });
-    case JointSweep::Relax:
+    case JointStage::Relax:
       return for_each(
           first,
           last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
@@ -316,7 +319,7 @@ void JointBlocks<Joint>::sweep(JointSweep pass, int first, int last, const Solve
 }
 
 template <class Joint>
-void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
+void JointBlocks<Joint>::beyond_limits(int first, int last, SolverBody<Real>* motion, Real slack, Visit visit,
                                        const void* data) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
@@ -325,7 +328,7 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* mo
                                      true);
           const LaneBodies<Number> b(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b,
                                      true);
-          const Number beyond = block.joint.beyond_limits(b.turned - a.turned, slack);
+          const Number beyond = block.joint.limit_opening(b.delta_angle - a.delta_angle, slack);
           if (!any(beyond < Number(0))) return;
           for (int i = 0; i < block.kLanes; ++i)
             if (i == 0 || block.from[i] != block.from[i - 1]) visit(data, *block.from[i]);
@@ -334,13 +337,13 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, BodyMotion<Real>* mo
 }
 
 template <class Joint>
-void JointBlocks<Joint>::open(int first, int last, Real share, Visit visit, const void* data) {
+void JointBlocks<Joint>::open(int first, int last, Real tolerance, Visit visit, const void* data) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
         const Number opening = joint_opening(
             block.joint,
             {block.inverse_mass_a, block.inverse_inertia_a, block.inverse_mass_b, block.inverse_inertia_b},
-            share);
+            tolerance);
         if (!any(opening > Number(0))) return;
         Real value[Number::kLanes];
         opening.store(value);

@@ -25,7 +25,7 @@ struct LanesOfJoints {
 
   std::uint32_t place_a[kLanes], place_b[kLanes];  ///< see kPlaceUnits
   Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
-  bool gives_way_a, gives_way_b;  ///< impulses change the velocities of the bodies a, b
+  bool dynamic_a, dynamic_b;  ///< impulses change the velocities of the bodies a, b
   Joint* from[kLanes];
   typename JointLanes<Joint, Number>::Type joint;
 };
@@ -38,7 +38,7 @@ template <class Real>
 inline constexpr bool kWideLanes = kWidestRegister >= 32;
 
 /// The passes over joints: apply the last impulses; solve with a bias; evaluate and solve without.
-enum class JointSweep { WarmStart, Solve, Relax };
+enum class JointStage { WarmStart, Solve, Relax };
 
 /// Numbers of single joints and of blocks.
 struct JointCounts {
@@ -49,7 +49,7 @@ struct JointCounts {
 template <class Joint>
 class JointBlocks {
  public:
-  using Real = Scalar<decltype(Joint::share)>;
+  using Real = Scalar<decltype(Joint::under_relaxation)>;
 
   JointBlocks() = default;
   JointBlocks(const JointBlocks&) {}
@@ -60,37 +60,37 @@ class JointBlocks {
   /// Sorts joints of a colour, whose step has begun, into blocks and single joints. Joints stay single if
   /// there are few of their kind, or if they are marked in `apart` (by slot) because other code reads or
   /// changes them until `finish`.
-  void sort(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  void sort(std::vector<Joint>& joints, const SolverBody<Real>* motion, const std::vector<char>& apart);
   /// Returns how many there are now.
   JointCounts counts() const { return {count_, static_cast<int>(alone_.size())}; }
   Joint& alone(int place) const { return *alone_[place]; }
   /// Returns the addresses of its single joints, from index `place` on.
   Joint* const* alone_from(int place) const { return alone_.data() + place; }
 
-  /// Fills blocks and evaluates their joints. `share(joint)` returns the under-relaxation factor of an
+  /// Fills blocks and evaluates their joints. `factor_of(joint)` returns the under-relaxation factor of an
   /// evaluated joint.
-  template <class Share>
+  template <class Factor>
   void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
-               const Share& share) {
+               const Factor& factor_of) {
     const auto call = [](const void* it, const Joint& joint) {
-      return (*static_cast<const Share*>(it))(joint);
+      return (*static_cast<const Factor*>(it))(joint);
     };
-    prepare(first, last, bodies, step, call, &share);
+    prepare(first, last, bodies, step, call, &factor_of);
   }
-  void sweep(JointSweep pass, int first, int last, const SolverBodies<Real>& bodies,
-             const JointStep<Real>& step);
+  void run_stage(JointStage stage, int first, int last, const SolverBodies<Real>& bodies,
+                 const JointStep<Real>& step);
   /// Calls `act(joint)` for each joint of a block in which some joint is rotated beyond a limit by more than
   /// `slack`.
   template <class Act>
-  void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, const Act& act) {
+  void beyond_limits(int first, int last, SolverBody<Real>* motion, Real slack, const Act& act) {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
     beyond_limits(first, last, motion, slack, call, &act);
   }
   /// Calls `act(joint)` for the joints of blocks that are open (joint_opening.h); some are visited twice.
   template <class Act>
-  void open(int first, int last, Real share, const Act& act) {
+  void open(int first, int last, Real tolerance, const Act& act) {
     const auto call = [](const void* it, Joint& joint) { (*static_cast<const Act*>(it))(joint); };
-    open(first, last, share, call, &act);
+    open(first, last, tolerance, call, &act);
   }
   /// Writes the results back to the joints.
   void finish(int first, int last, const SolverBodies<Real>& bodies);
@@ -103,20 +103,20 @@ class JointBlocks {
   using Number = Lanes<Real, std::max(4, static_cast<int>(kBytes / sizeof(Real))), kBytes>;
   template <int kBytes>
   using Block = LanesOfJoints<Joint, Number<kBytes>>;
-  using ShareOf = Real (*)(const void*, const Joint&);
+  using FactorOf = Real (*)(const void*, const Joint&);
   using Visit = void (*)(const void*, Joint&);
 
   /// Sorts joints into blocks of `kBytes`; the rest of a kind into narrow blocks if it fits into one.
   template <int kBytes>
-  void sort_into(std::vector<Joint>& joints, const BodyMotion<Real>* motion, const std::vector<char>& apart);
+  void sort_into(std::vector<Joint>& joints, const SolverBody<Real>* motion, const std::vector<char>& apart);
   template <int kBytes>
   void add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints, int count,
                  std::uint64_t kind);
   void prepare(int first, int last, const SolverBodies<Real>& bodies, const JointStep<Real>& step,
-               ShareOf share, const void* data);
-  void beyond_limits(int first, int last, BodyMotion<Real>* motion, Real slack, Visit visit,
+               FactorOf factor_of, const void* data);
+  void beyond_limits(int first, int last, SolverBody<Real>* motion, Real slack, Visit visit,
                      const void* data);
-  void open(int first, int last, Real share, Visit visit, const void* data);
+  void open(int first, int last, Real tolerance, Visit visit, const void* data);
   /// Calls `run(block)` for the blocks from first to last, compiled for their registers.
   template <class Run>
   void for_each(int first, int last, const Run& run);

@@ -11,16 +11,16 @@ namespace plumb {
 template <class Number>
 struct JointOpening {
   const PairMobility<Number> p{};
-  const Scalar<Number> share = 0;  ///< fraction of the link by which a joint may be open
-  Number most = -1;                ///< positive if a row is open by more than is allowed
+  const Scalar<Number> tolerance = 0;  ///< fraction of the link by which a joint may be open
+  Number excess = -1;                  ///< positive if a row is open by more than is allowed
 
   [[gnu::always_inline]] void add(Number error_squared, Number length, Number linear_a, Number angular_a,
                                   Number linear_b, Number angular_b) {
     using std::max, std::min;
-    const Number least = share * share;
+    const Number least = tolerance * tolerance;
     const Number of_bodies = max(error_squared * p.i_a - least * (p.m_a * linear_a + p.i_a * angular_a),
                                  error_squared * p.i_b - least * (p.m_b * linear_b + p.i_b * angular_b));
-    most = max(most, min(of_bodies, error_squared - least * (length * length)));
+    excess = max(excess, min(of_bodies, error_squared - least * (length * length)));
   }
   [[gnu::always_inline]] void rigid(const JointRow<Number>& row, Number error, Number length = 0) {
     add(error * error, length, length_squared(row.linear_a), row.angular_a * row.angular_a,
@@ -32,14 +32,14 @@ struct JointOpening {
 };
 
 /// Returns a positive number if a rigid row of the joint, or a limit along an axis, was open by more than
-/// `share` of its link at the last evaluation. Reads the stored residuals, so that testing all joints costs
-/// little. Limits of angles have a pass of their own (`project_angular_limits`).
+/// a fraction `tolerance` of its link at the last evaluation. Reads the stored residuals, so that testing all
+/// joints costs little. Limits of angles have a pass of their own (`project_angular_limits`).
 template <class Number, template <class> class Kind>
 [[gnu::always_inline]] inline Number joint_opening(const JointConstraint<Number, Kind>& joint,
-                                                   const PairMobility<Number>& p, Scalar<Number> share) {
+                                                   const PairMobility<Number>& p, Scalar<Number> tolerance) {
   using Constraint = JointConstraint<Number, Kind>;
   using std::min;
-  JointOpening<Number> opening{p, share};
+  JointOpening<Number> opening{p, tolerance};
   for (int k = 0; k < Constraint::kAxial; ++k) {
     const auto& coordinate = joint.axial[k];
     for (int i = 0; i < coordinate.count; ++i) {
@@ -55,7 +55,7 @@ template <class Number, template <class> class Kind>
       opening.rigid(joint.block.row[i], joint.block.row[i].residual);
   if constexpr (Kind<Number>::kPoint)
     if (joint.point.rigid()) opening.rigid(joint.point.point);
-  return opening.most;
+  return opening.excess;
 }
 
 }  // namespace plumb

@@ -66,8 +66,8 @@ constexpr bool has_blocks(const std::tuple<Blocks...>*) {
   return (std::is_same_v<JointBlocks<Constraint>, Blocks> || ...);
 }
 template <class Constraint>
-inline constexpr bool kSideBySide =
-    has_blocks<Constraint>(static_cast<const JointLaneStore<Scalar<decltype(Constraint::share)>>*>(nullptr));
+inline constexpr bool kHasLanes = has_blocks<Constraint>(
+    static_cast<const JointLaneStore<Scalar<decltype(Constraint::under_relaxation)>>*>(nullptr));
 
 /// Functions that take their visitor by address, so that they are compiled once, not for each form and pass.
 using VisitRange = void (*)(const void* it, int first, int last);
@@ -108,8 +108,8 @@ template <class Real>
 struct JointSet<Real>::Parts {
   std::vector<JointSlot> slots;
   std::vector<int> free;
-  std::vector<BodyJoints> taken;  ///< by body: its active joints and their colours
-  std::vector<JointRun> runs;     ///< in the order of solving
+  std::vector<BodyJoints> body_joints;  ///< by body: its active joints and their colours
+  std::vector<JointRun> runs;           ///< in the order of solving
   JointStore<Real> store;
   JointLaneStore<Real> lanes;
   int count = 0, active = 0;
@@ -151,21 +151,21 @@ struct JointSet<Real>::Parts {
   /// Returns the first colour that no joint of its dynamic bodies has.
   int free_colour(const JointSlot& s) const;
   /// Sets or clears the joint's colour at its dynamic bodies.
-  void mark(const JointSlot& s, bool here);
+  void mark_colour(const JointSlot& s, bool used);
   /// Creates a constraint from the slot's definition.
   void create(int joint);
   /// Removes the joint's constraint from its list.
-  void take_out(int joint);
+  void erase_constraint(int joint);
   /// Reserves memory for the constraint of a joint whose colour is not marked, so that adding it does not
   /// allocate.
-  void make_room(JointForm form, const JointSlot& s);
+  void reserve_constraint(JointForm form, const JointSlot& s);
   /// Adds a constraint at the slot's colour.
   template <class Constraint>
-  void put(int joint, const Constraint& constraint);
+  void insert_constraint(int joint, const Constraint& constraint);
   /// Sets the slot's state, and moves the constraint to the list that follows from it. Changes nothing if
   /// memory runs out.
-  void put_anew(int joint, bool is_active, bool dynamic_a, bool dynamic_b);
-  void find_runs();
+  void relocate(int joint, bool is_active, bool dynamic_a, bool dynamic_b);
+  void rebuild_runs();
 
  private:
   template <int kForm = 0, class Store, class F>

@@ -38,17 +38,17 @@ template <class Number>
   return {xx, xy, yy, m * (xx + (yy - m)) + cross(a, arm_b) * cross(arm_a, b)};
 }
 
-/// Returns `share` of the effective mass, the inverse of K. If the determinant vanishes to rounding (only
+/// Returns `factor` times the effective mass, the inverse of K. If the determinant vanishes to rounding (only
 /// rotation is free, about one arm), it divides by the trace instead: a short step.
 template <class Real>
-[[gnu::always_inline]] inline Symmetric2<Real> mass_of(const PointResponse<Real>& k, Real share) {
+[[gnu::always_inline]] inline Symmetric2<Real> mass_of(const PointResponse<Real>& k, Real factor) {
   const Real trace = k.xx + k.yy;
-  const Real inverse = share / k.determinant;
+  const Real inverse = factor / k.determinant;
   const Symmetric2<Real> mass{inverse * k.yy, -inverse * k.xy, inverse * k.xx};
   const auto regular = k.determinant > std::numeric_limits<Scalar<Real>>::epsilon() * (trace * trace);
   if (all(regular)) [[likely]]
     return mass;
-  const Real by_trace = select(trace > Real(0), Real(share / trace), Real(0));
+  const Real by_trace = select(trace > Real(0), Real(factor / trace), Real(0));
   return {select(regular, mass.xx, by_trace), select(regular, mass.xy, Real(0)),
           select(regular, mass.yy, by_trace)};
 }
@@ -64,23 +64,23 @@ struct RigidPoint {
 
   /// Writes single components: a pair stored by halves and loaded as one would stall.
   [[gnu::always_inline]] void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
-                                       const JointStep<Scalar<Real>>&, JointShare<Real> part) {
+                                       const JointStep<Scalar<Real>>&, UnderRelaxation<Real> relaxation) {
     point.gap.x = at.gap.x, point.gap.y = at.gap.y;
     point.arm_a.x = at.arm_a.x, point.arm_a.y = at.arm_a.y;
     point.arm_b.x = at.arm_b.x, point.arm_b.y = at.arm_b.y;
-    const Symmetric2<Real> response = mass_of(point_response(v, at.arm_a, at.arm_b), part.share);
+    const Symmetric2<Real> response = mass_of(point_response(v, at.arm_a, at.arm_b), relaxation.factor);
     mass.xx = response.xx, mass.xy = response.xy, mass.yy = response.yy;
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     v.apply(impulse, point.arm_a, point.arm_b);
   }
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
-                                    JointPass pass, Real share) {
+                                    JointPass pass, Real factor) {
     const Vec2<Real> rate = v.at(point.arm_a, point.arm_b);
     const Vec2<Real> delta =
         pass == kRelax
             ? -(mass * rate)
-            : -(Real(soft.mass_scale) * (mass * (rate + (share * Real(soft.bias_rate)) * point.gap)) +
+            : -(Real(soft.mass_scale) * (mass * (rate + (factor * Real(soft.bias_rate)) * point.gap)) +
                 Real(soft.impulse_scale) * impulse);
     impulse += delta;
     v.apply(delta, point.arm_a, point.arm_b);
@@ -109,25 +109,25 @@ struct SoftPoint {
   }
 
   /// Records the gap at the end of a substep; the gap at its start is that of `point`.
-  [[gnu::always_inline]] void follow(Vec2<Real> gap) {
+  [[gnu::always_inline]] void update_drift(Vec2<Real> gap) {
     if (rule.role != RowRole::Motor) return;
-    const bool suffices = length_squared(impulse) < rule.most * rule.most;
+    const bool suffices = length_squared(impulse) < rule.max_impulse * rule.max_impulse;
     drift = suffices ? drift + (gap - point.gap) : Vec2<Real>{};
   }
 
   [[gnu::always_inline]] bool rigid() const {
-    return rule.role == RowRole::Rigid && rule.most == std::numeric_limits<Real>::infinity();
+    return rule.role == RowRole::Rigid && rule.max_impulse == std::numeric_limits<Real>::infinity();
   }
 
   [[gnu::always_inline]] void evaluate(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
-                                       const JointStep<Real>& step, JointShare<Real> part) {
+                                       const JointStep<Real>& step, UnderRelaxation<Real> relaxation) {
     const PointResponse<Real> k = point_response(v, at.arm_a, at.arm_b);
     point = at;
-    if (rule.role == RowRole::Spring) return evaluate_spring(k, step, part);
+    if (rule.role == RowRole::Spring) return evaluate_spring(k, step, relaxation);
     mass = mass_of(k, Real(1));
     RowTerm<Real> term[2]{};
     rule.drift = 1;
-    rule.terms(1, 1, part, step, term);
+    rule.terms(1, 1, relaxation, step, term);
     for (int pass = 0; pass < 2; ++pass) {
       bias[pass] = term[pass].bias * (rule.role == RowRole::Motor ? drift : at.gap);
       mass_scale[pass] = term[pass].mass;
@@ -138,9 +138,9 @@ struct SoftPoint {
   /// response if the joint is solved alone.
   void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
                              const PointResponse<Real>& held, const JointStep<Real>& step,
-                             JointShare<Real> part) {
+                             UnderRelaxation<Real> relaxation) {
     point = at;
-    evaluate_spring(part.share == 1 ? held : point_response(v, at.arm_a, at.arm_b), step, part);
+    evaluate_spring(relaxation.factor == 1 ? held : point_response(v, at.arm_a, at.arm_b), step, relaxation);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     v.apply(impulse, point.arm_a, point.arm_b);
@@ -152,14 +152,15 @@ struct SoftPoint {
     if (rule.role == RowRole::Spring) rate += compliance * before;
     impulse = before - mass_scale[pass] * (mass * rate) - impulse_scale[pass] * before;
     const Real size = length_squared(impulse);
-    if (size > rule.most * rule.most) impulse *= rule.most / std::sqrt(size);
+    if (size > rule.max_impulse * rule.max_impulse) impulse *= rule.max_impulse / std::sqrt(size);
     v.apply(impulse - before, point.arm_a, point.arm_b);
   }
 
  private:
   // See SolverRule::terms. The point responds with `k`, the spring has one stiffness in all directions.
-  void evaluate_spring(const PointResponse<Real>& k, const JointStep<Real>& step, JointShare<Real> part) {
-    const Real share = part.share;
+  void evaluate_spring(const PointResponse<Real>& k, const JointStep<Real>& step,
+                       UnderRelaxation<Real> relaxation) {
+    const Real factor = relaxation.factor;
     const SpringTerm<Real>& spring = rule.spring;
     const Real trace = k.xx + k.yy;
     // Stiffness counts in the direction in which the bodies are lightest.
@@ -167,7 +168,7 @@ struct SoftPoint {
     const Real lightest = Real(0.5) * (trace + std::sqrt(apart * apart + 4 * k.xy * k.xy));
     constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
     compliance = std::max(spring.compliance, lightest / kFirmest);
-    if (!(lightest > part.stiffest(step.stiffest) * compliance)) {
+    if (!(lightest > relaxation.max_stiffness(step.max_stiffness) * compliance)) {
       // The determinant of K + compliance 1: nothing cancels.
       const Real determinant = k.determinant + compliance * (trace + compliance);
       mass = mass_of({k.xx + compliance, k.xy, k.yy + compliance, determinant}, Real(1));
@@ -180,10 +181,10 @@ struct SoftPoint {
     // Held like a rigid point: in proportion to the effective mass, of which the average counts.
     const bool regular = k.determinant > std::numeric_limits<Real>::epsilon() * (trace * trace);
     const Real mean = regular ? 2 * k.determinant / trace : trace;
-    const StiffSpring<Real> stiff(spring, mean / compliance, share, step);
+    const StiffSpring<Real> stiff(spring, mean / compliance, factor, step);
     compliance = 0;
-    mass = mass_of(k, share);
-    bias[kSolve] = (share * stiff.rate) * point.gap;
+    mass = mass_of(k, factor);
+    bias[kSolve] = (factor * stiff.rate) * point.gap;
     bias[kRelax] = {};
     mass_scale[kSolve] = stiff.mass_scale, impulse_scale[kSolve] = stiff.impulse_scale;
     mass_scale[kRelax] = 1, impulse_scale[kRelax] = 0;

@@ -13,8 +13,8 @@ namespace plumb {
 
 /// Writes back velocities and the corresponding positions.
 template <class Real>
-void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>& before, BodyMotion<Real>& a,
-                     BodyMotion<Real>& b, Rotation<Real>& rotation_a, Rotation<Real>& rotation_b, Real h) {
+void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>& before, SolverBody<Real>& a,
+                     SolverBody<Real>& b, Rotation<Real>& rotation_a, Rotation<Real>& rotation_b, Real h) {
   v.store(a, b);
   if (v.m_a + v.i_a > 0) follow(a, rotation_a, before.v_a, before.w_a, h);
   if (v.m_b + v.i_b > 0) follow(b, rotation_b, before.v_b, before.w_b, h);
@@ -38,13 +38,13 @@ template <class Real, template <class> class Kind>
 void project(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
              const JointStep<Real>& step) {
   using Constraint = JointConstraint<Real, Kind>;
-  BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  SolverBody<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
   JointVelocities<Real> v = velocities_of(bodies, joint);
   const JointVelocities<Real> before = v;
   const Real h = step.h;
 
   const JointPose<Real> at = joint.pose(bodies);
-  joint.remember(motion_of(bodies, joint.a, joint.b));
+  joint.store_angles(motion_of(bodies, joint.a, joint.b));
   JointRows<Real> rows;
   joint.kind.evaluate(at, rows);
   if constexpr (Constraint::kHasRows) joint.arm_b = rows.arm_b;

@@ -7,7 +7,7 @@
 #include "engine/joints/joint_angle.h"
 #include "engine/joints/joint_row.h"
 #include "engine/math/lanes.h"
-#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/solver_body.h"
 #include "engine/world/joint_solver/joint_set.h"
 
 namespace plumb {
@@ -26,20 +26,20 @@ struct RowTerm {
 
 /// Returns `yes` where the mask is set, `no` elsewhere.
 template <class Mask, class Real>
-[[gnu::always_inline]] inline RowTerm<Real> either(const Mask& mask, const RowTerm<Real>& yes,
-                                                   const RowTerm<Real>& no) {
+[[gnu::always_inline]] inline RowTerm<Real> select_term(const Mask& mask, const RowTerm<Real>& yes,
+                                                        const RowTerm<Real>& no) {
   return {select(mask, yes.bias, no.bias), select(mask, yes.mass, no.mass),
           select(mask, yes.scale, no.scale)};
 }
 
 /// Under-relaxation of a joint that shares bodies with others.
 template <class Real>
-struct JointShare {
-  Real share = 1;      ///< fraction of its impulses that is applied at a time
+struct UnderRelaxation {
+  Real factor = 1;     ///< fraction of its impulses that is applied at a time
   bool alone = false;  ///< no other joint moves its bodies
 
-  [[gnu::always_inline]] Real stiffest(Scalar<Real> shared) const {
-    return alone ? Real(std::numeric_limits<Scalar<Real>>::infinity()) : shared * share;
+  [[gnu::always_inline]] Real max_stiffness(Scalar<Real> shared) const {
+    return alone ? Real(std::numeric_limits<Scalar<Real>>::infinity()) : shared * factor;
   }
 };
 
@@ -57,36 +57,36 @@ struct SpringTerm {
 template <class Real>
 SpringTerm<Real> spring_term(const Spring& spring, double mobility, double h) {
   constexpr double kMost = std::numeric_limits<Real>::max() / 4;  // finite when added to a mobility
-  const double omega = kWholeTurn * spring.hertz;
+  const double omega = kTwoPi * spring.hertz;
   const double a = 2 * spring.damping_ratio + h * omega;
   const double compliance = mobility > 0 ? std::min(mobility / (h * omega * a), kMost) : kMost;
   return {static_cast<Real>(omega / a), static_cast<Real>(compliance)};
 }
 
-/// A spring too stiff for sequential impulses: h (c + h k) times the mobility is above `JointStep::stiffest`.
-/// The error of an iteration would return through the gap with equal force, and grow from substep to substep.
-/// So the spring is treated like rigid rows: its bias is limited to theirs, and it is relaxed. While it is
-/// softer than they are, it rests at the deflection of its load.
+/// A spring too stiff for sequential impulses: h (c + h k) times the mobility is above
+/// `JointStep::max_stiffness`. The error of an iteration would return through the gap with equal force, and
+/// grow from substep to substep. So the spring is treated like rigid rows: its bias is limited to theirs, and
+/// it is relaxed. While it is softer than they are, it rests at the deflection of its load.
 template <class Real>
 struct StiffSpring {
   Real rate = 0, mass_scale = 1, impulse_scale = 0;
 
-  [[gnu::always_inline]] StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real share,
+  [[gnu::always_inline]] StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real factor,
                                      const JointStep<Scalar<Real>>& step) {
     using std::max, std::min, std::sqrt;
     const Softness<Scalar<Real>>& rigid = step.softness;
     // h^2 k and h c, times the mobility.
-    const Real most = rigid.impulse_scale > 0
-                          ? step.h * step.stiff_rate * rigid.mass_scale / rigid.impulse_scale
-                          : step.stiffest;
+    const Real max_elastic = rigid.impulse_scale > 0
+                                 ? step.h * step.stiff_rate * rigid.mass_scale / rigid.impulse_scale
+                                 : step.max_stiffness;
     const Real elastic = step.h * spring.rate * firmness;
-    const Real k = min(elastic, most);
+    const Real k = min(elastic, max_elastic);
     // Keeps the settling time c / k if k was reduced.
     const Real damping =
         select(elastic > Real(0), Real(max(Real(firmness - elastic), Real(0)) * (k / elastic)), Real(0));
     // Largest damping for which a star of a hundred is stable.
     constexpr Scalar<Real> kMostDamping = 10;
-    const Real c = select(share < Real(1), Real(min(damping, Real(2 * kMostDamping * sqrt(k)))), damping);
+    const Real c = select(factor < Real(1), Real(min(damping, Real(2 * kMostDamping * sqrt(k)))), damping);
     const Real held = max(Real(k + c), Real(k / (step.h * step.stiff_rate)));
     rate = k / (step.h * held);
     mass_scale = held / (1 + held);
@@ -99,7 +99,7 @@ template <class Real>
 struct SolverRule {
   RowRole role = RowRole::Rigid;
   Real sign = 1, origin = 0, speed = 0;
-  Real most = std::numeric_limits<Scalar<Real>>::infinity();  ///< N s or N m s, in a substep
+  Real max_impulse = std::numeric_limits<Scalar<Real>>::infinity();  ///< N s or N m s, in a substep
   SpringTerm<Real> spring{};
   Real impulse = 0;
   /// m or rad: deviation of a motor from its target motion, summed while its force suffices.
@@ -116,30 +116,30 @@ struct SolverRule {
     speed = static_cast<Real>(rule.speed);
   }
   void set_substep(const RowRule& rule, double spring_mobility, double h) {
-    most = static_cast<Real>(rule.max_force * h);
+    max_impulse = static_cast<Real>(rule.max_force * h);
     if (role == RowRole::Spring) spring = spring_term<Real>(rule.spring, spring_mobility, h);
   }
 
   /// Updates a motor's drift over a substep that ended at `q`.
-  [[gnu::always_inline]] void follow(Real q, Scalar<Real> h) {
+  [[gnu::always_inline]] void update_drift(Real q, Scalar<Real> h) {
     if (role != RowRole::Motor) return;
     using std::max;
     const Real size = max(impulse, Real(-impulse));
-    drift = select(size < most, Real(drift + sign * (q - last) - speed * h), Real(0));
+    drift = select(size < max_impulse, Real(drift + sign * (q - last) - speed * h), Real(0));
     last = q;
   }
 
   /// Computes both terms for a coordinate at `q` with the given mobility, at the poses after a substep:
   /// `relax` of this substep, `solve` of the next one. A spring's force belongs to the pose at the start of
   /// the substep: one impulse per substep, in both passes.
-  [[gnu::always_inline]] void terms(Real q, Real mobility, JointShare<Real> part,
+  [[gnu::always_inline]] void terms(Real q, Real mobility, UnderRelaxation<Real> relaxation,
                                     const JointStep<Scalar<Real>>& step, RowTerm<Real> (&term)[2]) const {
-    const Real share = part.share;
+    const Real factor = relaxation.factor;
     const Real c = sign * (q - origin);
     const auto moves = mobility > Real(0);
-    const Real mass = select(moves, Real(share / mobility), Real(0));
+    const Real mass = select(moves, Real(factor / mobility), Real(0));
     const Softness<Scalar<Real>>& rigid = step.softness;
-    const RowTerm<Real> pull{share * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
+    const RowTerm<Real> pull{factor * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
     const RowTerm<Real> hold{0, mass, 0};
     switch (role) {
       case RowRole::Rigid:
@@ -152,11 +152,12 @@ struct SolverRule {
         const Real inverse = select(moves, Real(Real(1) / (mobility + compliance)), Real(0));
         term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
         term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
-        if (const auto firm = mobility > part.stiffest(step.stiffest) * compliance; any(firm)) [[unlikely]] {
-          const StiffSpring<Real> stiff(spring, mobility / compliance, share, step);
-          term[kSolve] = either(firm, {share * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale},
-                                term[kSolve]);
-          term[kRelax] = either(firm, hold, term[kRelax]);
+        if (const auto firm = mobility > relaxation.max_stiffness(step.max_stiffness) * compliance; any(firm))
+            [[unlikely]] {
+          const StiffSpring<Real> stiff(spring, mobility / compliance, factor, step);
+          term[kSolve] = select_term(
+              firm, {factor * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale}, term[kSolve]);
+          term[kRelax] = select_term(firm, hold, term[kRelax]);
         }
         return;
       }
@@ -164,18 +165,19 @@ struct SolverRule {
         // An open limit may close within the substep, but no faster.
         const auto open = c > Real(0);
         const RowTerm<Real> close{c * step.inverse_h, mass, 0};
-        term[kSolve] = either(open, close, pull), term[kRelax] = either(open, close, hold);
+        term[kSolve] = select_term(open, close, pull), term[kRelax] = select_term(open, close, hold);
         return;
       }
       case RowRole::Motor:
         // As for rigid rows, use decaying impulses and position feedback. With undiminished impulses, legs
         // with many held hips would oscillate with growing amplitude.
         term[kSolve] = term[kRelax] = {-speed, mass, 0};
-        if (!part.alone) term[kSolve] = {share * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
+        if (!relaxation.alone)
+          term[kSolve] = {factor * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
         return;
     }
   }
-  [[gnu::always_inline]] Real lower() const { return role == RowRole::Limit ? Real(0) : Real(-most); }
+  [[gnu::always_inline]] Real lower() const { return role == RowRole::Limit ? Real(0) : Real(-max_impulse); }
 };
 
 }  // namespace plumb

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/joints/joint_check.h"
 #include "engine/scene/error.h"
 #include "engine/world/joint_solver/joint_parts.h"
@@ -59,20 +59,20 @@ void hinge_impulse(Parts& parts, int joint, F&& f) {
 template <class Real>
 int JointSet<Real>::Parts::free_colour(const JointSlot& s) const {
   std::uint32_t used = 0;
-  if (s.moves_a()) used |= taken[s.a].colours;
-  if (s.dynamic_b) used |= taken[s.b].colours;
+  if (s.moves_a()) used |= body_joints[s.a].colours;
+  if (s.dynamic_b) used |= body_joints[s.b].colours;
   return std::min(std::countr_one(used), kOverflowColour);
 }
 
 template <class Real>
-void JointSet<Real>::Parts::mark(const JointSlot& s, bool here) {
+void JointSet<Real>::Parts::mark_colour(const JointSlot& s, bool used) {
   if (s.colour == kParked) return;
   const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
   for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
     if (!moves) continue;
-    BodyJoints& joints = taken[body];
-    joints.colours = here ? joints.colours | bit : joints.colours & ~bit;
-    joints.count += here ? 1 : -1;
+    BodyJoints& joints = body_joints[body];
+    joints.colours = used ? joints.colours | bit : joints.colours & ~bit;
+    joints.count += used ? 1 : -1;
   }
 }
 
@@ -80,7 +80,7 @@ template <class Real>
 void JointSet<Real>::Parts::create(int joint) {
   JointSlot& s = slot(joint);
   const std::size_t bodies = static_cast<std::size_t>(std::max(s.a, s.b)) + 1;
-  if (taken.size() < bodies) taken.resize(std::max(bodies, 2 * taken.size()));
+  if (body_joints.size() < bodies) body_joints.resize(std::max(bodies, 2 * body_joints.size()));
   s.form = form_of(s.definition);
   with(s.form, [&](auto& lists) {
     typename std::decay_t<decltype(lists[0])>::value_type constraint;
@@ -89,64 +89,64 @@ void JointSet<Real>::Parts::create(int joint) {
     constraint.b = s.b;
     using Definition = typename decltype(constraint)::Definition;
     constraint.load(std::get<Definition>(s.definition), s.centre_a, s.centre_b);
-    put(joint, constraint);
+    insert_constraint(joint, constraint);
   });
 }
 
 template <class Real>
-void JointSet<Real>::Parts::take_out(int joint) {
+void JointSet<Real>::Parts::erase_constraint(int joint) {
   const JointSlot& s = slot(joint);
   with(s.form, [&](auto& lists) {
     auto& list = lists[s.colour];
     list[s.index] = list.back();
     slot(list[s.index].joint).index = s.index;
     list.pop_back();
-    if (list.empty()) find_runs();
+    if (list.empty()) rebuild_runs();
   });
 }
 
 template <class Real>
 template <class Constraint>
-void JointSet<Real>::Parts::put(int joint, const Constraint& constraint) {
+void JointSet<Real>::Parts::insert_constraint(int joint, const Constraint& constraint) {
   JointSlot& s = slot(joint);
-  make_room(s.form, s);
+  reserve_constraint(s.form, s);
   s.colour = s.active ? free_colour(s) : kParked;
-  mark(s, true);
+  mark_colour(s, true);
   auto& list = std::get<JointLists<Constraint>>(store)[s.colour];
   s.index = static_cast<int>(list.size());
   list.push_back(constraint);
-  if (list.size() == 1) find_runs();
+  if (list.size() == 1) rebuild_runs();
 }
 
 template <class Real>
-void JointSet<Real>::Parts::make_room(JointForm form, const JointSlot& s) {
+void JointSet<Real>::Parts::reserve_constraint(JointForm form, const JointSlot& s) {
   const int colour = s.active ? free_colour(s) : kParked;
   runs.reserve(static_cast<std::size_t>(kForms) * (kOverflowColour + 1));
-  with(form, [&](auto& lists) { ensure_room(lists[colour], lists[colour].size() + 1); });
+  with(form, [&](auto& lists) { ensure_capacity(lists[colour], lists[colour].size() + 1); });
 }
 
 template <class Real>
-void JointSet<Real>::Parts::put_anew(int joint, bool is_active, bool dynamic_a, bool dynamic_b) {
+void JointSet<Real>::Parts::relocate(int joint, bool is_active, bool dynamic_a, bool dynamic_b) {
   JointSlot& s = slot(joint);
   const std::tuple before(s.active, s.dynamic_a, s.dynamic_b);
-  mark(s, false);
+  mark_colour(s, false);
   s.active = is_active, s.dynamic_a = dynamic_a, s.dynamic_b = dynamic_b;
   try {
-    make_room(s.form, s);
+    reserve_constraint(s.form, s);
   } catch (...) {
     std::tie(s.active, s.dynamic_a, s.dynamic_b) = before;
-    mark(s, true);
+    mark_colour(s, true);
     throw;
   }
   with(s.form, [&](auto& lists) {
     const auto constraint = lists[s.colour][s.index];
-    take_out(joint);
-    put(joint, constraint);
+    erase_constraint(joint);
+    insert_constraint(joint, constraint);
   });
 }
 
 template <class Real>
-void JointSet<Real>::Parts::find_runs() {
+void JointSet<Real>::Parts::rebuild_runs() {
   runs.clear();
   for (int colour = 0; colour <= kOverflowColour; ++colour) {
     for (int form = 0; form < kForms; ++form) {
@@ -179,7 +179,7 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
   validate(definition);
   check_bodies(definition, body_a, body_b, dynamic_a, dynamic_b);
   Parts& p = *parts_;
-  ensure_room(p.free, p.slots.size() + 1);  // so that removing a joint does not allocate
+  ensure_capacity(p.free, p.slots.size() + 1);  // so that removing a joint does not allocate
   if (p.free.empty()) {
     p.slots.emplace_back();
     p.free.push_back(static_cast<int>(p.slots.size()) - 1);
@@ -212,9 +212,9 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
 template <class Real>
 void JointSet<Real>::remove(int joint) {
   Parts& p = *parts_;
-  ensure_room(p.free, p.free.size() + 1);
-  p.mark(p.slot(joint), false);
-  p.take_out(joint);
+  ensure_capacity(p.free, p.free.size() + 1);
+  p.mark_colour(p.slot(joint), false);
+  p.erase_constraint(joint);
   --p.count;
   if (p.slot(joint).active) --p.active;
   p.slot(joint) = {};
@@ -226,7 +226,7 @@ void JointSet<Real>::set_active(int joint, bool active) {
   Parts& p = *parts_;
   const JointSlot& s = p.slot(joint);
   if (s.active == active) return;
-  p.put_anew(joint, active, s.dynamic_a, s.dynamic_b);
+  p.relocate(joint, active, s.dynamic_a, s.dynamic_b);
   p.active += active ? 1 : -1;
 }
 
@@ -235,7 +235,7 @@ void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b) {
   Parts& p = *parts_;
   const JointSlot& s = p.slot(joint);
   if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b) return;
-  p.put_anew(joint, s.active, dynamic_a, dynamic_b);
+  p.relocate(joint, s.active, dynamic_a, dynamic_b);
 }
 
 template <class Real>
@@ -251,14 +251,14 @@ void JointSet<Real>::change(int joint, const JointKind& definition) {
   }
   Vec2<Real> impulse{};
   hinge_impulse(p, joint, [&](Vec2<Real>& now) { impulse = now; });
-  p.mark(s, false);
+  p.mark_colour(s, false);
   try {
-    p.make_room(form_of(definition), s);
+    p.reserve_constraint(form_of(definition), s);
   } catch (...) {
-    p.mark(s, true);
+    p.mark_colour(s, true);
     throw;
   }
-  p.take_out(joint);
+  p.erase_constraint(joint);
   s.definition = definition;
   p.create(joint);
   hinge_impulse(p, joint, [&](Vec2<Real>& now) { now = impulse; });
@@ -273,33 +273,33 @@ void JointSet<Real>::recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_
 }
 
 template <class Real>
-void JointSet<Real>::forget(int joint) {
-  parts_->at(joint, [](auto& constraint) { constraint.forget(); });
+void JointSet<Real>::reset(int joint) {
+  parts_->at(joint, [](auto& constraint) { constraint.reset(); });
 }
 
 template <class Real>
-void JointSet<Real>::put_elsewhere(int joint) {
-  parts_->at(joint, [](auto& constraint) { constraint.put_elsewhere(); });
+void JointSet<Real>::reset_impulses(int joint) {
+  parts_->at(joint, [](auto& constraint) { constraint.reset_impulses(); });
 }
 
 template <class Real>
-void JointSet<Real>::meet(int joint, double angle_a, double angle_b) {
-  parts_->at(joint, [=](auto& constraint) { constraint.meet(angle_a, angle_b); });
+void JointSet<Real>::set_initial_angles(int joint, double angle_a, double angle_b) {
+  parts_->at(joint, [=](auto& constraint) { constraint.set_initial_angles(angle_a, angle_b); });
 }
 
 template <class Real>
-void JointSet<Real>::set_carry(int joint, double fraction) {
+void JointSet<Real>::set_warm_start_fraction(int joint, double fraction) {
   assert(fraction >= 0 && fraction <= 1);
   parts_->slot(joint).carry = fraction;
 }
 
 template <class Real>
-double JointSet<Real>::carry(int joint) const {
+double JointSet<Real>::warm_start_fraction(int joint) const {
   return parts_->slot(joint).carry;
 }
 
 template <class Real>
-Real JointSet<Real>::hand_over(int joint) {
+Real JointSet<Real>::take_over(int joint) {
   double& carry = parts_->slot(joint).carry;
   if (carry == 1) return 1;
   const Real fraction = static_cast<Real>(std::exchange(carry, 1));

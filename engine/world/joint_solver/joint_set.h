@@ -10,7 +10,7 @@
 #include "engine/joints/joint_row.h"
 #include "engine/joints/spring_stiffness.h"
 #include "engine/math/vec2.h"
-#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
@@ -23,13 +23,13 @@ struct JointStep {
   Real h = 0;                 ///< s, of a substep
   Real inverse_h = 0;         ///< 1/s
   Softness<Real> softness{};  ///< of rigid rows
-  /// h (c + h k) times the mobility, above which springs are held like rigid rows: `stiffest_spring`.
-  Real stiffest = std::numeric_limits<Real>::infinity();
+  /// h (c + h k) times the mobility, above which springs are held like rigid rows: `max_spring_stiffness`.
+  Real max_stiffness = std::numeric_limits<Real>::infinity();
   Real stiff_rate = 0;  ///< 1/s, at which such springs close their error
   Real warm_start = 1;  ///< ratio of this substep's length to the previous step's: impulses scale with it
   /// Also evaluates joints that are solved with their island, because a reader of the step's joints needs
   /// them at the last pose.
-  bool looks = true;
+  bool evaluates_all = true;
 };
 
 /// Returns the limit of h (c + h k) over the effective mass up to which sequential impulses with warm
@@ -38,8 +38,8 @@ struct JointStep {
 /// a hub down to a thousandth of their mass, are stable at 2 with one iteration per pass. At 12 they are
 /// stable with 6 and more iterations, for any stiffness and damping; from 4 on chains explode with fewer.
 template <class Real>
-Real stiffest_spring(int sweeps) {
-  return static_cast<Real>(2 * std::min(sweeps, 6));
+Real max_spring_stiffness(int iterations) {
+  return static_cast<Real>(2 * std::min(iterations, 6));
 }
 
 /// Position error of a joint.
@@ -54,9 +54,9 @@ template <class Real>
 struct JointSolverRow {
   JointRow<Real> row{};  ///< its target residual is 0; for a limit, at least 0
   RowRole role = RowRole::Rigid;
-  bool pair = false;  ///< `most` bounds the vector of this impulse and that of the previous row
+  bool pair = false;  ///< `max_impulse` bounds the vector of this impulse and that of the previous row
   Real speed = 0;     ///< m/s or rad/s, of a motor
-  Real most = std::numeric_limits<Real>::infinity();  ///< N s or N m s, largest impulse in a substep
+  Real max_impulse = std::numeric_limits<Real>::infinity();  ///< N s or N m s, in a substep
   Real rate = 0;        ///< 1/s, of a spring: J v + rate C + compliance impulse = 0
   Real compliance = 0;  ///< in the unit of its mobility
   Real length = 0;      ///< m, target of its coordinate, of a rod or rope
@@ -66,7 +66,7 @@ struct JointSolverRow {
 
 /// A plain revolute joint that the caller solves in the set's place.
 template <class Real>
-struct HeldHinge {
+struct ExternalHinge {
   Vec2d anchor_a{}, anchor_b{};   ///< m, from the centres of mass, in the bodies' frames
   Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep; valid until joints are added or removed
 };
@@ -117,11 +117,11 @@ class JointSet {
   void set_dynamic(int joint, bool dynamic_a, bool dynamic_b);
   /// Sets the angles of bodies a and b, rad, with their turns: a gear before its first step is assembled at
   /// these. Without it, such angles are in [-pi, pi].
-  void meet(int joint, double angle_a, double angle_b);
+  void set_initial_angles(int joint, double angle_a, double angle_b);
   /// Clears impulses and counted turns, after a body of the joint was replaced.
-  void forget(int joint);
+  void reset(int joint);
   /// Clears impulses, after a body of the joint was repositioned. Its angle is the one nearest to the last.
-  void put_elsewhere(int joint);
+  void reset_impulses(int joint);
 
   /// Evaluates all rows at the start of the step.
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
@@ -138,20 +138,21 @@ class JointSet {
   /// velocity that the bias added. Springs keep their force.
   void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
 
-  /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `most` about
-  /// its common point. Changes poses, not velocities. One iteration; returns true if any joint was turned.
-  /// Call between the motion and `relax`. Does not allocate.
+  /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `max_rotation`
+  /// about its common point. Changes poses, not velocities. One iteration; returns true if any joint was
+  /// turned. Call between the motion and `relax`. Does not allocate.
   bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
-                              Real most, Crew* crew = nullptr);
+                              Real max_rotation, Crew* crew = nullptr);
 
   /// Returns true if the joint's angle was beyond a limit by more than `slack`, rad, at the start of the
   /// step.
   bool began_beyond_limits(int joint, Real slack) const;
 
   /// Sets `open[slot]` (of `slots()` items) for joints of which a rigid row, or a limit along an axis, was
-  /// open after the last `relax` by more than `share` of its link (joint_opening.h); returns true if there
-  /// are any. Call before `finish`. Does not allocate.
-  bool find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open, Crew* crew = nullptr);
+  /// open after the last `relax` by more than a fraction `tolerance` of its link (joint_opening.h); returns
+  /// true if there are any. Call before `finish`. Does not allocate.
+  bool find_open(const SolverBodies<Real>& bodies, Real tolerance, std::vector<char>& open,
+                 Crew* crew = nullptr);
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.
@@ -170,21 +171,21 @@ class JointSet {
   void set_substep(int joint, Real h);
 
   /// Sets the fraction of a joint's impulses that iterations start from if they take the joint over.
-  void set_carry(int joint, double fraction);
+  void set_warm_start_fraction(int joint, double fraction);
   /// Returns that fraction: 1 if the impulses balance a load, 0 if they only stop or drive something.
-  double carry(int joint) const;
+  double warm_start_fraction(int joint) const;
   /// Scales the impulses of a joint that iterations take over by that fraction, and returns the fraction.
-  Real hand_over(int joint);
+  Real take_over(int joint);
 
   /// Returns the number of a joint's rows whose impulses have bounds: limits and motors.
   int bounded_rows(int joint) const;
 
   /// Returns true for a revolute joint without limits, motor and spring.
   bool is_hinge(int joint) const;
-  /// Leaves such a joint to the caller: steps skip it until `let_go`.
-  HeldHinge<Real> hold(int joint);
+  /// Leaves such a joint to the caller: steps skip it until `clear_external`.
+  ExternalHinge<Real> set_external(int joint);
   /// Takes back all joints that were left to the caller.
-  void let_go();
+  void clear_external();
 
   /// Returns the reaction force over the last substep, N: magnitude of the impulse on b, times 1 / h.
   Real force(int joint, Real inverse_h) const;

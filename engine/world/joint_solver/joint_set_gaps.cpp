@@ -7,18 +7,18 @@ namespace plumb {
 namespace {
 
 template <class Joint, class Real>
-bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real share) {
+bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real tolerance) {
   if constexpr (Joint::kPlainHinge)
-    if (joint.held) return false;
-  const BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
-  return joint_opening(joint, {a.inverse_mass, a.inverse_inertia, b.inverse_mass, b.inverse_inertia}, share) >
-         0;
+    if (joint.external) return false;
+  const SolverBody<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  return joint_opening(joint, {a.inverse_mass, a.inverse_inertia, b.inverse_mass, b.inverse_inertia},
+                       tolerance) > 0;
 }
 
 }  // namespace
 
 template <class Real>
-bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std::vector<char>& open,
+bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real tolerance, std::vector<char>& open,
                                Crew* crew) {
   Parts& p = *parts_;
   std::atomic<bool> any = false;
@@ -27,17 +27,17 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real share, std
     any.store(true, std::memory_order_relaxed);
   };
   const auto look = [&](const auto& joint) {
-    if (is_open(joint, bodies, share)) mark(joint);
+    if (is_open(joint, bodies, tolerance)) mark(joint);
   };
   for (const JointRun& run : p.runs) {
     p.with(run.form, [&](auto& lists) {
       using One = typename std::decay_t<decltype(lists[0])>::value_type;
       auto& list = lists[run.colour];
-      if constexpr (kSideBySide<One>) {
+      if constexpr (kHasLanes<One>) {
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
           return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
-            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, share, mark);
+            if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, tolerance, mark);
             for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
           });
         }

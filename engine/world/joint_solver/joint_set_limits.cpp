@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/math/small_turn.h"
+#include "engine/math/small_rotation.h"
 #include "engine/world/joint_solver/joint_parts.h"
 
 namespace plumb {
@@ -9,9 +9,10 @@ namespace {
 
 /// Returns the angle, rad, by which to turn the joint so that no limit is exceeded by more than `slack`.
 template <class Real>
-Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, const BodyMotion<Real>* motion,
+Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, const SolverBody<Real>* motion,
                             Real slack) {
-  const Real angle = static_cast<Real>(joint.angle.start) + (motion[joint.b].turned - motion[joint.a].turned);
+  const Real angle =
+      static_cast<Real>(joint.angle.start) + (motion[joint.b].delta_angle - motion[joint.a].delta_angle);
   for (int i = 0; i < joint.turn.count; ++i) {
     const SolverRule<Real>& rule = joint.turn.rule[i];
     if (rule.role != RowRole::Limit) continue;
@@ -22,11 +23,11 @@ Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, co
 }
 
 template <class Real>
-void shift(BodyMotion<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Real turn) {
+void shift(SolverBody<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Real turn) {
   if (!(motion.inverse_mass + motion.inverse_inertia > 0)) return;
-  motion.moved += by;
-  motion.turned += turn;
-  rotation = turned_by(rotation, turn);
+  motion.delta_position += by;
+  motion.delta_angle += turn;
+  rotation = rotated_by(rotation, turn);
 }
 
 /// Turns b relative to a about their common point and closes the point's gap: one Newton step of all three
@@ -34,7 +35,7 @@ void shift(BodyMotion<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Re
 template <class Real>
 void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<Real>& bodies,
                 Rotation<Real>* rotation, Real turn) {
-  BodyMotion<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
+  SolverBody<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
   JointRows<Real> rows;
   joint.kind.evaluate(joint.pose(bodies), rows);
   JointBlock<Real, 3> block;
@@ -56,8 +57,8 @@ bool JointSet<Real>::began_beyond_limits(int joint, Real slack) const {
   bool beyond = false;
   parts_->at(joint, [&](const auto& constraint) {
     using Constraint = std::decay_t<decltype(constraint)>;
-    if constexpr (Constraint::Rows::kTurn && Constraint::kAngle != AngleUse::None)
-      beyond = constraint.beyond_limits(0, slack) < 0;
+    if constexpr (Constraint::Rows::kAngular && Constraint::kAngle != AngleUse::None)
+      beyond = constraint.limit_opening(0, slack) < 0;
   });
   return beyond;
 }
@@ -76,7 +77,7 @@ bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Ro
   };
   for (const JointRun& run : parts_->runs) {
     if (run.form != kRevolute) continue;
-    if constexpr (kSideBySide<Hinge>) {
+    if constexpr (kHasLanes<Hinge>) {
       if (run.sorted) {
         auto& blocks = std::get<JointBlocks<Hinge>>(parts_->lanes);
         share_blocks(run, crew, [&](JointCounts first, JointCounts last) {

@@ -12,7 +12,8 @@ struct RowList {
 
   /// Appends a row. `length`: true if its coordinate is a length.
   void add(JointRow<Real> row, SolverRule<Real>& rule, bool length) const {
-    JointSolverRow<Real> out{.row = row, .role = rule.role, .speed = rule.speed, .most = rule.most};
+    JointSolverRow<Real> out{
+        .row = row, .role = rule.role, .speed = rule.speed, .max_impulse = rule.max_impulse};
     if (length) out.length = rule.origin;
     out.row.residual = rule.sign * (row.residual - rule.origin);
     if (rule.sign < 0) {
@@ -40,7 +41,8 @@ struct RowList {
   }
   void add(const AnchorPoint<Real>& at, SoftPoint<Real>& point) const {
     for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}}) {
-      JointSolverRow<Real> out{.row = at.plain_row(n), .role = point.rule.role, .most = point.rule.most};
+      JointSolverRow<Real> out{
+          .row = at.plain_row(n), .role = point.rule.role, .max_impulse = point.rule.max_impulse};
       out.pair = n.y != 0;
       out.impulse = out.pair ? &point.impulse.y : &point.impulse.x;
       if (point.rule.role == RowRole::Spring)
@@ -59,7 +61,7 @@ void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodi
   const JointPose<Real> at = joint.pose(bodies);
   JointRows<Real> now;
   joint.kind.evaluate(at, now);
-  if constexpr (Kind<Real>::kTurn) list.add(JointRow<Real>{{}, {}, -1, 1, at.angle}, joint.turn);
+  if constexpr (Kind<Real>::kAngular) list.add(JointRow<Real>{{}, {}, -1, 1, at.angle}, joint.turn);
   for (int i = 0; i < Constraint::kAxial; ++i) list.add(now.axial[i], joint.axial[i], Kind<Real>::kLength);
   if constexpr (Constraint::kBlock > 0)
     for (int i = 0; i < Constraint::kBlock; ++i) list.add_rigid(now.block[i], &joint.block.impulse[i]);
@@ -97,7 +99,7 @@ int JointSet<Real>::bounded_rows(int joint) const {
   return parts_->at(joint, [&]<template <class> class Kind>(const JointConstraint<Real, Kind>& constraint) {
     using Constraint = JointConstraint<Real, Kind>;
     int count = 0;
-    if constexpr (Kind<Real>::kTurn) count += bounded_of(constraint.turn);
+    if constexpr (Kind<Real>::kAngular) count += bounded_of(constraint.turn);
     for (const auto& coordinate : constraint.axial) count += bounded_of(coordinate);
     if constexpr (Constraint::kSoftPoint) count += is_bounded(constraint.point.rule) ? 2 : 0;
     return count;

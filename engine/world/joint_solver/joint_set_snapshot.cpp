@@ -36,30 +36,30 @@ void visit_state(JointConstraint<Real, Kind>& c, const Visit& visit) {
 /// solved side by side.
 template <class Parts>
 bool is_coloured(const Parts& p) {
-  std::vector<BodyJoints> taken(p.taken.size());
+  std::vector<BodyJoints> body_joints(p.body_joints.size());
   for (const JointSlot& s : p.slots) {
     if (!s.used || s.colour == kParked) continue;
     const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
     for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
       if (!moves) continue;
-      if ((taken[body].colours & bit) != 0) return false;
-      taken[body].colours |= bit;
-      ++taken[body].count;
+      if ((body_joints[body].colours & bit) != 0) return false;
+      body_joints[body].colours |= bit;
+      ++body_joints[body].count;
     }
   }
-  return taken == p.taken;
+  return body_joints == p.body_joints;
 }
 
 /// Returns true if slots and lists are consistent, as JointSet leaves them; other data must not be solved.
 template <class Parts>
-bool is_whole(const Parts& p) {
+bool is_consistent(const Parts& p) {
   std::size_t constraints = 0;
   for (int form = 0; form < kForms; ++form) {
     p.with(static_cast<JointForm>(form), [&](const auto& lists) {
       for (const auto& list : lists) constraints += list.size();
     });
   }
-  const int bodies = static_cast<int>(p.taken.size()), slots = static_cast<int>(p.slots.size());
+  const int bodies = static_cast<int>(p.body_joints.size()), slots = static_cast<int>(p.slots.size());
   int used = 0, active = 0;
   for (int joint = 0; joint < slots; ++joint) {
     const JointSlot& s = p.slot(joint);
@@ -87,7 +87,7 @@ bool is_whole(const Parts& p) {
 template <class Real>
 void JointSet<Real>::save(Encoder& out) const {
   Parts& p = *parts_;  // only read from
-  out.put(p.count), out.put(p.active), out.put(p.free), out.put(p.taken), out.put(p.slots);
+  out.put(p.count), out.put(p.active), out.put(p.free), out.put(p.body_joints), out.put(p.slots);
   for (int form = 0; form < kForms; ++form) {
     p.with(static_cast<JointForm>(form), [&](auto& lists) {
       for (auto& list : lists) {
@@ -106,7 +106,8 @@ void JointSet<Real>::restore(Decoder& in) {
   constexpr char kJoints[] = "joints";
   const auto fresh = std::make_unique<Parts>();
   Parts& p = *fresh;
-  in.get(p.count, kJoints), in.get(p.active, kJoints), in.get(p.free, kJoints), in.get(p.taken, kJoints);
+  in.get(p.count, kJoints), in.get(p.active, kJoints), in.get(p.free, kJoints),
+      in.get(p.body_joints, kJoints);
   in.get(p.slots, kJoints);
   for (int form = 0; form < kForms; ++form) {
     p.with(static_cast<JointForm>(form), [&](auto& lists) {
@@ -128,13 +129,13 @@ void JointSet<Real>::restore(Decoder& in) {
           constraint.b = s.b;
           constraint.load(*definition, s.centre_a, s.centre_b);
           visit_state(constraint, [&](auto& value) { in.get(value, kJoints); });
-          constraint.recall();
+          constraint.restore_rule();
         }
       }
     });
   }
-  in.require(is_whole(p), kJoints, "contradict each other");
-  p.find_runs();
+  in.require(is_consistent(p), kJoints, "contradict each other");
+  p.rebuild_runs();
   *parts_ = std::move(p);
 }
 

@@ -5,7 +5,7 @@
 
 #include "engine/world/joint_solver/joint_parts.h"
 #include "engine/world/joint_solver/joint_set.h"
-#include "engine/world/joint_solver/joint_share.h"
+#include "engine/world/joint_solver/under_relaxation.h"
 
 namespace plumb {
 namespace {
@@ -29,57 +29,58 @@ struct JointRange {
 
 /// Solves joints that are alone.
 template <class Joint, class Real>
-[[gnu::noinline]] void sweep_range(JointSweep pass, JointRange<Joint> joints, const SolverBodies<Real>& of,
-                                   const JointStep<Real>& settings) {
+[[gnu::noinline]] void run_stage_on(JointStage stage, JointRange<Joint> joints, const SolverBodies<Real>& of,
+                                    const JointStep<Real>& settings) {
   const SolverBodies<Real> bodies = of;  // copies, which no other pointer reaches
   const JointStep<Real> step = settings;
   const auto for_each = [&](const auto& run) __attribute__((always_inline)) {
     for (int i = 0; i < joints.count; ++i) {
       Joint& joint = joints[i];
       if constexpr (Joint::kPlainHinge)
-        if (joint.held) continue;
+        if (joint.external) continue;
       // Ratchets note the teeth that they pass.
-      if (joint.with_island && (pass != JointSweep::Relax || !(step.looks || Joint::kRatchet))) continue;
+      if (joint.with_island && (stage != JointStage::Relax || !(step.evaluates_all || Joint::kRatchet)))
+        continue;
       JointVelocities<Real> v = velocities_of(bodies, joint);
       run(joint, v);
       v.store(bodies.motion[joint.a], bodies.motion[joint.b]);
     }
   };
   using Velocities = JointVelocities<Real>;
-  switch (pass) {
-    case JointSweep::WarmStart:
+  switch (stage) {
+    case JointStage::WarmStart:
       return for_each([](const Joint& joint, Velocities& v)
                           __attribute__((always_inline)) { joint.warm_start(v); });
-    case JointSweep::Solve:
+    case JointStage::Solve:
       return for_each([&](Joint & joint, Velocities & v)
                           __attribute__((always_inline)) { joint.solve(v, step); });
-    case JointSweep::Relax:
+    case JointStage::Relax:
       return for_each([&](Joint & joint, Velocities & v) __attribute__((always_inline)) {
         if (joint.with_island) return evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
         if constexpr (Joint::kPlainHinge) return joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
         evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
-        joint.solve_coordinates(v, step, kRelax, joint.share);
+        joint.solve_coordinates(v, step, kRelax, joint.under_relaxation);
       });
   }
 }
 
 /// Solves all active joints in the order of solving, colour by colour.
 template <class Parts, class Real>
-void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& bodies,
-           const JointStep<Real>& step) {
+void run_stage(Parts& parts, JointStage stage, Crew* crew, const SolverBodies<Real>& bodies,
+               const JointStep<Real>& step) {
   for (const JointRun& run : parts.runs) {
     parts.with(run.form, [&](auto& lists) {
       using One = typename std::decay_t<decltype(lists[0])>::value_type;
-      if constexpr (kSideBySide<One>) {
+      if constexpr (kHasLanes<One>) {
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(parts.lanes);
           const auto visit = [&](JointCounts first, JointCounts last) {
             // Single joints come first. Otherwise blocks of the next colour, which load a body's velocity as
             // one value, would stall on a velocity that was just stored in parts.
             if (first.alone < last.alone)
-              sweep_range<One>(pass, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
-                               bodies, step);
-            if (first.blocks < last.blocks) blocks.sweep(pass, first.blocks, last.blocks, bodies, step);
+              run_stage_on<One>(stage, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
+                                bodies, step);
+            if (first.blocks < last.blocks) blocks.run_stage(stage, first.blocks, last.blocks, bodies, step);
           };
           return crew != nullptr && crew->shares() ? share_blocks(run, crew, visit)
                                                    : visit(run.first, run.last);
@@ -87,7 +88,7 @@ void sweep(Parts& parts, JointSweep pass, Crew* crew, const SolverBodies<Real>& 
       }
       auto& list = lists[run.colour];
       share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-        sweep_range<One>(pass, {list.data() + first, nullptr, last - first}, bodies, step);
+        run_stage_on<One>(stage, {list.data() + first, nullptr, last - first}, bodies, step);
       });
     });
   }
@@ -110,17 +111,17 @@ void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, 
   }
   if (Joint::kHasRules && joint.known_h != step.h)
     joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
-  joint.share = 1;
-  joint.alone = std::max(p.taken[joint.a].count, p.taken[joint.b].count) < 2;
+  joint.under_relaxation = 1;
+  joint.alone = std::max(p.body_joints[joint.a].count, p.body_joints[joint.b].count) < 2;
   joint.begin_step(bodies, step);
 }
 
 /// Returns the under-relaxation factor of a joint that was evaluated.
 template <class Parts, class Joint, class Real>
-Real share_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodies) {
-  const int count_a = p.taken[joint.a].count, count_b = p.taken[joint.b].count;
-  if (std::max(count_a, count_b) < kManyJoints) return 1;
-  return joint_share(joint.load(velocities_of(bodies, joint)), count_a, count_b);
+Real relaxation_factor_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodies) {
+  const int count_a = p.body_joints[joint.a].count, count_b = p.body_joints[joint.b].count;
+  if (std::max(count_a, count_b) < kUnderRelaxedJoints) return 1;
+  return under_relaxation_factor(joint.load(velocities_of(bodies, joint)), count_a, count_b);
 }
 
 /// Evaluates a joint whose step has begun.
@@ -128,11 +129,11 @@ template <class Parts, class Joint, class Real>
 void evaluate_first(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies,
                     const JointStep<Real>& step) {
   if constexpr (Joint::kPlainHinge)
-    if (joint.held) return;
+    if (joint.external) return;
   const JointVelocities<Real> v = velocities_of(bodies, joint);
   evaluate(joint, bodies, v, step, JointTime::StepStarts);
-  joint.share = share_of(p, joint, bodies);
-  if (joint.share < 1) evaluate(joint, bodies, v, step, JointTime::StepStarts);
+  joint.under_relaxation = relaxation_factor_of(p, joint, bodies);
+  if (joint.under_relaxation < 1) evaluate(joint, bodies, v, step, JointTime::StepStarts);
 }
 
 }  // namespace
@@ -157,7 +158,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
     p.with(run.form, [&](auto& lists) {
       using One = typename std::decay_t<decltype(lists[0])>::value_type;
       auto& list = lists[run.colour];
-      run.sorted = kSideBySide<One> && run.colour != kOverflowColour;
+      run.sorted = kHasLanes<One> && run.colour != kOverflowColour;
       share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
         for (int i = first; i < last; ++i) {
           list[i].with_island = !apart.empty() && apart[list[i].joint] != 0;
@@ -165,7 +166,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
           if (!run.sorted) evaluate_first(p, list[i], bodies, step);
         }
       });
-      if constexpr (kSideBySide<One>) {
+      if constexpr (kHasLanes<One>) {
         if (!run.sorted) return;
         JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
         run.first = blocks.counts();
@@ -175,11 +176,11 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
     });
   }
   const auto evaluate = [&]<class Joint>(JointBlocks<Joint>& blocks) {
-    const auto share = [&](const Joint& joint) { return share_of(p, joint, bodies); };
+    const auto factor_of = [&](const Joint& joint) { return relaxation_factor_of(p, joint, bodies); };
     const JointCounts counts = blocks.counts();
     if (counts.blocks + counts.alone == 0) return;
     share_range(counts.blocks, kBlocksOfTask, crew,
-                [&](int first, int last) { blocks.prepare(first, last, bodies, step, share); });
+                [&](int first, int last) { blocks.prepare(first, last, bodies, step, factor_of); });
     share_range(counts.alone, kJointsOfTask, crew, [&](int first, int last) {
       for (int i = first; i < last; ++i) evaluate_first(p, blocks.alone(i), bodies, step);
     });
@@ -208,7 +209,7 @@ void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
     p.with(run.form, [&](auto& lists) {
       using One = typename std::decay_t<decltype(lists[0])>::value_type;
       if constexpr (One::kAngle != AngleUse::None) {
-        if constexpr (kSideBySide<One>) {
+        if constexpr (kHasLanes<One>) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
           if (run.sorted)
             for (int i = run.first.alone; i < run.last.alone; ++i) blocks.alone(i).end_step(bodies);
@@ -222,17 +223,17 @@ void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
 
 template <class Real>
 void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep(*parts_, JointSweep::WarmStart, crew, bodies, step);
+  run_stage(*parts_, JointStage::WarmStart, crew, bodies, step);
 }
 
 template <class Real>
 void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep(*parts_, JointSweep::Solve, crew, bodies, step);
+  run_stage(*parts_, JointStage::Solve, crew, bodies, step);
 }
 
 template <class Real>
 void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  sweep(*parts_, JointSweep::Relax, crew, bodies, step);
+  run_stage(*parts_, JointStage::Relax, crew, bodies, step);
 }
 
 #define PLUMB_FOR(R)                                                                                        \

@@ -18,7 +18,7 @@ struct JointSprings {
 };
 
 inline bool has_springs(const JointRules& rules) {
-  return rules.turn.has(RowRole::Spring) || rules.axial[0].has(RowRole::Spring) ||
+  return rules.angular.has(RowRole::Spring) || rules.axial[0].has(RowRole::Spring) ||
          rules.axial[1].has(RowRole::Spring) || rules.point.role == RowRole::Spring;
 }
 
@@ -32,7 +32,7 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline PointResponse<Real> held_response(const PairMobility<Real>& pair,
                                                                 const AnchorPoint<Real>& point) {
-  const Real m = pair.m_a + pair.m_b, turn = common_turning(pair);
+  const Real m = pair.m_a + pair.m_b, turn = common_rotation_mobility(pair);
   const Vec2<Real> p = perpendicular(point.arm_b - point.arm_a);
   return {m + turn * p.x * p.x, turn * p.x * p.y, m + turn * p.y * p.y, m * (m + turn * length_squared(p))};
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/joints/joint_row.h"
-#include "engine/world/contact_solver/body_motion.h"
+#include "engine/world/contact_solver/solver_body.h"
 
 namespace plumb {
 
@@ -24,7 +24,7 @@ struct JointVelocities {
         i_b(b.inverse_inertia) {}
 
   /// Writes the velocities back, except to static and kinematic bodies, which joints of one colour may share.
-  void store(BodyMotion<Real>& a, BodyMotion<Real>& b) const {
+  void store(SolverBody<Real>& a, SolverBody<Real>& b) const {
     // Copies by component. As a pair, the two halves would be stored separately and loaded together, which
     // stalls.
     if (m_a + i_a > 0) a.velocity.x = v_a.x, a.velocity.y = v_a.y, a.angular_velocity = w_a;
@@ -81,8 +81,9 @@ struct JointMotion {
 /// Returns the displacements and rotations of the bodies a and b.
 template <class Real>
 [[gnu::always_inline]] inline JointMotion<Real> motion_of(const SolverBodies<Real>& bodies, int a, int b) {
-  const BodyMotion<Real>&at_a = bodies.motion[a], &at_b = bodies.motion[b];
-  return {at_a.moved, at_b.moved, at_a.turned, at_b.turned, bodies.rotation[a], bodies.rotation[b]};
+  const SolverBody<Real>&at_a = bodies.motion[a], &at_b = bodies.motion[b];
+  return {at_a.delta_position, at_b.delta_position, at_a.delta_angle,
+          at_b.delta_angle,    bodies.rotation[a],  bodies.rotation[b]};
 }
 
 /// Time of an evaluation of rows. Motors accumulate their drift from the start of the step in each substep.

@@ -18,7 +18,7 @@ constexpr double kRoundings = 64;
 
 /// An overlap or gap counts as shrinking, and not as a violation, if it is at most this fraction of its value
 /// in the step before.
-constexpr double kDissolving = 0.998;
+constexpr double kShrinking = 0.998;
 
 template <class Kind>
 constexpr bool kHasSpring = requires(const Kind& kind) {
@@ -51,8 +51,8 @@ InvariantMonitor<Real>::InvariantMonitor(const BasicWorld<Real>& world, const Mo
 template <class Real>
 void InvariantMonitor<Real>::reset() {
   gaps_.clear(), overlaps_.clear();
-  gained_ = moving_ = 0;
-  energy_misses_ = 0;
+  energy_gain_ = max_kinetic_energy_ = 0;
+  energy_violation_steps_ = 0;
 }
 
 template <class Real>
@@ -61,13 +61,13 @@ void InvariantMonitor<Real>::begin_step() {
   before_.assign(static_cast<std::size_t>(w.bodies.size()), State{});
   for (const int body : w.awake) {
     const BodyRecord<Real>& record = w.bodies[body];
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     State& state = before_[static_cast<std::size_t>(body)];
     state.position = w.position[body], state.angle = record.angle;
     state.velocity = motion.velocity.template as<double>();
-    state.spin = static_cast<double>(motion.angular_velocity);
-    state.moves = record.type == BodyType::Dynamic;
-    if (!state.moves) continue;
+    state.angular_velocity = static_cast<double>(motion.angular_velocity);
+    state.is_dynamic = record.type == BodyType::Dynamic;
+    if (!state.is_dynamic) continue;
     const Load<Real> load = w.loads.get(body);
     state.mass = static_cast<double>(record.mass), state.inertia = static_cast<double>(record.inertia);
     if (motion.inverse_inertia == 0) state.inertia = 0;
@@ -85,16 +85,17 @@ std::optional<Error> InvariantMonitor<Real>::end_step() {
 
 /// Returns true if a joint or contact has exceeded its bound for enough steps.
 template <class Real>
-bool InvariantMonitor<Real>::lasts(std::vector<Miss>& now, const std::vector<Miss>& before, std::uint64_t key,
-                                   double size, double bound) const {
+bool InvariantMonitor<Real>::is_persistent(std::vector<Violation>& now, const std::vector<Violation>& before,
+                                           std::uint64_t key, double size, double bound) const {
   if (!(size > bound)) return false;
-  const auto known = std::lower_bound(before.begin(), before.end(), key,
-                                      [](const Miss& miss, std::uint64_t of) { return miss.key < of; });
-  Miss miss{key, size, 1};
+  const auto known =
+      std::lower_bound(before.begin(), before.end(), key,
+                       [](const Violation& violation, std::uint64_t of) { return violation.key < of; });
+  Violation violation{key, size, 1};
   if (known != before.end() && known->key == key)
-    miss.steps = size < kDissolving * known->size ? known->steps : known->steps + 1;
-  now.push_back(miss);
-  return miss.steps >= bounds_.lasting;
+    violation.steps = size < kShrinking * known->size ? known->steps : known->steps + 1;
+  now.push_back(violation);
+  return violation.steps >= bounds_.lasting;
 }
 
 template <class Real>
@@ -121,13 +122,14 @@ double InvariantMonitor<Real>::gap_scale(int joint) const {
 template <class Real>
 std::optional<Error> InvariantMonitor<Real>::check_joints() {
   const WorldData<Real>& w = world_->data();
-  last_.swap(gaps_), gaps_.clear();
+  previous_.swap(gaps_), gaps_.clear();
   for (int joint = 0; joint < w.joints.size(); ++joint) {
     if (!w.joints.used(joint) || !w.joints[joint].active) continue;
     const double gap =
         world_->read({static_cast<std::uint32_t>(joint), w.joints.generation(joint)}).linear_error;
     const double bound = bounds_.joint_gap * gap_scale(joint);
-    if (!(bound > 0) || !lasts(gaps_, last_, static_cast<std::uint64_t>(joint), gap, bound)) continue;
+    if (!(bound > 0) || !is_persistent(gaps_, previous_, static_cast<std::uint64_t>(joint), gap, bound))
+      continue;
     const JointRecord& record = w.joints[joint];
     return Error(Error::Kind::Run,
                  "joint of " + body_subject(w, record.body_a) + " and " + body_subject(w, record.body_b),
@@ -140,7 +142,7 @@ std::optional<Error> InvariantMonitor<Real>::check_joints() {
 template <class Real>
 std::optional<Error> InvariantMonitor<Real>::check_overlaps() {
   const WorldData<Real>& w = world_->data();
-  last_.swap(overlaps_), overlaps_.clear();
+  previous_.swap(overlaps_), overlaps_.clear();
   for (int contact = 0; contact < w.contacts.size(); ++contact) {
     if (!w.contacts.used(contact) || w.contacts[contact].home != ContactHome::Graph) continue;
     const ContactRecord& record = w.contacts[contact];
@@ -149,7 +151,7 @@ std::optional<Error> InvariantMonitor<Real>::check_overlaps() {
         -static_cast<double>(std::min(c.separation[0], c.count == 2 ? c.separation[1] : c.separation[0]));
     const double bound = bounds_.overlap * static_cast<double>(std::min(w.forms[record.shape_a].extent,
                                                                         w.forms[record.shape_b].extent));
-    if (!lasts(overlaps_, last_, static_cast<std::uint64_t>(contact), depth, bound)) continue;
+    if (!is_persistent(overlaps_, previous_, static_cast<std::uint64_t>(contact), depth, bound)) continue;
     return Error(Error::Kind::Run, body_subject(w, record.body_a) + " and " + body_subject(w, record.body_b),
                  "overlap", shortest(depth),
                  "is above " + shortest(bound) + " m; more substeps hold contacts better");
@@ -161,7 +163,7 @@ template <class Real>
 bool InvariantMonitor<Real>::is_driven() const {
   const WorldData<Real>& w = world_->data();
   for (const int body : w.awake) {
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     if (!w.is_dynamic(body) && (motion.velocity != Vec2<Real>{} || motion.angular_velocity != 0)) return true;
   }
   for (int joint = 0; joint < w.joints.size(); ++joint) {
@@ -180,37 +182,42 @@ std::optional<Error> InvariantMonitor<Real>::check_energy() {
   const WorldData<Real>& w = world_->data();
   // The solver corrects gaps and overlaps beyond their bounds, which may lift bodies.
   if (is_driven() || !gaps_.empty() || !overlaps_.empty()) {
-    gained_ = 0, energy_misses_ = 0;
+    energy_gain_ = 0, energy_violation_steps_ = 0;
     return {};
   }
-  double balance = 0, kinetic = 0, rounding = 0, most = 0, lifted = 0;
+  double balance = 0, kinetic = 0, rounding = 0, largest_gain = 0, weight_times_extent = 0;
   int fastest = kNone;
   for (const int body : w.awake) {
     const auto i = static_cast<std::size_t>(body);
-    if (i >= before_.size() || !before_[i].moves || !w.is_dynamic(body)) continue;
+    if (i >= before_.size() || !before_[i].is_dynamic || !w.is_dynamic(body)) continue;
     const State& old = before_[i];
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     const Vec2d velocity = motion.velocity.template as<double>();
-    const double spin = static_cast<double>(motion.angular_velocity);
-    const double now = (old.mass * length_squared(velocity) + old.inertia * spin * spin) / 2;
-    const double then = (old.mass * length_squared(old.velocity) + old.inertia * old.spin * old.spin) / 2;
-    const Vec2d way = w.position[body] - old.position;
-    balance +=
-        now - then - dot(old.weight + old.force, way) - old.torque * (w.bodies[body].angle - old.angle);
-    kinetic += now;
-    lifted += std::sqrt(length_squared(old.weight)) * static_cast<double>(w.extents[body]);
+    const double angular_velocity = static_cast<double>(motion.angular_velocity);
+    const double kinetic_now =
+        (old.mass * length_squared(velocity) + old.inertia * angular_velocity * angular_velocity) / 2;
+    const double kinetic_before = (old.mass * length_squared(old.velocity) +
+                                   old.inertia * old.angular_velocity * old.angular_velocity) /
+                                  2;
+    const Vec2d displacement = w.position[body] - old.position;
+    balance += kinetic_now - kinetic_before - dot(old.weight + old.force, displacement) -
+               old.torque * (w.bodies[body].angle - old.angle);
+    kinetic += kinetic_now;
+    weight_times_extent += std::sqrt(length_squared(old.weight)) * static_cast<double>(w.extents[body]);
     rounding += kRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
-                (now + then + std::sqrt(length_squared(old.weight)) * std::sqrt(length_squared(way)));
-    if (now - then > most) most = now - then, fastest = body;
+                (kinetic_now + kinetic_before +
+                 std::sqrt(length_squared(old.weight)) * std::sqrt(length_squared(displacement)));
+    if (kinetic_now - kinetic_before > largest_gain)
+      largest_gain = kinetic_now - kinetic_before, fastest = body;
   }
-  moving_ = std::max(moving_, kinetic);
-  if (std::abs(balance) > rounding) gained_ = std::max(gained_ + balance, 0.0);
+  max_kinetic_energy_ = std::max(max_kinetic_energy_, kinetic);
+  if (std::abs(balance) > rounding) energy_gain_ = std::max(energy_gain_ + balance, 0.0);
   // Bodies that have sunk within the penetration bound may rise again.
-  const double bound = bounds_.energy * moving_ + 2 * bounds_.overlap * lifted;
-  energy_misses_ = gained_ > bound ? energy_misses_ + 1 : 0;
-  if (energy_misses_ < bounds_.lasting) return {};
+  const double bound = bounds_.energy * max_kinetic_energy_ + 2 * bounds_.overlap * weight_times_extent;
+  energy_violation_steps_ = energy_gain_ > bound ? energy_violation_steps_ + 1 : 0;
+  if (energy_violation_steps_ < bounds_.lasting) return {};
   return Error(Error::Kind::Run, fastest == kNone ? std::string("world") : body_subject(w, fastest), "energy",
-               shortest(gained_),
+               shortest(energy_gain_),
                "is gained without a drive, above " + shortest(bound) +
                    " J; a shorter step or more substeps may follow the motion");
 }

@@ -10,7 +10,7 @@
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
 #include "engine/scene/error.h"
-#include "engine/world/queries/placed_shape.h"
+#include "engine/world/queries/transformed_shape.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/validate.h"
 
@@ -27,7 +27,7 @@ void check(const char* query, const char* field, double v) {
   if (!is_finite(v)) require_finite(query, field, v);
 }
 
-double size_of(Vec2d v) { return std::abs(v.x) + std::abs(v.y); }
+double l1_norm(Vec2d v) { return std::abs(v.x) + std::abs(v.y); }
 
 template <class Real>
 ShapeId shape_id(const WorldData<Real>& w, int shape) {
@@ -41,7 +41,7 @@ BodyId body_id(const WorldData<Real>& w, int shape) {
 }
 
 template <class Real>
-bool sees(const WorldData<Real>& w, int shape, const QueryFilter& filter) {
+bool passes_filter(const WorldData<Real>& w, int shape, const QueryFilter& filter) {
   const ShapeRecord<Real>& record = w.shapes[shape];
   if ((record.filter.category & filter.mask) == 0 || (record.filter.mask & filter.category) == 0)
     return false;
@@ -56,13 +56,13 @@ bool sees(const WorldData<Real>& w, int shape, const QueryFilter& filter) {
 // radius). These errors are below 2 epsilon of the coordinates plus 3 epsilon of the body's size; the size of
 // the tree is a bound for both. The query's own numbers are rounded by less than epsilon of themselves.
 template <class Real>
-double slack_at(const WorldData<Real>& w, double reach) {
+double rounding_margin(const WorldData<Real>& w, double magnitude) {
   double size = 0;
   for (const DynamicTree<Real>* tree : {&w.static_tree, &w.dynamic_tree}) {
     const Aabb<Real> bounds = tree->bounds();
-    size = std::max(size, size_of((bounds.upper - bounds.lower).template as<double>()));
+    size = std::max(size, l1_norm((bounds.upper - bounds.lower).template as<double>()));
   }
-  return 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (reach + size);
+  return 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (magnitude + size);
 }
 
 // Returns `value` >= 0 as a Real, rounded up.
@@ -74,30 +74,30 @@ Real rounded_up(double value) {
 
 // Calls visit(shape) -> bool for shapes whose fat AABBs may overlap `box`, until it returns false.
 template <class Real, class Visit>
-void for_each_near(const WorldData<Real>& w, const Aabb<double>& box, const QueryFilter& filter,
-                   const Visit& visit) {
-  const double slack = slack_at(w, std::max(size_of(box.lower), size_of(box.upper)));
-  const Aabb<double> grown = box.grown(slack);
+void query_aabb(const WorldData<Real>& w, const Aabb<double>& box, const QueryFilter& filter,
+                const Visit& visit) {
+  const double margin = rounding_margin(w, std::max(l1_norm(box.lower), l1_norm(box.upper)));
+  const Aabb<double> grown = box.grown(margin);
   const Aabb<Real> rounded{grown.lower.as<Real>(), grown.upper.as<Real>()};
-  bool going = true;
+  bool proceed = true;
   const auto visit_leaf = [&](int shape, int) {
-    going = !sees(w, shape, filter) || visit(shape);
-    return going;
+    proceed = !passes_filter(w, shape, filter) || visit(shape);
+    return proceed;
   };
   w.static_tree.query(rounded, folded(filter.mask), visit_leaf);
-  if (going) w.dynamic_tree.query(rounded, folded(filter.mask), visit_leaf);
+  if (proceed) w.dynamic_tree.query(rounded, folded(filter.mask), visit_leaf);
 }
 
 // Sweeps a box around `start` by `translation`. Calls visit(shape, limit) -> new limit for shapes whose fat
 // AABBs may be hit before the smallest fraction returned so far, `limit`; stops at 0.
 template <class Real, class Visit>
-void for_each_on_way(const WorldData<Real>& w, Vec2d start, Vec2d translation, Vec2d half,
-                     const QueryFilter& filter, const Visit& visit) {
-  const double slack = slack_at(w, size_of(start) + size_of(translation) + size_of(half));
-  const Vec2<Real> half_extent = (half + Vec2d{slack, slack}).as<Real>();
+void cast_aabb(const WorldData<Real>& w, Vec2d start, Vec2d translation, Vec2d half,
+               const QueryFilter& filter, const Visit& visit) {
+  const double margin = rounding_margin(w, l1_norm(start) + l1_norm(translation) + l1_norm(half));
+  const Vec2<Real> half_extent = (half + Vec2d{margin, margin}).as<Real>();
   double limit = 1;
   const auto visit_leaf = [&](int shape, Real) -> Real {
-    if (sees(w, shape, filter)) limit = std::min(limit, visit(shape, limit));
+    if (passes_filter(w, shape, filter)) limit = std::min(limit, visit(shape, limit));
     return limit > 0 ? rounded_up<Real>(limit) : Real(0);
   };
   w.static_tree.ray_cast(start.as<Real>(), translation.as<Real>(), half_extent, folded(filter.mask),
@@ -121,14 +121,14 @@ struct Closest {
 };
 
 // Returns the front direction of a chain's segment: to the right of its direction.
-Vec2d front_of(const Convex<double>& segment) {
+Vec2d front_direction(const Convex<double>& segment) {
   return -perpendicular(segment.corners[1].point - segment.corners[0].point);
 }
 
 // A shape with rotated corners, relative to its own position.
-class TurnedShape {
+class RotatedShape {
  public:
-  TurnedShape(const QueryShape& shape, double angle) : shape_(shape), pose_{{}, rotation_of(angle)} {}
+  RotatedShape(const QueryShape& shape, double angle) : shape_(shape), pose_{{}, rotation_of(angle)} {}
   Convex<double> convex() const { return shape_.convex(); }
   const Pose<double>& pose() const { return pose_; }
   Vec2d middle() const { return pose_.rotation * shape_.middle(); }
@@ -139,10 +139,10 @@ class TurnedShape {
   Pose<double> pose_;
 };
 
-CastResult<double> cast_against(const Convex<double>& target, bool chain, const TurnedShape& moving,
+CastResult<double> cast_against(const Convex<double>& target, bool chain, const RotatedShape& moving,
                                 Vec2d translation) {
   constexpr double kGrazing = 1e-9;
-  const Vec2d front = chain ? front_of(target) : Vec2d{};
+  const Vec2d front = chain ? front_direction(target) : Vec2d{};
   if (chain && !(dot(front, moving.middle() - target.corners[0].point) > 0)) return {};
   CastResult<double> cast = shape_cast(target, moving.convex(), moving.pose(), translation);
   if (!cast.hit || !chain) return cast;
@@ -172,25 +172,25 @@ void collect(std::vector<ShapeId>& found, const Query& query) {
 }
 
 template <class Real>
-void overlap_placed(const WorldData<Real>& w, const QueryShape& shape, Vec2d position, double angle,
-                    const QueryFilter& filter, const VisitShape& visit) {
-  const TurnedShape turned(shape, angle);
-  const Aabb<double> near = turned.bounds();
-  for_each_near(w, {position + near.lower, position + near.upper}, filter, [&](int other) {
-    const PlacedShape placed(w, other, position);
-    const Convex<double> a = placed.convex(), b = turned.convex();
-    const bool overlaps = hull_distance(a, b, turned.pose(), nullptr).separation <= a.radius + b.radius;
+void overlap_at_pose(const WorldData<Real>& w, const QueryShape& shape, Vec2d position, double angle,
+                     const QueryFilter& filter, const VisitShape& visit) {
+  const RotatedShape rotated(shape, angle);
+  const Aabb<double> bounds = rotated.bounds();
+  query_aabb(w, {position + bounds.lower, position + bounds.upper}, filter, [&](int other) {
+    const TransformedShape target(w, other, position);
+    const Convex<double> a = target.convex(), b = rotated.convex();
+    const bool overlaps = hull_distance(a, b, rotated.pose(), nullptr).separation <= a.radius + b.radius;
     return !overlaps || visit(shape_id(w, other));
   });
 }
 
 // Casts a ray at one shape, up to a fraction.
 template <class Real>
-std::optional<RayResult> ray_at(const WorldData<Real>& w, int shape, Vec2d origin, Vec2d translation,
-                                double limit) {
-  const PlacedShape placed(w, shape, origin);
-  const RayHit<double> hit = w.forms[shape].chain ? ray_cast_one_sided(placed.convex(), Vec2d{}, translation)
-                                                  : ray_cast(placed.convex(), Vec2d{}, translation);
+std::optional<RayResult> ray_cast_shape(const WorldData<Real>& w, int shape, Vec2d origin, Vec2d translation,
+                                        double limit) {
+  const TransformedShape target(w, shape, origin);
+  const RayHit<double> hit = w.forms[shape].chain ? ray_cast_one_sided(target.convex(), Vec2d{}, translation)
+                                                  : ray_cast(target.convex(), Vec2d{}, translation);
   if (!hit.hit || hit.fraction > limit) return std::nullopt;
   return RayResult{shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal};
 }
@@ -200,8 +200,8 @@ void visit_ray(const WorldData<Real>& w, Vec2d origin, Vec2d translation, const 
                Visit&& visit) {
   check("ray", "origin", origin);
   check("ray", "translation", translation);
-  for_each_on_way(w, origin, translation, {}, filter, [&](int shape, double limit) {
-    const std::optional<RayResult> hit = ray_at(w, shape, origin, translation, limit);
+  cast_aabb(w, origin, translation, {}, filter, [&](int shape, double limit) {
+    const std::optional<RayResult> hit = ray_cast_shape(w, shape, origin, translation, limit);
     return hit ? visit(*hit) : limit;
   });
 }
@@ -212,12 +212,12 @@ void visit_cast(const WorldData<Real>& w, const QueryShape& shape, Vec2d positio
   check("cast", "position", position);
   check("cast", "angle", angle);
   check("cast", "translation", translation);
-  const TurnedShape turned(shape, angle);
-  const Aabb<double> box = turned.bounds();
+  const RotatedShape rotated(shape, angle);
+  const Aabb<double> box = rotated.bounds();
   const Vec2d centre = 0.5 * (box.lower + box.upper), half = 0.5 * (box.upper - box.lower);
-  for_each_on_way(w, position + centre, translation, half, filter, [&](int other, double limit) {
-    const PlacedShape placed(w, other, position);
-    const CastResult<double> hit = cast_against(placed.convex(), w.forms[other].chain, turned, translation);
+  cast_aabb(w, position + centre, translation, half, filter, [&](int other, double limit) {
+    const TransformedShape target(w, other, position);
+    const CastResult<double> hit = cast_against(target.convex(), w.forms[other].chain, rotated, translation);
     if (!hit.hit || hit.fraction > limit) return limit;
     return visit(CastShapeResult{shape_id(w, other), body_id(w, other), hit.fraction, position + hit.point,
                                  hit.normal, hit.overlapped});
@@ -229,7 +229,7 @@ void visit_overlaps(const WorldData<Real>& w, const QueryShape& shape, Vec2d pos
                     const QueryFilter& filter, const VisitShape& visit) {
   check("overlap", "position", position);
   check("overlap", "angle", angle);
-  overlap_placed(w, shape, position, angle, filter, visit);
+  overlap_at_pose(w, shape, position, angle, filter, visit);
 }
 
 template <class Real>
@@ -240,16 +240,16 @@ void visit_overlaps(const WorldData<Real>& w, const Aabb<double>& box, const Que
   const Vec2d half = 0.5 * (box.upper - box.lower);
   if (!(half.x >= 0)) require_not_negative("overlap", "width", 2 * half.x);
   if (!(half.y >= 0)) require_not_negative("overlap", "height", 2 * half.y);
-  overlap_placed(w, QueryShape::box(half.x, half.y), box.lower + half, 0, filter, visit);
+  overlap_at_pose(w, QueryShape::box(half.x, half.y), box.lower + half, 0, filter, visit);
 }
 
 template <class Real>
 void visit_shapes_at(const WorldData<Real>& w, Vec2d point, const QueryFilter& filter,
                      const VisitShape& visit) {
   check("shapes_at", "point", point);
-  for_each_near(w, {point, point}, filter, [&](int shape) {
-    const PlacedShape placed(w, shape, point);
-    return !contains(placed.convex(), Vec2d{}) || visit(shape_id(w, shape));
+  query_aabb(w, {point, point}, filter, [&](int shape) {
+    const TransformedShape target(w, shape, point);
+    return !contains(target.convex(), Vec2d{}) || visit(shape_id(w, shape));
   });
 }
 
@@ -352,12 +352,12 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
   const WorldData<Real>& w = world.data();
   const Lock<Real> lock(w, filter.condition.asks());
   double limit = std::min(max_distance, 4 * kLargestNumber);  // no shape is farther away
-  const double slack = slack_at(w, size_of(point));
+  const double margin = rounding_margin(w, l1_norm(point));
   std::optional<NearestResult> best;
   const auto visit_leaf = [&](int shape, Real) {
-    if (sees(w, shape, filter)) {
-      const PlacedShape placed(w, shape, point);
-      const SurfacePoint<double> at = nearest_point(placed.convex(), Vec2d{});
+    if (passes_filter(w, shape, filter)) {
+      const TransformedShape target(w, shape, point);
+      const SurfacePoint<double> at = nearest_point(target.convex(), Vec2d{});
       const bool first =
           best ? at.distance < best->distance ||
                      (at.distance == best->distance && static_cast<std::uint32_t>(shape) < best->shape.index)
@@ -367,11 +367,11 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
         limit = std::max(at.distance, 0.0);
       }
     }
-    return rounded_up<Real>(limit + 2 * slack);
+    return rounded_up<Real>(limit + 2 * margin);
   };
   const Vec2<Real> from = point.as<Real>();
-  w.static_tree.nearest(from, folded(filter.mask), rounded_up<Real>(limit + 2 * slack), visit_leaf);
-  w.dynamic_tree.nearest(from, folded(filter.mask), rounded_up<Real>(limit + 2 * slack), visit_leaf);
+  w.static_tree.nearest(from, folded(filter.mask), rounded_up<Real>(limit + 2 * margin), visit_leaf);
+  w.dynamic_tree.nearest(from, folded(filter.mask), rounded_up<Real>(limit + 2 * margin), visit_leaf);
   return best;
 }
 
@@ -380,12 +380,12 @@ ShapeDistance distance(const BasicWorld<Real>& world, ShapeId a, ShapeId b) {
   world.body(a), world.body(b);  // throw for handles of destroyed shapes
   const WorldData<Real>& w = world.data();
   const int shape_a = static_cast<int>(a.index), shape_b = static_cast<int>(b.index);
-  const Vec2d here = w.position[w.shapes[shape_a].body];
-  const PlacedShape placed_a(w, shape_a, here), placed_b(w, shape_b, here);
-  const Convex<double> convex_a = placed_a.convex(), convex_b = placed_b.convex();
+  const Vec2d origin = w.position[w.shapes[shape_a].body];
+  const TransformedShape transformed_a(w, shape_a, origin), transformed_b(w, shape_b, origin);
+  const Convex<double> convex_a = transformed_a.convex(), convex_b = transformed_b.convex();
   const HullDistance hulls = hull_distance(convex_a, convex_b, Pose<double>{}, nullptr);
-  return {here + hulls.point_a + convex_a.radius * hulls.normal,
-          here + hulls.point_b - convex_b.radius * hulls.normal, hulls.normal,
+  return {origin + hulls.point_a + convex_a.radius * hulls.normal,
+          origin + hulls.point_b - convex_b.radius * hulls.normal, hulls.normal,
           hulls.separation - (convex_a.radius + convex_b.radius)};
 }
 
@@ -395,14 +395,14 @@ std::optional<RayResult> ray_cast(const BasicWorld<Real>& world, ShapeId shape, 
   world.body(shape);  // throws for the handle of a destroyed shape
   check("ray", "origin", origin);
   check("ray", "translation", translation);
-  return ray_at(world.data(), static_cast<int>(shape.index), origin, translation, 1);
+  return ray_cast_shape(world.data(), static_cast<int>(shape.index), origin, translation, 1);
 }
 template <class Real>
 bool contains(const BasicWorld<Real>& world, ShapeId shape, Vec2d point) {
   world.body(shape);  // throws for the handle of a destroyed shape
   check("contains", "point", point);
-  const PlacedShape placed(world.data(), static_cast<int>(shape.index), point);
-  return contains(placed.convex(), Vec2d{});
+  const TransformedShape target(world.data(), static_cast<int>(shape.index), point);
+  return contains(target.convex(), Vec2d{});
 }
 
 #define PLUMB_FOR(Real)                                                                                      \

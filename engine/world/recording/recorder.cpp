@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "engine/encoding/encoding.h"
-#include "engine/scene/error.h"
 #include "engine/world/recording/definition_members.h"
 #include "engine/world/snapshot.h"
 #include "engine/world/snapshot/body_hash.h"
@@ -88,9 +87,9 @@ void RecordedWorld<Real>::record_step(double dt, int substeps) {
 
 template <class Real>
 void RecordedWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> hook) {
-  const bool there = static_cast<bool>(hook);
+  const bool is_set = static_cast<bool>(hook);
   world_.on_pre_solve(std::move(hook));
-  Encoder(file_.begin(RecordKind::Hook)).put(there);
+  Encoder(file_.begin(RecordKind::Hook)).put(is_set);
   file_.commit();
 }
 

@@ -89,16 +89,16 @@ RecordingReader::RecordingReader(const std::filesystem::path& file, int bytes_of
   decoder.require(header.version == kVersion, "version", "is another one than this program's");
   decoder.require(header.real == static_cast<std::uint32_t>(bytes_of_real), "precision",
                   "is another one than this world's");
-  at_ = packed_size<FileHeader>();
+  offset_ = packed_size<FileHeader>();
 }
 
 auto RecordingReader::next() -> std::optional<Record> {
-  const std::span<const std::byte> rest = std::span(bytes_).subspan(at_);
+  const std::span<const std::byte> rest = std::span(bytes_).subspan(offset_);
   if (rest.empty()) return std::nullopt;
   const auto cut_off = [&]() -> std::optional<Record> {
     message_ = "the last record is cut off: " + std::to_string(rest.size()) +
                " bytes at the end of the file " + "were left out";
-    at_ = bytes_.size();
+    offset_ = bytes_.size();
     return std::nullopt;
   };
   if (rest.size() < kHeaderSize) return cut_off();
@@ -110,7 +110,7 @@ auto RecordingReader::next() -> std::optional<Record> {
     throw Error(Error::Kind::Value, kRecording, "record", std::to_string(count_ + 1),
                 "is damaged: its checksum does not fit");
   }
-  at_ += kHeaderSize + header.size;
+  offset_ += kHeaderSize + header.size;
   ++count_;
   return Record{static_cast<RecordKind>(content[0]), content.subspan(1)};
 }

@@ -73,7 +73,7 @@ class RecordingReader {
 
  private:
   std::vector<std::byte> bytes_;
-  std::size_t at_ = 0;
+  std::size_t offset_ = 0;
   int count_ = 0;
   std::string message_;
 };

@@ -12,26 +12,26 @@ namespace {
 
 // Type of a decoded argument, which owns the data that the argument refers to.
 template <class T>
-struct Owned {
+struct ArgumentStorage {
   using Type = std::remove_cvref_t<T>;
 };
 template <class T>
-struct Owned<std::span<const T>> {
+struct ArgumentStorage<std::span<const T>> {
   using Type = std::vector<T>;
 };
 
 template <class Real, class Result, class... Arguments>
 void call(BasicWorld<Real>& world, Result (BasicWorld<Real>::*member)(Arguments...), Decoder& in) {
-  std::tuple<typename Owned<Arguments>::Type...> arguments;
+  std::tuple<typename ArgumentStorage<Arguments>::Type...> arguments;
   std::apply([&](auto&... each) { (in.get(each, "arguments"), ...); }, arguments);
   in.require(in.rest().empty(), "arguments", "are more than the call takes");
   std::apply([&](const auto&... each) { (world.*member)(each...); }, arguments);
 }
 
 template <class Real, std::size_t... kEach>
-void dispatch(BasicWorld<Real>& world, std::size_t which, Decoder& in, std::index_sequence<kEach...>) {
+void dispatch(BasicWorld<Real>& world, std::size_t call_index, Decoder& in, std::index_sequence<kEach...>) {
   constexpr auto kCalls = world_calls<Real>();
-  ((kEach == which ? call(world, std::get<kEach>(kCalls), in) : void()), ...);
+  ((kEach == call_index ? call(world, std::get<kEach>(kCalls), in) : void()), ...);
 }
 
 // Returns the indices of bodies that are in only one of the lists, or have different hashes. Both lists
@@ -73,12 +73,12 @@ bool Replay<Real>::step() {
         } else if (hook_) {
           world_.on_pre_solve(hook_);
         } else {
-          say("a pre-solve hook was set in step " + std::to_string(world_.step_count() + 1) +
-              "; the replay has none");
+          add_message("a pre-solve hook was set in step " + std::to_string(world_.step_count() + 1) +
+                      "; the replay has none");
         }
         break;
       case RecordKind::Call:
-        repeat(record->content);
+        replay_call(record->content);
         break;
       case RecordKind::Hash:
         compare(record->content);
@@ -88,23 +88,23 @@ bool Replay<Real>::step() {
                     "is of a kind that there is not");
     }
   }
-  if (!file_.message().empty()) say(file_.message());
+  if (!file_.message().empty()) add_message(file_.message());
   return false;
 }
 
 template <class Real>
-void Replay<Real>::repeat(std::span<const std::byte> content) {
+void Replay<Real>::replay_call(std::span<const std::byte> content) {
   Decoder in(content, kRecording);
-  const std::size_t which = in.get<std::uint8_t>("call");
-  in.require(which < kWorldCalls, "call", "is none that this program knows");
+  const std::size_t call_index = in.get<std::uint8_t>("call");
+  in.require(call_index < kWorldCalls, "call", "is none that this program knows");
   ++report_.calls;
-  if (which == static_cast<std::size_t>(WorldCall::Step)) ++report_.steps;
+  if (call_index == static_cast<std::size_t>(WorldCall::Step)) ++report_.steps;
   try {
-    dispatch(world_, which, in, std::make_index_sequence<kWorldCalls>{});
+    dispatch(world_, call_index, in, std::make_index_sequence<kWorldCalls>{});
   } catch (const Error& error) {
     if (error.subject() == kRecording) throw;
-    say(std::string("the call of ") + kWorldCallNames[which] + " in step " +
-        std::to_string(world_.step_count() + 1) + " was refused: " + error.what());
+    add_message(std::string("the call of ") + kWorldCallNames[call_index] + " in step " +
+                std::to_string(world_.step_count() + 1) + " was refused: " + error.what());
   }
 }
 
@@ -136,7 +136,7 @@ void Replay<Real>::compare(std::span<const std::byte> content) {
 
 // Keeps only the first message, which is the most relevant.
 template <class Real>
-void Replay<Real>::say(const std::string& message) {
+void Replay<Real>::add_message(const std::string& message) {
   if (report_.message.empty()) report_.message = message;
 }
 

@@ -60,8 +60,8 @@ struct AddShape {
   void operator()(const Chain& chain) const {
     ChainDefinition definition{
         .closed = chain.closed, .material = material_of(shape), .filter = shape.filter};
-    const Rotation<double> turn = rotation_of(shape.angle);
-    for (const Vec2d point : chain.points) definition.points.push_back(shape.position + turn * point);
+    const Rotation<double> rotation = rotation_of(shape.angle);
+    for (const Vec2d point : chain.points) definition.points.push_back(shape.position + rotation * point);
     to.chains.push_back(std::move(definition));
   }
 
@@ -120,18 +120,18 @@ void require_in_range(const Scene& scene) {
     validate(definition_of(body));
     const Shapes shapes = shapes_of(body);
     const std::string of = " of body " + quoted(body.name);
-    const bool weighs = body.type == BodyType::Dynamic && !definition_of(body).mass;
-    naming([&] { return "shape" + of; },
-           [&] {
-             for (const ShapeDefinition& shape : shapes.solid) {
-               validate(shape);
-               if (std::is_same_v<Real, float> && weighs) require_weight(shape);
-             }
-           });
-    naming([&] { return "chain" + of; },
-           [&] {
-             for (const ChainDefinition& chain : shapes.chains) validate(chain);
-           });
+    const bool mass_from_shapes = body.type == BodyType::Dynamic && !definition_of(body).mass;
+    with_subject([&] { return "shape" + of; },
+                 [&] {
+                   for (const ShapeDefinition& shape : shapes.solid) {
+                     validate(shape);
+                     if (std::is_same_v<Real, float> && mass_from_shapes) require_float_mass(shape);
+                   }
+                 });
+    with_subject([&] { return "chain" + of; },
+                 [&] {
+                   for (const ChainDefinition& chain : shapes.chains) validate(chain);
+                 });
   }
   for (const Joint& joint : scene.joints) validate(definition_of(joint));
 }
@@ -150,7 +150,7 @@ SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
     for (const ChainDefinition& chain : shapes.chains) world.create_chain(parts.bodies.back(), chain);
     by_name[body.name] = parts.bodies.back();
   }
-  const auto find = [&](const std::string& name) {
+  const auto find_or_add_frame = [&](const std::string& name) {
     if (name != kWorld) return by_name.at(name);
     if (!world.valid(parts.frame)) {
       BodyDefinition frame;
@@ -162,7 +162,7 @@ SceneParts add_scene(BasicWorld<Real>& world, const Scene& scene) {
   for (const Joint& joint : scene.joints) {
     const auto [name_a, name_b] =
         std::visit([](const auto& j) { return std::tuple(j.body_a, j.body_b); }, joint);
-    const BodyId a = find(name_a), b = find(name_b);
+    const BodyId a = find_or_add_frame(name_a), b = find_or_add_frame(name_b);
     parts.joints.push_back(world.create_joint(a, b, definition_of(joint)));
   }
   return parts;

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "engine/forces/compile.h"
-#include "engine/math/small_turn.h"
+#include "engine/math/small_rotation.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/forces/law_bodies.h"
 #include "engine/world/state/lock.h"
@@ -21,21 +21,21 @@ Scene without_springs_and_drag(const Scene& scene) {
   return out;
 }
 
-// Returns the length s of the velocity at the middle of a step by the implicit midpoint method. It satisfies
+// Returns the speed s at the middle of a step by the implicit midpoint method. It satisfies
 // a s^2 + b s = |u|, where u is the velocity without drag. The formula avoids a difference of nearly equal
 // numbers.
-double slowed(Vec2d u, double half, double linear, double quadratic, double mass) {
-  const double a = half * quadratic / mass, b = 1 + half * linear / mass,
+double midpoint_speed(Vec2d u, double half_step, double linear, double quadratic, double mass) {
+  const double a = half_step * quadratic / mass, b = 1 + half_step * linear / mass,
                speed = std::sqrt(length_squared(u));
   return 2 * speed / (b + std::sqrt(b * b + 4 * a * speed));
 }
 
-// Returns the velocity at which drag is evaluated, so that a step changes the velocity by -z times it. Starts
-// from `start`, under an acceleration that changes the velocity by `gain` in half a step. A velocity then
-// decays by 1 / (1 + z + z^2 / 2), which is exp(-z) to second order and near 0 for large z; the implicit
-// midpoint method would reverse it.
+// Returns the velocity at which drag is evaluated; drag changes the velocity by -z times this value. `start`
+// is the velocity at the start of the step, `gain` its change in half a step by other forces. Without these,
+// a velocity decays by 1 / (1 + z + z^2 / 2), which is exp(-z) to second order and near 0 for large z; the
+// implicit midpoint method would reverse it.
 template <class Value>
-Value dragged(Value start, Value gain, double z) {
+Value drag_velocity(Value start, Value gain, double z) {
   return (1 / (1 + z + 0.5 * z * z)) * ((1 + 0.5 * z) * start + (1 + z) * gain);
 }
 
@@ -45,40 +45,40 @@ template <class Real>
 SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
     : laws_(without_springs_and_drag(scene)),
       drags_(scene.bodies.size()),
-      ends_(scene.bodies.size()),
+      spring_bodies_(scene.bodies.size()),
       ids_(parts.bodies),
       poses_(scene.bodies.size()),
       twists_(scene.bodies.size()),
       wrenches_(scene.bodies.size()) {
   const LawCompiler compiler(scene);
-  std::vector<char> pulled(scene.bodies.size(), 0);
+  std::vector<char> has_force(scene.bodies.size(), 0);
   for (const ForceLaw& law : scene.forces) {
     if (const auto* linear = std::get_if<LinearDrag>(&law)) {
       const std::size_t body = compiler.compile(*linear).body;
       drags_[body].linear += linear->coefficient, drags_[body].angular += linear->angular_coefficient;
-      pulled[body] = 1;
+      has_force[body] = 1;
     }
     if (const auto* quadratic = std::get_if<QuadraticDrag>(&law)) {
       const std::size_t body = compiler.compile(*quadratic).body;
       drags_[body].quadratic += quadratic->coefficient;
-      pulled[body] = 1;
+      has_force[body] = 1;
     }
     const auto* spring = std::get_if<SpringForce>(&law);
-    predicts_ = predicts_ || spring == nullptr;
+    uses_midpoint_ = uses_midpoint_ || spring == nullptr;
     if (spring == nullptr) continue;
     springs_.push_back(compiler.compile(*spring));
     for (const int end : {springs_.back().a, springs_.back().b})
-      if (end != kFixedFrame) pulled[static_cast<std::size_t>(end)] = 1;
+      if (end != kFixedFrame) has_force[static_cast<std::size_t>(end)] = 1;
   }
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     const bool dynamic = scene.bodies[body].type == BodyType::Dynamic;
     gravity_.push_back(dynamic ? scene.bodies[body].gravity_scale * scene.gravity : Vec2d{});
-    if (laws_.acts_on(body) || pulled[body] != 0) acted_on_.push_back(body);
+    if (laws_.acts_on(body) || has_force[body] != 0) acted_on_.push_back(body);
   }
 }
 
 template <class Real>
-void SceneForces<Real>::place(const BasicWorld<Real>& world) {
+void SceneForces<Real>::read_states(const BasicWorld<Real>& world) {
   for (const std::size_t body : acted_on_) {
     const BodyState state = world.state(ids_[body]);
     poses_[body] = {state.position, rotation_of(state.angle)};
@@ -88,27 +88,28 @@ void SceneForces<Real>::place(const BasicWorld<Real>& world) {
 }
 
 /// Advances velocities to the middle of the step under the forces in `wrenches_` and drag, and positions by
-/// the fraction `place_share` of the step.
+/// the fraction `evaluation_fraction` of the step.
 template <class Real>
-void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
-  const double half = 0.5 * dt;
+void SceneForces<Real>::advance_to_midpoint(const BasicWorld<Real>& world, double dt) {
+  const double half_step = 0.5 * dt;
   for (const std::size_t body : acted_on_) {
     const BodyState state = world.state(ids_[body]);
     const double mass = world.mass(ids_[body]), inertia = world.inertia(ids_[body]);
     Twist<double>& twist = twists_[body];
-    const double ahead = place_share(world.data(), static_cast<int>(ids_[body].index), dt) * dt;
+    const double ahead = evaluation_fraction(world.data(), static_cast<int>(ids_[body].index), dt) * dt;
     poses_[body] = {state.position + ahead * state.velocity,
                     rotation_of(state.angle + ahead * state.angular_velocity)};
     Drag& drag = drags_[body];
     if (mass > 0) {
-      const Vec2d gain = half * (gravity_[body] + (1 / mass) * wrenches_[body].force);
-      const double speed = slowed(twist.velocity + gain, half, drag.linear, drag.quadratic, mass);
-      drag.now = drag.linear + drag.quadratic * speed;
-      twist.velocity = dragged(twist.velocity, gain, dt * drag.now / mass);
+      const Vec2d gain = half_step * (gravity_[body] + (1 / mass) * wrenches_[body].force);
+      const double speed =
+          midpoint_speed(twist.velocity + gain, half_step, drag.linear, drag.quadratic, mass);
+      drag.current = drag.linear + drag.quadratic * speed;
+      twist.velocity = drag_velocity(twist.velocity, gain, dt * drag.current / mass);
     }
     if (inertia > 0) {
-      const double gain = half / inertia * wrenches_[body].torque;
-      twist.angular_velocity = dragged(twist.angular_velocity, gain, dt * drag.angular / inertia);
+      const double gain = half_step / inertia * wrenches_[body].torque;
+      twist.angular_velocity = drag_velocity(twist.angular_velocity, gain, dt * drag.angular / inertia);
     }
     wrenches_[body] = {};
   }
@@ -118,7 +119,7 @@ void SceneForces<Real>::advance(const BasicWorld<Real>& world, double dt) {
 /// a, the springs use x + (1/2 - c) dt v as its position. The displacement between this and the corresponding
 /// position in the next step is dt times the mean of the velocities.
 template <class Real>
-void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) {
+void SceneForces<Real>::prepare_springs(const BasicWorld<Real>& world, double dt) {
   elastic_.clear();
   const int frame = elastic_.add_body({});
   const WorldData<Real>& w = world.data();
@@ -126,22 +127,22 @@ void SceneForces<Real>::place_springs(const BasicWorld<Real>& world, double dt) 
     const int index = static_cast<int>(ids_[body].index);
     const BodyRecord<Real>& record = w.bodies[index];
     const double inverse_mass = static_cast<double>(w.motion[index].inverse_mass);
-    const double ahead = (place_share(w, index, dt) - 0.5) * dt;
-    Elastic& end = ends_[body];
-    end.body = elastic_.add_body(
+    const double ahead = (evaluation_fraction(w, index, dt) - 0.5) * dt;
+    SpringBody& spring_body = spring_bodies_[body];
+    spring_body.body = elastic_.add_body(
         {.position = poses_[body].position + ahead * twists_[body].velocity,
          .inverse_mass = {record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass},
          .inverse_inertia = static_cast<double>(w.motion[index].inverse_inertia)});
-    end.rotation = turned_by(poses_[body].rotation, ahead * twists_[body].angular_velocity);
-    end.start = twists_[body];
+    spring_body.rotation = rotated_by(poses_[body].rotation, ahead * twists_[body].angular_velocity);
+    spring_body.start = twists_[body];
   }
-  const auto end_of = [&](int body, Vec2d anchor) {
+  const auto anchor_of = [&](int body, Vec2d anchor) {
     return body == kFixedFrame ? std::pair(frame, anchor)
-                               : std::pair(ends_[body].body, ends_[body].rotation * anchor);
+                               : std::pair(spring_bodies_[body].body, spring_bodies_[body].rotation * anchor);
   };
   for (const SpringForceLaw& law : springs_) {
-    const auto [a, arm_a] = end_of(law.a, law.anchor_a);
-    const auto [b, arm_b] = end_of(law.b, law.anchor_b);
+    const auto [a, arm_a] = anchor_of(law.a, law.anchor_a);
+    const auto [b, arm_b] = anchor_of(law.b, law.anchor_b);
     elastic_.add({a, b, arm_a, arm_b, law.rest_length, law.stiffness, law.damping});
   }
 }
@@ -151,17 +152,17 @@ template <class Real>
 void SceneForces<Real>::add_springs(double dt) {
   if (springs_.empty()) return;
   for (const std::size_t body : acted_on_) {
-    const Elastic& end = ends_[body];
-    const ElasticStep::Body& b = elastic_.body(end.body);
-    const Vec2d push = wrenches_[body].force;
-    const Vec2d gain{b.inverse_mass.x > 0 ? gravity_[body].x + b.inverse_mass.x * push.x : 0,
-                     b.inverse_mass.y > 0 ? gravity_[body].y + b.inverse_mass.y * push.y : 0};
+    const SpringBody& spring_body = spring_bodies_[body];
+    const ElasticStep::Body& b = elastic_.body(spring_body.body);
+    const Vec2d force = wrenches_[body].force;
+    const Vec2d gain{b.inverse_mass.x > 0 ? gravity_[body].x + b.inverse_mass.x * force.x : 0,
+                     b.inverse_mass.y > 0 ? gravity_[body].y + b.inverse_mass.y * force.y : 0};
     elastic_.set_free_motion(
-        end.body, dt * (end.start.velocity + 0.5 * dt * gain),
-        dt * (end.start.angular_velocity + 0.5 * dt * b.inverse_inertia * wrenches_[body].torque));
+        spring_body.body, dt * (spring_body.start.velocity + 0.5 * dt * gain),
+        dt * (spring_body.start.angular_velocity + 0.5 * dt * b.inverse_inertia * wrenches_[body].torque));
   }
   elastic_.solve(dt);
-  for (const std::size_t body : acted_on_) wrenches_[body] += elastic_.wrench(ends_[body].body);
+  for (const std::size_t body : acted_on_) wrenches_[body] += elastic_.wrench(spring_bodies_[body].body);
 }
 
 /// Adds the forces of the springs at the poses in `poses_`.
@@ -184,7 +185,7 @@ template <class Real>
 void SceneForces<Real>::add_drag() {
   for (const std::size_t body : acted_on_) {
     const Drag& drag = drags_[body];
-    wrenches_[body].force -= drag.now * twists_[body].velocity;
+    wrenches_[body].force -= drag.current * twists_[body].velocity;
     wrenches_[body].torque -= drag.angular * twists_[body].angular_velocity;
   }
 }
@@ -193,40 +194,40 @@ template <class Real>
 void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
   if (empty()) return;
   const double start = world.time(), end = start + dt;
-  place(world);
-  if (!springs_.empty()) place_springs(world, dt);
-  if (predicts_) {
+  read_states(world);
+  if (!springs_.empty()) prepare_springs(world, dt);
+  if (uses_midpoint_) {
     laws_.add(start, start + 0.5 * dt, poses_.data(), twists_.data(), wrenches_.data());
     add_springs(dt);
-    advance(world, dt);
+    advance_to_midpoint(world, dt);
     laws_.add(start, end, poses_.data(), twists_.data(), wrenches_.data());
     add_drag();
   }
   add_springs(dt);
-  push(world);
+  apply_wrenches(world);
 }
 
 template <class Real>
 void SceneForces<Real>::apply_at_start(BasicWorld<Real>& world, double dt) {
   if (empty()) return;
-  place(world);
+  read_states(world);
   laws_.add(world.time(), world.time() + dt, poses_.data(), twists_.data(), wrenches_.data());
   add_springs_at_start();
   for (const std::size_t body : acted_on_) {
     Drag& drag = drags_[body];
-    drag.now = drag.linear + drag.quadratic * std::sqrt(length_squared(twists_[body].velocity));
+    drag.current = drag.linear + drag.quadratic * std::sqrt(length_squared(twists_[body].velocity));
   }
   add_drag();
-  push(world);
+  apply_wrenches(world);
 }
 
 /// Passes the wrenches to the world; a force that is not finite quarantines its body.
 template <class Real>
-void SceneForces<Real>::push(BasicWorld<Real>& world) {
+void SceneForces<Real>::apply_wrenches(BasicWorld<Real>& world) {
   for (const std::size_t body : acted_on_) {
     if (world.type(ids_[body]) != BodyType::Dynamic) continue;
     if (!is_sound(wrenches_[body])) {
-      quarantine_pushed(settled(world), static_cast<int>(ids_[body].index), wrenches_[body]);
+      quarantine_pushed(unlocked_with_masses(world), static_cast<int>(ids_[body].index), wrenches_[body]);
       continue;
     }
     world.apply_force(ids_[body], wrenches_[body].force);

@@ -28,10 +28,10 @@ class SceneForces {
   void apply_at_start(BasicWorld<Real>& world, double dt);
 
  private:
-  void place(const BasicWorld<Real>& world);
-  void advance(const BasicWorld<Real>& world, double dt);
+  void read_states(const BasicWorld<Real>& world);
+  void advance_to_midpoint(const BasicWorld<Real>& world, double dt);
   /// A body at the start of the step, as springs need it.
-  struct Elastic {
+  struct SpringBody {
     int body = 0;  ///< in `elastic_`
     Rotation<double> rotation{};
     Twist<double> start{};
@@ -41,11 +41,11 @@ class SceneForces {
     double linear = 0;     ///< N s/m
     double quadratic = 0;  ///< N s^2/m^2
     double angular = 0;    ///< N m s
-    double now = 0;        ///< N s/m: drag force over velocity in the next step
+    double current = 0;    ///< N s/m: drag force over velocity in the next step
   };
-  void push(BasicWorld<Real>& world);
+  void apply_wrenches(BasicWorld<Real>& world);
   void add_drag();
-  void place_springs(const BasicWorld<Real>& world, double dt);
+  void prepare_springs(const BasicWorld<Real>& world, double dt);
   void add_springs(double dt);
   void add_springs_at_start();
 
@@ -53,9 +53,9 @@ class SceneForces {
   std::vector<Drag> drags_;  // by body
   std::vector<SpringForceLaw> springs_;
   ElasticStep elastic_;
-  std::vector<Elastic> ends_;  // by body
-  bool predicts_ = false;      // some laws depend on the motion at the middle of a step
-  std::vector<BodyId> ids_;    // by body
+  std::vector<SpringBody> spring_bodies_;  // by body
+  bool uses_midpoint_ = false;             // some laws depend on the motion at the middle of a step
+  std::vector<BodyId> ids_;                // by body
   std::vector<std::size_t> acted_on_;
   std::vector<Vec2d> gravity_;  // m/s^2, by body
   std::vector<Pose<double>> poses_;

@@ -27,7 +27,7 @@ void hash_awake_bodies(const WorldData<Real>& w, std::vector<BodyHash>& hashes) 
       std::memcpy(to, &value, sizeof(value));
       to += sizeof(value);
     };
-    const BodyMotion<Real>& motion = w.motion[body];
+    const SolverBody<Real>& motion = w.motion[body];
     add(w.position[body].x), add(w.position[body].y), add(w.bodies[body].angle);
     add(motion.velocity.x), add(motion.velocity.y), add(motion.angular_velocity);
     const std::uint64_t hash = checksum(bytes);

@@ -52,12 +52,12 @@ int Rollback<Real>::capacity() const {
   return static_cast<int>(ring_.size());
 }
 template <class Real>
-int Rollback<Real>::place_of(int nth) const {
+int Rollback<Real>::slot_of(int nth) const {
   return (first_ + nth) % capacity();
 }
 template <class Real>
 std::int64_t Rollback<Real>::step_of(int nth) const {
-  return ring_[place_of(nth)]->steps;
+  return ring_[slot_of(nth)]->steps;
 }
 template <class Real>
 int Rollback<Real>::find(std::int64_t step) const {
@@ -73,10 +73,10 @@ void Rollback<Real>::save() {
   const std::int64_t step = world_->step_count();
   while (size_ > 0 && latest() >= step) --size_;
   if (size_ == capacity()) {
-    first_ = place_of(1);
+    first_ = slot_of(1);
     --size_;
   }
-  copy_state(std::as_const(*world_).data(), *ring_[place_of(size_)]);
+  copy_state(std::as_const(*world_).data(), *ring_[slot_of(size_)]);
   ++size_;
 }
 
@@ -89,7 +89,7 @@ void Rollback<Real>::back_to(std::int64_t step) {
                            : "is not kept: there are " + std::to_string(oldest()) + " to " +
                                  std::to_string(latest()));
   }
-  copy_state(*ring_[place_of(nth)], unlocked(*world_));
+  copy_state(*ring_[slot_of(nth)], unlocked(*world_));
   size_ = nth + 1;
 }
 

@@ -1,7 +1,6 @@
 #include "engine/world/snapshot.h"
 
 #include <bit>
-#include <string>
 
 #include "engine/encoding/encoding.h"
 #include "engine/world/checksum.h"
@@ -42,7 +41,7 @@ constexpr std::uint32_t layout() {
   std::uint32_t mixed = 0;
   for (const std::size_t size :
        {sizeof(Real), packed_size<WorldDefinition>(), packed_size<BodyRecord<Real>>(),
-        packed_size<BodyMotion<Real>>(), packed_size<ShapeForm<Real>>(), packed_size<ShapeRecord<Real>>(),
+        packed_size<SolverBody<Real>>(), packed_size<ShapeForm<Real>>(), packed_size<ShapeRecord<Real>>(),
         packed_size<ContactRecord>(), packed_size<ContactConstraint<Real>>(), packed_size<JointRecord>()}) {
     mixed = mixed * 1021 + static_cast<std::uint32_t>(size);
   }
@@ -149,7 +148,7 @@ void add_pairs(WorldData<Real>& w) {
 }
 
 template <class Real>
-void share_corners(WorldData<Real>& w) {
+void count_corner_uses(WorldData<Real>& w) {
   w.shapes.for_each([&](int shape, const ShapeRecord<Real>&) {
     const ShapeForm<Real>& form = w.forms[shape];
     require(w.corners.count_use(form.corner, form.stored()), kSubject, "corners", "are stored twice");
@@ -191,11 +190,11 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
   require(fresh.graph.find_bodies([&](int body) { return fresh.is_dynamic(body); }), kSubject, "contacts",
           "of one colour share a body");
   add_pairs(fresh);
-  share_corners(fresh);
+  count_corner_uses(fresh);
   // Reserve the free lists now, because destroying objects later must not allocate.
-  fresh.bodies.make_room(0), fresh.uncommon.make_room(0), fresh.shapes.make_room(0);
-  fresh.chains.make_room(0), fresh.contacts.make_room(0), fresh.joints.make_room(0);
-  fresh.static_tree.make_room(0), fresh.dynamic_tree.make_room(0);
+  fresh.bodies.reserve_more(0), fresh.uncommon.reserve_more(0), fresh.shapes.reserve_more(0);
+  fresh.chains.reserve_more(0), fresh.contacts.reserve_more(0), fresh.joints.reserve_more(0);
+  fresh.static_tree.reserve_more(0), fresh.dynamic_tree.reserve_more(0);
   // Nothing throws from here on. The hook and scratch memory are kept.
   const auto from = state_of(fresh), to = state_of(world.data());
   [&]<std::size_t... kEach>(std::index_sequence<kEach...>) {

@@ -31,16 +31,16 @@ bool all_finite(const std::vector<T>& all) {
   return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
 }
 
-bool is_within_reach(double length) { return std::abs(length) <= kFarthest; }
+bool is_in_range(double length) { return std::abs(length) <= kFarthest; }
 
 template <class Real>
-bool is_within_reach(Vec2<Real> v) {
-  return is_within_reach(static_cast<double>(v.x)) && is_within_reach(static_cast<double>(v.y));
+bool is_in_range(Vec2<Real> v) {
+  return is_in_range(static_cast<double>(v.x)) && is_in_range(static_cast<double>(v.y));
 }
 
 template <class Real>
-bool is_within_reach(const Aabb<Real>& box) {
-  return is_within_reach(box.lower) && is_within_reach(box.upper);
+bool is_in_range(const Aabb<Real>& box) {
+  return is_in_range(box.lower) && is_in_range(box.upper);
 }
 
 // Marks each number once: `mark` returns false for a number that is out of range or already marked.
@@ -67,29 +67,29 @@ class Check {
   explicit Check(const WorldData<Real>& w) : w_(w) {}
 
   void run() const {
-    numbers();
-    slots(w_.bodies), slots(w_.uncommon), slots(w_.shapes), slots(w_.chains), slots(w_.contacts),
-        slots(w_.joints);
-    sizes();
-    uncommon();
-    shape_lists();
-    corners();
+    check_numbers();
+    check_slots(w_.bodies), check_slots(w_.uncommon), check_slots(w_.shapes), check_slots(w_.chains),
+        check_slots(w_.contacts), check_slots(w_.joints);
+    check_sizes();
+    check_uncommon();
+    check_shape_lists();
+    check_corners();
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
       if (w_.shapes.used(shape)) check_shape(shape);
     }
-    trees();
-    lists();
-    awake();
-    quarantine();
-    unsettled();
+    check_trees();
+    check_lists();
+    check_awake();
+    check_quarantine();
+    check_unsettled();
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (w_.contacts.used(contact)) check_contact(contact);
     }
-    homes();
-    joints();
-    edges(w_.contacts, &BodyRecord<Real>::first_contact);
-    edges(w_.joints, &BodyRecord<Real>::first_joint);
-    constraints();
+    check_contact_counts();
+    check_joints();
+    check_edges(w_.contacts, &BodyRecord<Real>::first_contact);
+    check_edges(w_.joints, &BodyRecord<Real>::first_joint);
+    check_constraints();
   }
 
  private:
@@ -97,7 +97,7 @@ class Check {
     plumb::require(holds, "snapshot", field, problem);
   }
 
-  void numbers() const {
+  void check_numbers() const {
     const auto [corners, free] = w_.corners.parts();
     bool finite = is_finite(w_.settings) && is_finite(w_.time) && is_finite(w_.last_h) &&
                   all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
@@ -110,9 +110,9 @@ class Check {
     require(finite, "state", "holds numbers that are not finite");
     require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
     require(w_.last_h <= kLargestNumber, "time", "has steps that are longer than a world's");
-    require(w_.steps <= kMostSteps, "steps", "are more than a world takes");
+    require(w_.steps <= kMaxSteps, "steps", "are more than a world takes");
     validate(w_.settings);
-    lengths();
+    check_lengths();
   }
 
   bool all_finite_uncommon() const {
@@ -123,30 +123,30 @@ class Check {
     });
   }
 
-  // Checks that places and sizes obey the limits of the calls that set them. Beyond these, boxes would become
-  // infinite a step later, and the world could be saved but not restored.
-  void lengths() const {
+  // Checks that positions and sizes obey the limits of the calls that set them. Beyond these, AABBs would
+  // become infinite a step later, and the world could be saved but not restored.
+  void check_lengths() const {
     const auto all = [](const auto& list, const auto& lengths_of) {
       return std::all_of(list.begin(), list.end(), lengths_of);
     };
-    const auto in_reach = [](const auto&... each) { return (is_within_reach(each) && ...); };
+    const auto in_range = [](const auto&... each) { return (is_in_range(each) && ...); };
     // The part of a motion that is smaller than the rounding of positions.
     constexpr double kRounding = kFarthest * std::numeric_limits<double>::epsilon();
     const auto is_rounding = [](Vec2d v) { return std::abs(v.x) <= kRounding && std::abs(v.y) <= kRounding; };
     const bool bodies = all(std::get<0>(w_.position_compensation.parts()), is_rounding) &&
-                        all(w_.position, in_reach) && all(w_.extents, in_reach) &&
+                        all(w_.position, in_range) && all(w_.extents, in_range) &&
                         all(std::get<0>(w_.bodies.parts()),
-                            [&](const BodyRecord<Real>& each) { return in_reach(each.angle, each.centre); });
+                            [&](const BodyRecord<Real>& each) { return in_range(each.angle, each.centre); });
     require(bodies, "bodies", "are farther off or larger than calls and steps allow");
     const bool shapes =
-        all(w_.forms, [&](const ShapeForm<Real>& each) { return in_reach(each.radius, each.extent); }) &&
-        all(std::get<0>(w_.corners.parts()), [&](const Corner<Real>& each) { return in_reach(each.point); });
+        all(w_.forms, [&](const ShapeForm<Real>& each) { return in_range(each.radius, each.extent); }) &&
+        all(std::get<0>(w_.corners.parts()), [&](const Corner<Real>& each) { return in_range(each.point); });
     require(shapes, "shapes", "are larger than calls allow");
   }
 
   // Checks that each slot is either free and listed once, or in use.
   template <class T>
-  void slots(const SlotMap<T>& all) const {
+  void check_slots(const SlotMap<T>& all) const {
     const auto [items, generations, free] = all.parts();
     require(items.size() == generations.size(), "slots", "have no generations");
     Marks marks(all.size());
@@ -159,7 +159,7 @@ class Check {
     require(marks.count() == all.size(), "free slots", "are not all listed");
   }
 
-  void sizes() const {
+  void check_sizes() const {
     const auto is_by_body = [&](const auto& all) { return static_cast<int>(all.size()) == w_.bodies.size(); };
     const auto none_or_by_body = [&](const auto& list) {
       const auto& items = std::get<0>(list.parts());
@@ -177,11 +177,11 @@ class Check {
   }
 
   // Checks that each entry belongs to one body, with numbers that a call may set.
-  void uncommon() const {
+  void check_uncommon() const {
     Marks taken(w_.uncommon.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
-      const int place = w_.bodies[body].uncommon;
-      require(place == kNone || (w_.bodies.used(body) && taken.mark(place) && w_.uncommon.used(place)),
+      const int extras = w_.bodies[body].uncommon;
+      require(extras == kNone || (w_.bodies.used(body) && taken.mark(extras) && w_.uncommon.used(extras)),
               "bodies", "share what is their own");
     }
     require(taken.count() == w_.uncommon.count(), "bodies", "have not all that is their own");
@@ -193,7 +193,7 @@ class Check {
   }
 
   // Checks that each body's list ends, and that every shape is in the list of its body.
-  void shape_lists() const {
+  void check_shape_lists() const {
     Marks listed(w_.shapes.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
@@ -211,7 +211,7 @@ class Check {
 
   // Checks that every corner belongs to one run, and every run either to shapes with as many corners, or to
   // the free runs.
-  void corners() const {
+  void check_corners() const {
     const auto [all, free] = w_.corners.parts();
     Marks taken(static_cast<int>(all.size()));
     std::vector<int> run_at(all.size() + 1, 0);  // by first corner: length of the run
@@ -221,8 +221,9 @@ class Check {
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
       if (!w_.shapes.used(shape)) continue;
       const ShapeForm<Real>& form = w_.forms[shape];
-      const bool few = form.count >= 1 && form.count <= kMaxCorners && (!form.chain || form.count == 2);
-      require(few && form.corner >= 0 && form.corner <= static_cast<int>(all.size()), "corners",
+      const bool valid_count =
+          form.count >= 1 && form.count <= kMaxCorners && (!form.chain || form.count == 2);
+      require(valid_count && form.corner >= 0 && form.corner <= static_cast<int>(all.size()), "corners",
               "of a shape are not there");
       int& run = run_at[form.corner];
       if (run == 0) take(form.corner, run = form.stored());
@@ -252,14 +253,14 @@ class Check {
     const DynamicTree<Real>& tree =
         w_.bodies[record.body].type == BodyType::Static ? w_.static_tree : w_.dynamic_tree;
     require(tree.holds(record.proxy) && tree.user(record.proxy) == shape, "boxes", "are not those of shapes");
-    require(is_within_reach(tree.box(record.proxy)), "boxes", "are farther off than calls and steps allow");
+    require(is_in_range(tree.box(record.proxy)), "boxes", "are farther off than calls and steps allow");
   }
 
   bool is_out(const ShapeRecord<Real>& record) const {
-    return w_.bodies[record.body].quarantined || meets_nothing(record.filter);
+    return w_.bodies[record.body].quarantined || collides_with_nothing(record.filter);
   }
 
-  void trees() const {
+  void check_trees() const {
     int out = 0;
     for (int shape = 0; shape < w_.shapes.size(); ++shape) {
       if (w_.shapes.used(shape) && is_out(w_.shapes[shape])) ++out;
@@ -269,7 +270,7 @@ class Check {
   }
 
   // Checks that bodies in quarantine are listed, are static meanwhile, and have no contacts.
-  void quarantine() const {
+  void check_quarantine() const {
     Marks listed(w_.bodies.size());
     for (const QuarantinedBody& each : w_.quarantine) {
       require(has_body(each.body) && listed.mark(each.body), "quarantine", "lists bodies that are not there");
@@ -289,7 +290,7 @@ class Check {
   bool has_joint(int joint) const { return joint >= 0 && joint < w_.joints.size() && w_.joints.used(joint); }
 
   // Checks the lists of shapes and joints: chains, sensors, moved shapes, joints with load limits.
-  void lists() const {
+  void check_lists() const {
     Marks in_chain(w_.shapes.size());
     int segments = 0, sensors = 0;
     for (int chain = 0; chain < w_.chains.size(); ++chain) {
@@ -320,7 +321,7 @@ class Check {
   }
 
   // Checks that bodies whose mass is to be computed are listed. The mass of a static body may be unknown.
-  void unsettled() const {
+  void check_unsettled() const {
     Marks listed(w_.bodies.size());
     for (const int body : w_.unsettled)
       require(has_body(body) && listed.mark(body), "bodies", "whose shapes changed are not there");
@@ -341,7 +342,7 @@ class Check {
     require(count == listed.count(), "bodies", "whose shapes changed are not listed");
   }
 
-  void awake() const {
+  void check_awake() const {
     Marks listed(w_.bodies.size());
     for (std::size_t i = 0; i < w_.awake.size(); ++i) {
       const int body = w_.awake[i];
@@ -377,22 +378,22 @@ class Check {
     const auto is_in = [&](const auto& list) {
       return record.index >= 0 && record.index < static_cast<int>(list.size());
     };
-    bool placed = true;
+    bool indexed = true;
     if (record.home == ContactHome::Near) {
-      placed = is_in(w_.near) && w_.near[record.index] == contact;
+      indexed = is_in(w_.near) && w_.near[record.index] == contact;
     } else if (record.home == ContactHome::Parked) {
-      placed = is_in(w_.parked) && fits(record, w_.parked[record.index], contact);
+      indexed = is_in(w_.parked) && fits(record, w_.parked[record.index], contact);
     } else if (record.home == ContactHome::Graph) {
-      placed = record.colour >= 0 && record.colour <= w_.graph.kColours &&
-               is_in(w_.graph.colour(record.colour)) &&
-               fits(record, w_.graph.at({record.colour, record.index}), contact);
+      indexed = record.colour >= 0 && record.colour <= w_.graph.kColours &&
+                is_in(w_.graph.colour(record.colour)) &&
+                fits(record, w_.graph.at({record.colour, record.index}), contact);
     }
-    require(placed, "contacts", "are not where they say");
+    require(indexed, "contacts", "are not where they say");
   }
 
   // Checks that every index belongs to one contact: the counts agree, and no two contacts have the same
   // index.
-  void homes() const {
+  void check_contact_counts() const {
     std::size_t count[4] = {};
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (w_.contacts.used(contact)) ++count[static_cast<int>(w_.contacts[contact].home)];
@@ -403,7 +404,7 @@ class Check {
             "contacts", "are not as many as their places");
   }
 
-  void joints() const {
+  void check_joints() const {
     for (int joint = 0; joint < w_.joints.size(); ++joint) {
       if (!w_.joints.used(joint)) continue;
       const JointRecord& record = w_.joints[joint];
@@ -414,7 +415,7 @@ class Check {
       require(!record.active || w_.joint_set.dynamic(record.slot) ==
                                     std::pair{w_.is_dynamic(record.body_a), w_.is_dynamic(record.body_b)},
               "joints", "hold bodies of another type");
-      require(!record.active || !lets_go(w_, record), "joints", "hold what is in quarantine");
+      require(!record.active || !has_quarantined_body(w_, record), "joints", "hold what is in quarantine");
     }
     require(w_.joint_set.count() == w_.joints.count(), "joints", "are not as many as are solved");
   }
@@ -422,7 +423,7 @@ class Check {
   // Checks that each body's list ends, and that both ends of every contact or joint are in the list of their
   // body.
   template <class Items>
-  void edges(const Items& items, int BodyRecord<Real>::*first) const {
+  void check_edges(const Items& items, int BodyRecord<Real>::*first) const {
     Marks listed(2 * items.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
       if (!w_.bodies.used(body)) continue;
@@ -440,7 +441,7 @@ class Check {
     require(listed.count() == 2 * items.count(), "lists of contacts or joints", "are not complete");
   }
 
-  void constraints() const {
+  void check_constraints() const {
     std::vector<int> count(static_cast<std::size_t>(w_.bodies.size()), 0);
     const auto add = [&](const auto& record) { ++count[record.body_a], ++count[record.body_b]; };
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
@@ -449,7 +450,7 @@ class Check {
       if (record.home == ContactHome::Graph || record.home == ContactHome::Parked) add(record);
     }
     for (int joint = 0; joint < w_.joints.size(); ++joint) {
-      if (w_.joints.used(joint) && !lets_go(w_, w_.joints[joint])) add(w_.joints[joint]);
+      if (w_.joints.used(joint) && !has_quarantined_body(w_, w_.joints[joint])) add(w_.joints[joint]);
     }
     for (int body = 0; body < w_.bodies.size(); ++body) {
       require(!w_.bodies.used(body) || w_.bodies[body].constraints == count[body], "bodies",

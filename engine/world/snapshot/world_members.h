@@ -51,7 +51,8 @@ PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rota
                    centre, half_width, sleep_time, angle)
 PLUMB_REAL_MEMBERS(BodyExtras, name, gravity_scale, linear_damping, angular_damping, mass_centre, continuous)
 PLUMB_REAL_MEMBERS(Load, force, torque)
-PLUMB_REAL_MEMBERS(BodyMotion, velocity, angular_velocity, moved, turned, inverse_mass, inverse_inertia)
+PLUMB_REAL_MEMBERS(SolverBody, velocity, angular_velocity, delta_position, delta_angle, inverse_mass,
+                   inverse_inertia)
 
 PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
 PLUMB_REAL_MEMBERS(ShapeRecord, body, next, previous, proxy, chain, moved, hit_events, pre_solve, filter,

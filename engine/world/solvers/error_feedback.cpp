@@ -12,7 +12,7 @@ namespace {
 // Adds a row that closes its residual at `speed`, if any of its bodies can move.
 template <class Real>
 void add_row(WorldData<Real>& w, FeedbackRow<Real> row) {
-  const BodyMotion<Real>&a = w.motion[row.body_a], &b = w.motion[row.body_b];
+  const SolverBody<Real>&a = w.motion[row.body_a], &b = w.motion[row.body_b];
   const unsigned locks = locks_of(w, row.body_a, row.body_b);
   row.row.linear_a = free_of_a(row.row.linear_a, locks),
   row.row.linear_b = free_of_b(row.row.linear_b, locks);
@@ -41,9 +41,9 @@ void add_joints(WorldData<Real>& w, Real rate) {
       add_row(w, {.body_a = body_a,
                   .body_b = body_b,
                   .row = row.row,
-                  .speed = -rate * row.row.residual,
-                  .least = limit ? Real(0) : -row.most,
-                  .most = row.most});
+                  .target_speed = -rate * row.row.residual,
+                  .min_impulse = limit ? Real(0) : -row.max_impulse,
+                  .max_impulse = row.max_impulse});
     }
   }
 }
@@ -60,8 +60,8 @@ void add_contacts(WorldData<Real>& w, Real rate) {
       add_row(w, {.body_a = c.body_a,
                   .body_b = c.body_b,
                   .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
-                  .speed = std::min(rate * overlap, c.push_speed),
-                  .least = 0});
+                  .target_speed = std::min(rate * overlap, c.push_speed),
+                  .min_impulse = 0});
     }
   });
 }
@@ -77,24 +77,25 @@ void feed_back_errors(WorldData<Real>& w, Real rate) {
   if (rows.empty()) return;
   std::vector<BodyVelocity<Real>>& added = w.scratch.feedback;
   added.assign(w.bodies.size(), {});
-  for (int sweep = 0; sweep < w.settings.iterations; ++sweep) {
+  for (int iteration = 0; iteration < w.settings.iterations; ++iteration) {
     for (FeedbackRow<Real>& row : rows) {
       BodyVelocity<Real>&a = added[row.body_a], &b = added[row.body_b];
       const JointRow<Real>& j = row.row;
       const Real along = dot(j.linear_a, a.velocity) + j.angular_a * a.angular_velocity +
                          dot(j.linear_b, b.velocity) + j.angular_b * b.angular_velocity;
       const Real before = row.impulse;
-      row.impulse = std::clamp(before + row.mass * (row.speed - along), row.least, row.most);
+      row.impulse =
+          std::clamp(before + row.mass * (row.target_speed - along), row.min_impulse, row.max_impulse);
       const Real d = row.impulse - before;
-      const BodyMotion<Real>&of_a = w.motion[row.body_a], &of_b = w.motion[row.body_b];
+      const SolverBody<Real>&of_a = w.motion[row.body_a], &of_b = w.motion[row.body_b];
       a.velocity += (d * of_a.inverse_mass) * j.linear_a, b.velocity += (d * of_b.inverse_mass) * j.linear_b;
       a.angular_velocity += d * of_a.inverse_inertia * j.angular_a;
       b.angular_velocity += d * of_b.inverse_inertia * j.angular_b;
     }
   }
-  for (const VelocityIncrement<Real>& kick : w.scratch.kicks) {
-    w.motion[kick.body].velocity += added[kick.body].velocity;
-    w.motion[kick.body].angular_velocity += added[kick.body].angular_velocity;
+  for (const VelocityIncrement<Real>& increment : w.scratch.velocity_increments) {
+    w.motion[increment.body].velocity += added[increment.body].velocity;
+    w.motion[increment.body].angular_velocity += added[increment.body].angular_velocity;
   }
 }
 

@@ -2,15 +2,15 @@
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/solvers/solvers.h"
 
-// Solvers that project positions: bodies move by forces, then `sweeps` iterations over all constraints move
-// them back. The velocity is the displacement over h.
+// Solvers that project positions: bodies move by forces, then `iterations` iterations over all constraints
+// move them back. The velocity is the displacement over h.
 namespace plumb {
 namespace {
 
 // Makes a step by projections. At the end of each substep, calls `correct(contacts)`, which corrects
 // velocities.
 template <class Real, class Correct>
-void project_positions(WorldData<Real>& w, double h, int substeps, int sweeps, PositionFriction friction,
+void project_positions(WorldData<Real>& w, double h, int substeps, int iterations, PositionFriction friction,
                        const Correct& correct) {
   const Real step = static_cast<Real>(h), inverse_h = static_cast<Real>(1 / h);
   const PositionStep<Real> contacts{
@@ -27,7 +27,7 @@ void project_positions(WorldData<Real>& w, double h, int substeps, int sweeps, P
     begin_position_contacts(bodies.motion, w.graph);
     integrate_velocities(w);
     integrate_positions(w, step, Integrator::SemiImplicitEuler);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int iteration = 0; iteration < iterations; ++iteration) {
       if (jointed) w.joint_set.project(bodies, rotation, joints);
       project_contacts(bodies.motion, rotation, w.graph, contacts, friction);
       enforce_motion_locks(w);

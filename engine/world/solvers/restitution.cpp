@@ -20,7 +20,7 @@ namespace {
 constexpr double kCentred = 1e-5;
 
 template <class Real>
-bool is_centred_disc(const WorldData<Real>& w, int shape) {
+bool is_centred_circle(const WorldData<Real>& w, int shape) {
   const ShapeForm<Real>& form = w.forms[shape];
   if (form.count != 1 || form.chain) return false;
   const Vec2<Real> centre = w.corners.data()[form.corner].point;
@@ -30,15 +30,16 @@ bool is_centred_disc(const WorldData<Real>& w, int shape) {
 // Prepares the contact of two separated circles for the time at which they touch: its normal is then the line
 // between their centres.
 template <class Real>
-void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, RestitutionContact<Real>& bounce) {
+void predict_circle_normal(const WorldData<Real>& w, const ContactRecord& contact,
+                           RestitutionContact<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
   if (c.count != 1 || !(c.separation[0] > 0) || c.normal_impulse[0] > 0) return;
-  if (!is_centred_disc(w, contact.shape_a) || !is_centred_disc(w, contact.shape_b)) return;
+  if (!is_centred_circle(w, contact.shape_a) || !is_centred_circle(w, contact.shape_b)) return;
   const Real radius_a = w.forms[contact.shape_a].radius, radius_b = w.forms[contact.shape_b].radius;
   bounce.radii = radius_a + radius_b;
   bounce.between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
   // The future contact point, in the middle of the present gap.
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   c.arm_tangent_a = -radius_a, c.arm_tangent_b = radius_b;
   const Vec2<Real> t{c.normal.y, -c.normal.x};
   const Real inverse = linear_response(a, b, c.locks, t, t, true) + a.inverse_inertia * radius_a * radius_a +
@@ -49,21 +50,21 @@ void follow_discs(const WorldData<Real>& w, const ContactRecord& contact, Restit
 // Collects the joints and the groups of bodies that they connect.
 template <class Real>
 void collect_joints(WorldData<Real>& w) {
-  ImpactScratch<Real>& room = w.scratch.impacts;
-  room.group.clear(), room.joints.clear();
-  if (w.joint_set.active_count() <= w.scratch.trees.hinges) return;
-  UnionFind groups(room.group, w.bodies.size());
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  scratch.group.clear(), scratch.joints.clear();
+  if (w.joint_set.active_count() <= w.scratch.trees.hinge_count) return;
+  UnionFind groups(scratch.group, w.bodies.size());
   w.joints.for_each([&](int, const JointRecord& joint) {
     const bool a = w.is_dynamic(joint.body_a), b = w.is_dynamic(joint.body_b);
     if (!joint.active || !(a || b) || in_hinge_tree(w, a ? joint.body_a : joint.body_b)) return;
-    room.joints.push_back({.a = joint.body_a, .b = joint.body_b, .slot = joint.slot});
+    scratch.joints.push_back({.a = joint.body_a, .b = joint.body_b, .slot = joint.slot});
     if (a && b) groups.join(joint.body_a, joint.body_b);
   });
-  for (int body = 0; body < w.bodies.size(); ++body) room.group[body] = groups.find(body);
-  room.first_joint.assign(room.group.size(), -1);
-  for (int i = static_cast<int>(room.joints.size()) - 1; i >= 0; --i) {
-    ImpactJoint& joint = room.joints[i];
-    int& first = room.first_joint[room.group[w.is_dynamic(joint.a) ? joint.a : joint.b]];
+  for (int body = 0; body < w.bodies.size(); ++body) scratch.group[body] = groups.find(body);
+  scratch.first_joint.assign(scratch.group.size(), -1);
+  for (int i = static_cast<int>(scratch.joints.size()) - 1; i >= 0; --i) {
+    ImpactJoint& joint = scratch.joints[i];
+    int& first = scratch.first_joint[scratch.group[w.is_dynamic(joint.a) ? joint.a : joint.b]];
     joint.next = first, first = i;
   }
 }
@@ -72,9 +73,9 @@ void collect_joints(WorldData<Real>& w) {
 template <class Real>
 void fill_joint_rows(void* world, ImpactJoint& joint) {
   WorldData<Real>& w = *static_cast<WorldData<Real>*>(world);
-  ImpactScratch<Real>& room = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
-  joint.first_row = static_cast<int>(room.rows.size());
+  joint.first_row = static_cast<int>(scratch.rows.size());
   rows.clear();
   const unsigned locks = locks_of(w, joint.a, joint.b);
   w.joint_set.solver_rows(joint.slot, w.solver_bodies(), rows);
@@ -87,13 +88,12 @@ void fill_joint_rows(void* world, ImpactJoint& joint) {
     row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
     row.upper = std::numeric_limits<double>::infinity();
     row.lower = limit ? 0 : -row.upper;
-    room.rows.push_back(row);
+    scratch.rows.push_back(row);
   }
-  joint.rows = static_cast<int>(room.rows.size()) - joint.first_row;
+  joint.rows = static_cast<int>(scratch.rows.size()) - joint.first_row;
 }
 
-// Returns true if any touching contact has no restitution. It may hold bodies, which are then not free after
-// an impact.
+// Returns true if any touching contact has no restitution. Its bodies may not be free after an impact.
 template <class Real>
 bool any_without_restitution(WorldData<Real>& w) {
   bool any = false;
@@ -101,22 +101,22 @@ bool any_without_restitution(WorldData<Real>& w) {
   return any;
 }
 
-// Moves a struck body such that contacts that it presses in this substep stay as closed as without its
-// impact. The solver stops a pressing point for the whole substep, including the time before the impact.
-// Suppose that a heavy ball drives a light one against a third ball. If the change of velocity displaced the
-// light ball from the time of impact on, it would leave the third ball and be struck again. Keeps the
+// Moves a body after its impact such that its contacts under load stay as closed as without the impact. The
+// solver stops a loaded point for the whole substep, including the time before the impact. Suppose that a
+// heavy ball pushes a light one against a third ball. If the change of velocity displaced the light ball from
+// the time of impact on, it would separate from the third ball and collide again. Keeps the
 // displacement along the contact's tangent.
 template <class Real>
 void keep_closed(WorldData<Real>& w, int body, Real h) {
-  ImpactScratch<Real>& room = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& record) {
     if (record.home != ContactHome::Graph) return;
     ContactConstraint<Real>& c = constraint_of(w, record);
     if (c.restitution > 0) return;
     const ContactPair<Real> pair(w.motion.data(), c);
-    const int known = static_cast<int>(room.way.size());
-    const auto way = [&](int of) { return of < known ? room.way[of] : Vec2<Real>{}; };
-    const auto turn = [&](int of) { return of < known ? room.turn[of] : Real(0); };
+    const int known = static_cast<int>(scratch.way.size());
+    const auto way = [&](int of) { return of < known ? scratch.way[of] : Vec2<Real>{}; };
+    const auto turn = [&](int of) { return of < known ? scratch.turn[of] : Real(0); };
     Real opened = 0;
     for (int i = 0; i < c.count; ++i) {
       const Real opens = dot(c.normal, way(c.body_b) - way(c.body_a)) + c.arm_b[i] * turn(c.body_b) -
@@ -127,32 +127,32 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
     if (!(opened > 0)) return;
     const Vec2<Real> back =
         body == c.body_a ? opened * free_of_a(c.normal, c.locks) : -opened * free_of_b(c.normal, c.locks);
-    displace(room, w.motion[body], w.rotation[body], body, back, Real(0));
+    displace(scratch, w.motion[body], w.rotation[body], body, back, Real(0));
   });
 }
 
 // Keeps the contacts of displaced bodies closed. Contacts of bodies with joints are left to their islands.
 template <class Real>
 void keep_closed(WorldData<Real>& w, Real h) {
-  ImpactScratch<Real>& room = w.scratch.impacts;
-  const std::size_t count = room.unplaced ? room.displaced.size() : 0;
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  const std::size_t count = scratch.unplaced ? scratch.displaced.size() : 0;
   for (std::size_t i = 0; i < count; ++i)
-    if (w.bodies[room.displaced[i]].first_joint == kNone) keep_closed(w, room.displaced[i], h);
+    if (w.bodies[scratch.displaced[i]].first_joint == kNone) keep_closed(w, scratch.displaced[i], h);
 }
 
 // Begins the impacts of a substep; reuses data of the last substep that have not changed.
 template <class Real>
-void begin_impacts(WorldData<Real>& w) {
-  ImpactScratch<Real>& room = w.scratch.impacts;
-  if (!room.linked) {
+void prepare_impacts(WorldData<Real>& w) {
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  if (!scratch.linked) {
     collect_joints(w);
-    link_contacts(w.motion.data(), w.scratch.bounces, room);
-    room.unplaced = any_without_restitution(w);
-    room.linked = true;
+    link_contacts(w.motion.data(), w.scratch.restitution_contacts, scratch);
+    scratch.unplaced = any_without_restitution(w);
+    scratch.linked = true;
   }
-  room.rows.clear();
-  for (ImpactJoint& joint : room.joints) joint.known = false;
-  room.fill_rows = fill_joint_rows<Real>, room.world = &w;
+  scratch.rows.clear();
+  for (ImpactJoint& joint : scratch.joints) joint.known = false;
+  scratch.fill_rows = fill_joint_rows<Real>, scratch.world = &w;
 }
 
 }  // namespace
@@ -160,10 +160,10 @@ void begin_impacts(WorldData<Real>& w) {
 template <class Real>
 bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
   const SolverBodies<Real> bodies = w.solver_bodies();
-  ImpactScratch<Real>& room = w.scratch.impacts;
-  if (!find_impacts(bodies.motion, w.scratch.bounces, room)) return false;
-  begin_impacts(w);
-  propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.bounces, step, room);
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  if (!find_impacts(bodies.motion, w.scratch.restitution_contacts, scratch)) return false;
+  prepare_impacts(w);
+  propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.restitution_contacts, step, scratch);
   keep_closed(w, step.h);
   return true;
 }
@@ -173,14 +173,14 @@ template bool propagate_impacts(WorldData<double>&, const ContactStep<double>&);
 
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w) {
-  w.scratch.bounces.clear();
+  w.scratch.restitution_contacts.clear();
   w.scratch.impacts.linked = false;
-  for (const int id : w.scratch.bouncing) {
+  for (const int id : w.scratch.bounce_candidates) {
     const ContactRecord& contact = w.contacts[id];
     if (contact.home != ContactHome::Graph) continue;
     RestitutionContact<Real> bounce{.contact = &constraint_of(w, contact)};
-    follow_discs(w, contact, bounce);
-    if (bounce.contact->restitution > 0 || bounce.radii > 0) w.scratch.bounces.push_back(bounce);
+    predict_circle_normal(w, contact, bounce);
+    if (bounce.contact->restitution > 0 || bounce.radii > 0) w.scratch.restitution_contacts.push_back(bounce);
   }
 }
 

@@ -10,7 +10,8 @@ namespace plumb {
 // position errors back, then moves the bodies.
 template <class Real>
 void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
-  const Real inverse_h = static_cast<Real>(1 / h), closing = static_cast<Real>(tuning::kFeedback / h);
+  const Real inverse_h = static_cast<Real>(1 / h),
+             feedback_rate = static_cast<Real>(tuning::kBaumgarteFraction / h);
   const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
   SequentialStep<Real> contacts{.h = static_cast<Real>(h),
                                 .inverse_h = inverse_h,
@@ -19,8 +20,8 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const JointStep<Real> joints{.h = static_cast<Real>(h),
                                .inverse_h = inverse_h,
                                .softness = {0, 1, 0},
-                               .stiffest = stiffest_spring<Real>(w.settings.iterations),
-                               .stiff_rate = closing,
+                               .max_stiffness = max_spring_stiffness<Real>(w.settings.iterations),
+                               .stiff_rate = feedback_rate,
                                .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   const bool jointed = w.joint_set.active_count() > 0;
@@ -31,11 +32,11 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
     integrate_velocities(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
     warm_start_sequentially(bodies.motion, w.graph, contacts);
-    for (int sweep = 0; sweep < w.settings.iterations; ++sweep) {
+    for (int iteration = 0; iteration < w.settings.iterations; ++iteration) {
       if (jointed) w.joint_set.solve(bodies, joints);
       sweep_contacts(bodies.motion, w.graph, contacts);
     }
-    feed_back_errors(w, closing);
+    feed_back_errors(w, feedback_rate);
     integrate_positions(w, static_cast<Real>(h), Integrator::SemiImplicitEuler);
     stop_arrivals(bodies.motion, w.graph, contacts);
     add_step_impulses(w);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/mass.h"
@@ -16,44 +16,45 @@ namespace {
 
 // Reserves memory for a new body, and for all bodies to be awake.
 template <class Real>
-void make_place(WorldData<Real>& w, bool has_data) {
-  w.bodies.make_room(1);
+void reserve_body(WorldData<Real>& w, bool has_data) {
+  w.bodies.reserve_more(1);
   const int size = w.bodies.size() + 1;
   const std::size_t room = static_cast<std::size_t>(size);
-  ensure_room(w.motion, room), ensure_room(w.rotation, room), ensure_room(w.position, room);
-  ensure_room(w.extents, room), ensure_room(w.enlarged, room), ensure_room(w.awake, room);
-  w.loads.ensure(size, false), w.body_data.ensure(size, has_data),
-      w.position_compensation.ensure(size, false);
+  ensure_capacity(w.motion, room), ensure_capacity(w.rotation, room), ensure_capacity(w.position, room);
+  ensure_capacity(w.extents, room), ensure_capacity(w.enlarged, room), ensure_capacity(w.awake, room);
+  w.loads.reserve(size, false), w.body_data.reserve(size, has_data),
+      w.position_compensation.reserve(size, false);
 }
 
 template <class T>
-void append_room(std::vector<T>& list) {
-  ensure_room(list, list.size() + 1);
+void reserve_one(std::vector<T>& list) {
+  ensure_capacity(list, list.size() + 1);
 }
 
 template <class Real>
-void clear_place(WorldData<Real>& w, int body) {
+void reset_body_data(WorldData<Real>& w, int body) {
   const int size = w.bodies.size();
-  make_room(w.motion, size), make_room(w.rotation, size), make_room(w.position, size);
-  make_room(w.extents, size), make_room(w.enlarged, size);
-  w.loads.renew(body, size), w.body_data.renew(body, size), w.position_compensation.renew(body, size);
+  resize_with_growth(w.motion, size), resize_with_growth(w.rotation, size),
+      resize_with_growth(w.position, size);
+  resize_with_growth(w.extents, size), resize_with_growth(w.enlarged, size);
+  w.loads.reset(body, size), w.body_data.reset(body, size), w.position_compensation.reset(body, size);
   w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
 }
 
 template <class Real>
-bool is_uncommon(const BodyExtras<Real>& own) {
+bool has_extras(const BodyExtras<Real>& own) {
   return !own.name.empty() || own.gravity_scale != 1 || own.linear_damping != 0 || own.angular_damping != 0 ||
          own.mass_centre != Vec2<Real>{} || !own.continuous;
 }
 
 // Reserves memory for a body's shapes in a tree and in the move buffer.
 template <class Real>
-void make_room_to_enter(WorldData<Real>& w, int body, BodyType type) {
+void reserve_proxies(WorldData<Real>& w, int body, BodyType type) {
   std::size_t shapes = 0;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) ++shapes;
-  w.tree_of(type).make_room(shapes);
-  ensure_room(w.move_buffer, w.move_buffer.size() + shapes);
-  ensure_room(w.awake, w.awake.size() + 1);
+  w.tree_of(type).reserve_more(shapes);
+  ensure_capacity(w.move_buffer, w.move_buffer.size() + shapes);
+  ensure_capacity(w.awake, w.awake.size() + 1);
 }
 
 // Tells all joints of a body whether it is dynamic. If that throws, no joint is changed.
@@ -103,16 +104,16 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
                        static_cast<Real>(definition.angular_damping)};
   if (definition.mass) own.mass_centre = definition.mass->centre.as<Real>();
   own.continuous = definition.continuous;
-  make_place(w, definition.user_data != 0);
-  make_room_for<Real>(w, definition.type, made);
-  make_room_to_recentre<Real>(w, made);
-  if (is_uncommon(own)) w.uncommon.make_room(1);
-  if (!definition.awake) append_room(w.log().fell_asleep);
+  reserve_body(w, definition.user_data != 0);
+  reserve_shapes<Real>(w, definition.type, made);
+  reserve_recentring<Real>(w, made);
+  if (has_extras(own)) w.uncommon.reserve_more(1);
+  if (!definition.awake) reserve_one(w.event_buffer().fell_asleep);
 
   const int body = w.bodies.add(record);
-  clear_place(w, body);
+  reset_body_data(w, body);
   if (definition.user_data != 0) w.body_data.at(body, w.bodies.size()) = definition.user_data;
-  if (is_uncommon(own)) w.bodies[body].uncommon = w.uncommon.add(std::move(own));
+  if (has_extras(own)) w.bodies[body].uncommon = w.uncommon.add(std::move(own));
   w.position[body] = definition.position;
   w.rotation[body] = rounded<Real>(rotation_of(definition.angle));
   if (definition.type != BodyType::Static) enter_awake(w, body);
@@ -128,7 +129,7 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
     w.motion[body].angular_velocity = locked ? Real(0) : static_cast<Real>(definition.angular_velocity);
   }
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    enter_tree(w, shape);
+    create_proxy(w, shape);
   if (!definition.awake && definition.type != BodyType::Static) fall_asleep(w, body);
   if (definition.type == BodyType::Static) wake_touched_by(w, body);
   return body;
@@ -144,14 +145,14 @@ void remove_body(WorldData<Real>& w, int body) {
   while (w.bodies[body].first_shape != kNone) {
     const int shape = w.bodies[body].first_shape;
     if (w.shapes[shape].chain != kNone) {
-      take_out_chain(w, w.shapes[shape].chain);
+      erase_chain(w, w.shapes[shape].chain);
     } else {
-      take_out_shape(w, shape);
+      erase_shape(w, shape);
     }
   }
   if (w.bodies[body].awake) leave_awake(w, body);
   if (w.bodies[body].uncommon != kNone) w.uncommon.remove(w.bodies[body].uncommon);
-  if (is_unsettled(w, body)) std::erase(w.unsettled, body);
+  if (has_mass_change(w, body)) std::erase(w.unsettled, body);
   w.motion[body] = {};
   w.bodies.remove(body);
 }
@@ -162,7 +163,7 @@ Vec2d origin_of(const WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-BodyExtras<Real>& make_uncommon(WorldData<Real>& w, int body) {
+BodyExtras<Real>& make_extras(WorldData<Real>& w, int body) {
   int& place = w.bodies[body].uncommon;
   if (place == kNone) place = w.uncommon.add({});
   return w.uncommon[place];
@@ -170,40 +171,40 @@ BodyExtras<Real>& make_uncommon(WorldData<Real>& w, int body) {
 
 template <class Real>
 void set_gravity_scale(WorldData<Real>& w, int body, double scale) {
-  const Real wanted = static_cast<Real>(scale);
-  if (w.extras_of(body).gravity_scale != wanted) make_uncommon(w, body).gravity_scale = wanted;
+  const Real target = static_cast<Real>(scale);
+  if (w.extras_of(body).gravity_scale != target) make_extras(w, body).gravity_scale = target;
 }
 
 template <class Real>
 void set_damping(WorldData<Real>& w, int body, double linear, double angular) {
-  const Real wanted = static_cast<Real>(linear), wanted_angular = static_cast<Real>(angular);
+  const Real target = static_cast<Real>(linear), target_angular = static_cast<Real>(angular);
   const BodyExtras<Real>& now = w.extras_of(body);
-  if (now.linear_damping == wanted && now.angular_damping == wanted_angular) return;
-  BodyExtras<Real>& own = make_uncommon(w, body);
-  own.linear_damping = wanted, own.angular_damping = wanted_angular;
+  if (now.linear_damping == target && now.angular_damping == target_angular) return;
+  BodyExtras<Real>& own = make_extras(w, body);
+  own.linear_damping = target, own.angular_damping = target_angular;
 }
 
 template <class Real>
 void set_continuous(WorldData<Real>& w, int body, bool on) {
-  if (w.extras_of(body).continuous != on) make_uncommon(w, body).continuous = on;
+  if (w.extras_of(body).continuous != on) make_extras(w, body).continuous = on;
 }
 
 template <class Real>
-void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
-  make_room_to_enter(w, body, w.bodies[body].type);
+void teleport_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
+  reserve_proxies(w, body, w.bodies[body].type);
   wake_neighbours(w, body);
   BodyRecord<Real>& record = w.bodies[body];
   record.angle = angle;
   w.rotation[body] = rounded<Real>(rotation_of(angle));
   w.position[body] = origin + (w.rotation[body] * record.centre).template as<double>();
-  w.motion[body].moved = {}, w.motion[body].turned = 0;
-  w.position_compensation.renew(body, w.bodies.size());
+  w.motion[body].delta_position = {}, w.motion[body].delta_angle = 0;
+  w.position_compensation.reset(body, w.bodies.size());
   invalidate_manifolds(w, body);
   for_each_edge(w.joints, record.first_joint,
-                [&](int, JointRecord& joint) { w.joint_set.put_elsewhere(joint.slot); });
+                [&](int, JointRecord& joint) { w.joint_set.reset_impulses(joint.slot); });
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
-    leave_tree(w, shape);
-    enter_tree(w, shape);
+    destroy_proxy(w, shape);
+    create_proxy(w, shape);
   }
   w.enlarged[body] = 1;
   wake_touched_by(w, body);
@@ -215,34 +216,34 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   if (record.quarantined) {
     if (own_type(w, body) == type) return;
     quarantine_of(w, body).type = type;
-    find_mass(w, body);
+    update_mass_for_type(w, body);
     return;
   }
   if (record.type == type) return;
-  make_room_to_enter(w, body, type);
+  reserve_proxies(w, body, type);
   wake_neighbours(w, body);
   destroy_contacts_of(w, body);
   set_joints_dynamic(w, body, type == BodyType::Dynamic);
-  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) leave_tree(w, shape);
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) destroy_proxy(w, shape);
   if (record.awake) leave_awake(w, body);
   record.type = type;
-  w.position_compensation.renew(body, w.bodies.size());
+  w.position_compensation.reset(body, w.bodies.size());
   if (type != BodyType::Static) enter_awake(w, body);
   if (type == BodyType::Static) w.motion[body] = {};
-  find_mass(w, body);
-  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) enter_tree(w, shape);
+  update_mass_for_type(w, body);
+  for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) create_proxy(w, shape);
   wake_touched_by(w, body);
 }
 
 #define PLUMB_FOR(Real)                                                                             \
   template int add_body(WorldData<Real>&, const BodyDefinition&, std::span<const ShapeDefinition>); \
   template void remove_body(WorldData<Real>&, int);                                                 \
-  template BodyExtras<Real>& make_uncommon(WorldData<Real>&, int);                                  \
+  template BodyExtras<Real>& make_extras(WorldData<Real>&, int);                                    \
   template Vec2d origin_of(const WorldData<Real>&, int);                                            \
   template void set_gravity_scale(WorldData<Real>&, int, double);                                   \
   template void set_damping(WorldData<Real>&, int, double, double);                                 \
   template void set_continuous(WorldData<Real>&, int, bool);                                        \
-  template void place_body(WorldData<Real>&, int, Vec2d, double);                                   \
+  template void teleport_body(WorldData<Real>&, int, Vec2d, double);                                \
   template void set_type(WorldData<Real>&, int, BodyType);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -26,7 +26,7 @@ template <class Real>
 void set_continuous(WorldData<Real>& w, int body, bool on);
 /// Teleports the body's origin, and wakes bodies that touched it or are joined to it.
 template <class Real>
-void place_body(WorldData<Real>& w, int body, Vec2d origin, double angle);
+void teleport_body(WorldData<Real>& w, int body, Vec2d origin, double angle);
 template <class Real>
 void set_type(WorldData<Real>& w, int body, BodyType type);
 
@@ -36,27 +36,27 @@ void set_load_events(WorldData<Real>& w, int joint, double force, double torque)
 
 /// Returns the body's optional data, and allocates it if there is none yet.
 template <class Real>
-BodyExtras<Real>& make_uncommon(WorldData<Real>& w, int body);
+BodyExtras<Real>& make_extras(WorldData<Real>& w, int body);
 
 /// Removes a shape without contacts from the body's list and the trees. The caller updates the mass.
 template <class Real>
-void take_out_shape(WorldData<Real>& w, int shape);
+void erase_shape(WorldData<Real>& w, int shape);
 /// Removes all shapes of a chain in the same way.
 template <class Real>
-void take_out_chain(WorldData<Real>& w, int chain);
+void erase_chain(WorldData<Real>& w, int chain);
 
 /// Adds the shape to the move buffer, so that the next step looks up its pairs.
 template <class Real>
 void add_to_move_buffer(WorldData<Real>& w, int shape);
 /// Emits the end events of a sensor's overlaps, and removes its record.
 template <class Real>
-void end_visits(WorldData<Real>& w, int shape);
+void end_overlaps(WorldData<Real>& w, int shape);
 
 /// Adds the shape to the tree of its body's type and to the move buffer, or removes it from the tree.
 template <class Real>
-void enter_tree(WorldData<Real>& w, int shape);
+void create_proxy(WorldData<Real>& w, int shape);
 template <class Real>
-void leave_tree(WorldData<Real>& w, int shape);
+void destroy_proxy(WorldData<Real>& w, int shape);
 
 template <class Real>
 int add_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition);

@@ -14,10 +14,10 @@ int add_chain(WorldData<Real>& w, int body, const ChainDefinition& definition) {
     segments.push_back(prepare_segment<Real>(definition, i));
   ChainRecord record{body, {}};
   record.shapes.reserve(segments.size());
-  w.chains.make_room(1);
-  make_room_for<Real>(w, w.bodies[body].type, segments);
+  w.chains.reserve_more(1);
+  reserve_shapes<Real>(w, w.bodies[body].type, segments);
   wake_body(w, body);
-  note_mass_change(w, body);
+  record_mass_change(w, body);
   const int chain = w.chains.add(std::move(record));
   for (NewShape<Real>& segment : segments) {
     segment.record.chain = chain;
@@ -25,7 +25,7 @@ int add_chain(WorldData<Real>& w, int body, const ChainDefinition& definition) {
     grow_extents(w, body, shape);
     w.chains[chain].shapes.push_back(shape);
   }
-  for (const int shape : w.chains[chain].shapes) enter_tree(w, shape);
+  for (const int shape : w.chains[chain].shapes) create_proxy(w, shape);
   for (const int shape : w.chains[chain].shapes) wake_touched(w, shape);
   return chain;
 }
@@ -42,8 +42,8 @@ void destroy_contacts_of_chain(WorldData<Real>& w, int chain) {
 }
 
 template <class Real>
-void take_out_chain(WorldData<Real>& w, int chain) {
-  for (const int shape : w.chains[chain].shapes) take_out_shape(w, shape);
+void erase_chain(WorldData<Real>& w, int chain) {
+  for (const int shape : w.chains[chain].shapes) erase_shape(w, shape);
   w.chains.remove(chain);
 }
 
@@ -51,14 +51,14 @@ template <class Real>
 void remove_chain(WorldData<Real>& w, int chain) {
   const int body = w.chains[chain].body;
   wake_body(w, body);
-  note_mass_change(w, body);
+  record_mass_change(w, body);
   destroy_contacts_of_chain(w, chain);
-  take_out_chain(w, chain);
+  erase_chain(w, chain);
 }
 
 #define PLUMB_FOR(Real)                                                  \
   template int add_chain(WorldData<Real>&, int, const ChainDefinition&); \
-  template void take_out_chain(WorldData<Real>&, int);                   \
+  template void erase_chain(WorldData<Real>&, int);                      \
   template void remove_chain(WorldData<Real>&, int);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

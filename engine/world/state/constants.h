@@ -7,8 +7,8 @@ namespace plumb::tuning {
 
 /// Natural frequency of the contact spring, as a fraction of the substep rate; beyond 1/4 the discrete spring
 /// is unstable. Contacts with a body that is not dynamic are twice as hard.
-inline constexpr double kContactFrequencyShare = 0.125;
-inline constexpr double kStiffFrequencyShare = 0.25;
+inline constexpr double kContactFrequencyRatio = 0.125;
+inline constexpr double kStiffFrequencyRatio = 0.25;
 /// Damping ratio far above critical, so that overlaps dissolve without a bounce.
 inline constexpr double kContactDampingRatio = 10;
 
@@ -19,18 +19,18 @@ inline constexpr double kContactComplianceScale = 0.35;
 /// Fraction of a persistent load that becomes the load estimate. Contacts are compliant only to the rest of
 /// the load, so a persistent load causes little penetration. At 1, loads would creep among redundant
 /// supports, and overlaps would grow again.
-inline constexpr double kExpectedShare = 0.9;
+inline constexpr double kLoadEstimateFraction = 0.9;
 /// Penetration, as a fraction of the smaller extent, from which the load estimate is the full load; below it
 /// the fraction rises linearly. (A few points of a heap bear much more than the others.) A heap of 100 rows
 /// of 1 m penetrates by 0.95 mm and sways by 3 cm. With 0.002 it penetrates by 1.04 mm. With 0.0015 it sways
 /// by 4.7 cm, and the sway grows over minutes.
-inline constexpr double kExpectedOverlap = 0.0017;
+inline constexpr double kLoadEstimateOverlap = 0.0017;
 /// Low-pass filter: fraction of the difference by which the load estimate approaches the load in a step. From
 /// 0.03 on, heaps of 100 rows oscillate; from 0.5 on, heaps of 20 rows.
-inline constexpr double kExpectedRate = 0.01;
+inline constexpr double kLoadEstimateRate = 0.01;
 
 /// Fraction of a penetration that a directly solved contact corrects in a substep.
-inline constexpr double kPushShare = 0.1;
+inline constexpr double kDirectPushFraction = 0.1;
 
 /// Limits up to which an island of contacts is solved directly: rows, and multiplications for the
 /// factorisation.
@@ -42,14 +42,14 @@ inline constexpr int kSlenderRows = 4096;
 inline constexpr int kSlenderLoops = 8;
 inline constexpr int kSlenderContacts = 8;
 /// Mass ratio of the heaviest to the lightest body above which an island with joints is solved directly; with
-/// Solver::Direct any ratio suffices. Iterations hold chains of equal links well, and cost less.
+/// Solver::Direct any ratio suffices. Iterations are accurate for chains of equal links, and cost less.
 inline constexpr double kDirectMassRatio = 8;
 /// Least and largest number of links with which a hinge tree with masses within kDirectMassRatio is solved by
 /// iterations instead of as an articulated body (except with Solver::Direct). Iterations hold such trees to
 /// within a thousandth, at half the cost. With fewer links the articulated body costs little; with more,
 /// iterations leave the tree stretched.
-inline constexpr int kSweptLinksLeast = 6;
-inline constexpr int kSweptLinksMost = 16;
+inline constexpr int kMinIteratedLinks = 6;
+inline constexpr int kMaxIteratedLinks = 16;
 /// Limits up to which an island with joints is solved as one system, whatever its masses: rows with bounds
 /// (limits and motors), contacts, and multiplications per joint for the factorisation. Within them, the
 /// solution costs at most some ten times as much as an iteration, and is a hundred times as accurate or more.
@@ -68,31 +68,31 @@ inline constexpr double kJointedCost = 2e5;
 /// this correction. No body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With a
 /// softness of 1e-4 (50 times), links of a taut bridge rotate so far for a gap of 0.4 mm that the bridge
 /// sags. At 0.1, chains close half as fast.
-inline constexpr double kJointShare = 0.5;
+inline constexpr double kJointCloseFraction = 0.5;
 inline constexpr double kCloseSoftness = 1e-2;
 /// The same for Solver::Direct, which closes gaps in each substep: a chain of ten links that is pulled around
 /// stays closed within 1e-6 m. With a softness of 1e-2 it opens by 7e-6 m; with 1e-4 bridges sag here as
 /// well. If whole gaps were closed only once per step, bridges would sag too.
-inline constexpr double kDirectJointShare = 1;
+inline constexpr double kDirectJointCloseFraction = 1;
 inline constexpr double kDirectCloseSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
-inline constexpr double kLinkTurn = 0.125;
+inline constexpr double kMaxCloseRotation = 0.125;
 
 /// Natural frequency of the joint spring, as a fraction of the substep rate, and its damping ratio.
-inline constexpr double kJointFrequencyShare = 0.25;
+inline constexpr double kJointFrequencyRatio = 0.25;
 inline constexpr double kJointDampingRatio = 2;
 
 /// Impacts drive revolute joints past their limits farther than velocity iterations can stop. After the
-/// motion, angles beyond a limit by more than kLimitSlack (rad) are turned back, in up to kLimitSweeps
-/// iterations. Each turns a joint by at most kLimitTurn (rad), so that joints placed beyond a limit return
-/// smoothly.
+/// motion, angles beyond a limit by more than kLimitSlack (rad) are corrected, in up to kLimitIterations
+/// iterations. Each turns a joint by at most kLimitMaxRotation (rad), so that joints placed beyond a limit
+/// return smoothly.
 inline constexpr double kLimitSlack = 0.01;
-inline constexpr double kLimitTurn = 0.1;
-inline constexpr int kLimitSweeps = 4;
+inline constexpr double kLimitMaxRotation = 0.1;
+inline constexpr int kLimitIterations = 4;
 
 /// Fraction of a penetration or joint error that a substep of sequential impulses corrects (Baumgarte, 1972).
 /// A larger fraction would oscillate, because the correction stays in the velocities.
-inline constexpr double kFeedback = 0.2;
+inline constexpr double kBaumgarteFraction = 0.2;
 /// Penetration that sequential impulses do not correct, as a fraction of the smaller extent, so that resting
 /// contacts do not come and go.
 inline constexpr double kSlop = 0.002;
@@ -110,7 +110,7 @@ inline constexpr double kLoadPushShare = 0.05;
 inline constexpr double kSpeculativeMargin = 0.02;
 /// Upper limit of that approach, as a fraction of the smaller extent, because a contact normal is inaccurate
 /// at a distance.
-inline constexpr double kSpeculativeMarginMost = 0.5;
+inline constexpr double kMaxSpeculativeApproach = 0.5;
 
 /// Relative displacement up to which a manifold is recycled, as a fraction of the smaller extent. The error
 /// of the first-order update of separations is of second order in it.
@@ -128,27 +128,27 @@ inline constexpr double kSeamDepth = 0.25;
 /// Margin of a fat AABB, as a fraction of the shape's extent, and number of steps of future motion that it
 /// covers for a body without a contact. Larger values mean fewer updates of the tree, but more pairs; bodies
 /// in free flight cost a quarter more at 2 steps.
-inline constexpr double kBoxMargin = 0.1;
-inline constexpr double kBoxSteps = 4;
-/// Largest motion that the fat AABB of a body in a crowd covers, in extents: at most two steps, at least the
-/// next one. A crowd that moves together (a drum's filling) has three times as many pairs as contacts at 4
-/// steps, and costs a tenth more instructions than at 2. A body that is stirred by more than an extent per
+inline constexpr double kAabbMargin = 0.1;
+inline constexpr double kPredictedSteps = 4;
+/// Largest predicted motion in the fat AABB of a body with contacts, in extents: at most two steps, at least
+/// the next one. A crowd that moves together (a drum's filling) has three times as many pairs as contacts at
+/// 4 steps, and costs a tenth more instructions than at 2. A body that is stirred by more than an extent per
 /// step leaves any AABB after one or two steps. A margin beyond the next step would only add pairs with
 /// twenty others that end in the next step.
-inline constexpr double kBoxRoomInCrowd = 2;
+inline constexpr double kMaxCrowdPrediction = 2;
 
-/// The self-overlap pass runs when the move buffer holds at least kScreenedMoves shapes, and one in
-/// kScreenedShare of all, most of them without a contact.
-inline constexpr int kScreenedMoves = 64;
-inline constexpr int kScreenedShare = 8;
+/// The self-overlap pass runs when the move buffer holds at least kMinOverlapPassMoves shapes, and one in
+/// kOverlapPassDivisor of all, most of them without a contact.
+inline constexpr int kMinOverlapPassMoves = 64;
+inline constexpr int kOverlapPassDivisor = 8;
 
 /// Approach speed up to which contacts do not bounce, in units of |gravity| dt: a body at rest gains
 /// |gravity| dt before its contact acts.
-inline constexpr double kRestingSteps = 4;
+inline constexpr double kBounceThresholdSteps = 4;
 
 /// Displacement in a step, as a fraction of the body's smallest half width, above which continuous collision
 /// treats the body as fast. Slower bodies cannot pass through anything between two steps.
-inline constexpr double kFastShare = 0.5;
+inline constexpr double kFastFraction = 0.5;
 
 /// Depth of a shape's core below its surface, as a fraction of the body's half width. A body is stopped where
 /// its core would enter another shape. With a deeper core, contacts would push the body out on the wrong
@@ -158,16 +158,16 @@ inline constexpr double kCoreDepth = 0.5;
 /// kCoreDepth: they get no deeper than this.
 inline constexpr double kInnerDepth = 0.9;
 /// Penetration, as a fraction of the smaller extent, from which a contact is checked for entering the core.
-inline constexpr double kDeepFrom = 0.002;
+inline constexpr double kCoreCheckOverlap = 0.002;
 /// Overlap, as a fraction of the smaller radius, at which two fast circles without a contact are stopped.
-inline constexpr double kGraze = 0.01;
+inline constexpr double kCircleStopOverlap = 0.01;
 /// Separation at which a fast body stops in front of an obstacle, as a fraction of the smaller extent.
 inline constexpr double kImpactTolerance = 1e-3;
 
 /// Iterations of one time-of-impact search, and extra ones for all searches of a step together. Shapes that
 /// rotate by thousands of radians beside each other need these. A search that runs out of them reports an
 /// impact at the time it has reached: until then the shapes are apart.
-inline constexpr int kImpactIterations = 64, kToiIterationBudget = 4096;
+inline constexpr int kToiIterations = 64, kToiIterationBudget = 4096;
 
 /// Separation at which a rebound within a step takes place, relative to the bodies' sizes and displacements.
 /// The search has rounding errors of some 1e-15 of these. A much smaller value could not distinguish touching
@@ -175,14 +175,14 @@ inline constexpr int kImpactIterations = 64, kToiIterationBudget = 4096;
 inline constexpr double kReboundTolerance = 1e-14;
 
 /// Maximum number of impacts of a body within a step. At the next impact the body, and the body that it
-/// meets, wait for the next step. From kBouncesInFlight on, impacts with restitution below 1 are inelastic,
-/// because a box that lands flat has endlessly many, ever smaller impacts. kLandingsInFlight limits these
+/// meets, wait for the next step. From kMaxBouncesPerStep on, impacts with restitution below 1 are inelastic,
+/// because a box that lands flat has endlessly many, ever smaller impacts. kMaxLandingsPerStep limits these
 /// inelastic impacts.
-inline constexpr int kImpactsInFlight = 256, kBouncesInFlight = 16;
+inline constexpr int kMaxImpactsPerStep = 256, kMaxBouncesPerStep = 16;
 /// The same limit for impacts without restitution: when a side lands, its corners hit alternately. The last
 /// impact ends the landing: no point of the side approaches after it. With a limit of 3, sharp polygons that
 /// spin by tens of radians per step lose a part of one step in 7 of 100 landings; with 8 in 1.
-inline constexpr int kLandingsInFlight = 8;
+inline constexpr int kMaxLandingsPerStep = 8;
 
 /// A body may fall asleep after its speed was below kSleepSpeed, in extents a second, for kSleepTime, s.
 inline constexpr double kSleepSpeed = 0.05;
@@ -194,7 +194,7 @@ inline constexpr double kSleepTime = 0.5;
 inline constexpr double kSleepOverlap = 0.02;
 
 /// Separation, as a fraction of the smaller extent, up to which shapes count as touching for events.
-inline constexpr double kTouch = 1e-3;
+inline constexpr double kTouchSeparation = 1e-3;
 
 /// Approach speed, in extents of the smaller shape a second, from which impacts are reported as hits.
 inline constexpr double kHitSpeed = 1;

@@ -13,8 +13,8 @@ namespace {
 
 // Computes arms and effective masses. r x t = -(r . n) for t = (n.y, -n.x).
 template <class Real>
-void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Vec2<Real>* arms_a,
-                  Vec2<Real> between, ContactConstraint<Real>& c) {
+void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Vec2<Real>* arms_a,
+                  Vec2<Real> a_to_b, ContactConstraint<Real>& c) {
   const Vec2<Real> n = c.normal, t{n.y, -n.x};
   const Real along_n = linear_response(a, b, c.locks, n, n, true),
              along_t = linear_response(a, b, c.locks, t, t, true);
@@ -24,7 +24,7 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
   const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
   Real k[2] = {};
   for (int i = 0; i < c.count; ++i) {
-    c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - between, n);
+    c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - a_to_b, n);
     k[i] = coupling(along_n, c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
     c.mass[i] = inverse(k[i]);
   }
@@ -42,13 +42,13 @@ void prepare_rows(const BodyMotion<Real>& a, const BodyMotion<Real>& b, const Ve
     c.inverse_pp = c.mass[0];
   }
   const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
-  c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - between, n);
+  c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - a_to_b, n);
   c.tangent_mass =
       inverse(coupling(along_t, c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
-double ask(CombineFunction rule, double a, double b, const char* what, double most) {
+double call_combine_rule(CombineFunction rule, double a, double b, const char* what, double most) {
   const double answer = rule(a, b);
   if (answer >= 0 && answer <= most) return answer;
   throw Error(
@@ -61,18 +61,20 @@ double ask(CombineFunction rule, double a, double b, const char* what, double mo
 template <class Real>
 Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b) {
   const ShapeRecord<Real>&a = w.shapes[shape_a], &b = w.shapes[shape_b];
-  return static_cast<Real>(w.restitution_rule == nullptr
-                               ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
-                               : ask(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
+  return static_cast<Real>(
+      w.restitution_rule == nullptr
+          ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
+          : call_combine_rule(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
 }
 
 template <class Real>
 void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, ContactConstraint<Real>& c) {
   const ShapeRecord<Real>&a = w.shapes[contact.shape_a], &b = w.shapes[contact.shape_b];
   const ShapeForm<Real>&form_a = w.forms[contact.shape_a], &form_b = w.forms[contact.shape_b];
-  c.friction = static_cast<Real>(w.friction_rule == nullptr
-                                     ? combine(w.settings.combine_friction, a.friction, b.friction)
-                                     : ask(w.friction_rule, a.friction, b.friction, "friction", 1e9));
+  c.friction =
+      static_cast<Real>(w.friction_rule == nullptr
+                            ? combine(w.settings.combine_friction, a.friction, b.friction)
+                            : call_combine_rule(w.friction_rule, a.friction, b.friction, "friction", 1e9));
   c.restitution = restitution_between(w, contact.shape_a, contact.shape_b);
   const Real radius = std::max(form_a.radius, form_b.radius);
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
@@ -84,18 +86,18 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
 }
 
 template <class Real>
-ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach) {
+ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real margin) {
   const int a = contact.body_a, b = contact.body_b;
   const Rotation<Real> to_a = w.rotation[a].inverse();
-  const Vec2<Real> between = (w.position[b] - w.position[a]).template as<Real>();
+  const Vec2<Real> a_to_b = (w.position[b] - w.position[a]).template as<Real>();
   const Rotation<Real> q = w.rotation[b];
-  const Pose<Real> b_in_a{to_a * between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
-  return collide_shapes(w, contact, b_in_a, reach);
+  const Pose<Real> b_in_a{to_a * a_to_b, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  return collide_shapes(w, contact, b_in_a, margin);
 }
 
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> a_to_b,
                      ContactConstraint<Real>& c, Real (&impulse)[2]) {
   const Real old[2] = {c.normal_impulse[0], c.normal_impulse[1]};
   const Real expected[2] = {c.load_estimate[0], c.load_estimate[1]};
@@ -121,7 +123,7 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
   }
   if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
   c.locks = static_cast<std::uint8_t>(locks_of(w, contact.body_a, contact.body_b));
-  prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, between, c);
+  prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, a_to_b, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   // The masses of locked axes change as the normal turns.
   c.recycle_budget = contact.pre_solve || c.locks != 0 ? Real(-1) : Real(tuning::kRecycleDistance) * smaller;
@@ -129,10 +131,10 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
 
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> a_to_b,
                      ContactConstraint<Real>& c) {
   Real impulse[2];
-  prepare_contact(w, contact, manifold, q, between, c, impulse);
+  prepare_contact(w, contact, manifold, q, a_to_b, c, impulse);
   c.normal_impulse[0] = impulse[0], c.normal_impulse[1] = impulse[1];
 }
 
@@ -151,8 +153,8 @@ template <class Real>
 bool may_touch_now(const WorldData<Real>& w, int shape_a, int shape_b) {
   const ContactRecord contact = contact_of(w, shape_a, shape_b);
   const Real smaller = std::min(w.forms[shape_a].extent, w.forms[shape_b].extent);
-  const Real reach = Real(tuning::kSpeculativeMargin) * smaller;
-  return !aabbs_apart(w, shape_a, shape_b, reach) && manifold_of(w, contact, reach).count > 0;
+  const Real margin = Real(tuning::kSpeculativeMargin) * smaller;
+  return !aabbs_apart(w, shape_a, shape_b, margin) && manifold_of(w, contact, margin).count > 0;
 }
 
 #define PLUMB_FOR(Real)                                                                                     \

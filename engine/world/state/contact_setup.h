@@ -12,7 +12,7 @@ namespace plumb {
 
 /// Returns |v.x| + |v.y|, at most 1.42 times the length.
 template <class Real>
-Real size_of(Vec2<Real> v) {
+Real l1_norm(Vec2<Real> v) {
   return std::abs(v.x) + std::abs(v.y);
 }
 
@@ -35,23 +35,23 @@ Watch watch_of(const ContactRecord& contact, const ContactConstraint<Real>& c) {
 /// Returns an upper bound of the overlap, m, that rounding alone may have caused between the shapes of a
 /// contact.
 template <class Real>
-Real rounding_between(const WorldData<Real>& w, int body_a, int body_b) {
+Real rounding_overlap(const WorldData<Real>& w, int body_a, int body_b) {
   return 8 * std::numeric_limits<Real>::epsilon() * (w.extents[body_a] + w.extents[body_b]);
 }
 
-/// Returns true if two AABBs are farther apart than `reach`. Far from the origin both are rounded as coarsely
-/// as positions, so a rounding margin is added.
+/// Returns true if two AABBs are farther apart than `margin`. Far from the origin both are rounded as
+/// coarsely as positions, so a rounding margin is added.
 template <class Real>
-bool aabbs_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real reach) {
+bool aabbs_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real margin) {
   const Aabb<Real>& box = w.boxes[shape_a];
-  const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * (size_of(box.lower) + size_of(box.upper));
-  return !box.grown(reach + rounding).overlaps(w.boxes[shape_b]);
+  const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * (l1_norm(box.lower) + l1_norm(box.upper));
+  return !box.grown(margin + rounding).overlaps(w.boxes[shape_b]);
 }
 
-/// Returns the manifold of two shapes at their bodies' present poses, with points up to `reach` apart, in the
-/// frame of body a.
+/// Returns the manifold of two shapes at their bodies' present poses, with points up to `margin` apart, in
+/// the frame of body a.
 template <class Real>
-ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real reach);
+ContactManifold<Real> manifold_of(const WorldData<Real>& w, const ContactRecord& contact, Real margin);
 
 /// Returns which axes of the two bodies are locked, as bits of ContactLock.
 template <class Real>
@@ -68,19 +68,19 @@ unsigned locks_of(const WorldData<Real>& w, int body_a, int body_b) {
 /// keep their impulses. `q` is the rotation of a, `between` the vector from its centre of mass to that of b.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> a_to_b,
                      ContactConstraint<Real>& c);
 
 /// Does the same, but writes the new normal impulses to `impulse`. Those of the constraint are kept, because
 /// other threads may still read them.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> between,
+                     const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> a_to_b,
                      ContactConstraint<Real>& c, Real (&impulse)[2]);
 
 /// Returns the vector between the bodies' centres of mass, from a to b, m.
 template <class Real>
-Vec2<Real> between_bodies(const WorldData<Real>& w, const ContactRecord& contact) {
+Vec2<Real> centres_a_to_b(const WorldData<Real>& w, const ContactRecord& contact) {
   return (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
 }
 
@@ -88,7 +88,7 @@ Vec2<Real> between_bodies(const WorldData<Real>& w, const ContactRecord& contact
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, ContactConstraint<Real>& c) {
-  prepare_contact(w, contact, manifold, w.rotation[contact.body_a], between_bodies(w, contact), c);
+  prepare_contact(w, contact, manifold, w.rotation[contact.body_a], centres_a_to_b(w, contact), c);
 }
 
 /// Returns the constraint of two shapes at their bodies' present poses, without impulses; without points if

@@ -104,8 +104,8 @@ ContactRecord contact_of(const WorldData<Real>& w, int shape_a, int shape_b) {
 template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
   const ContactRecord record = contact_of(w, shape_a, shape_b);
-  w.contacts.make_room(1);
-  ensure_room(w.near, w.near.size() + 1);
+  w.contacts.reserve_more(1);
+  ensure_capacity(w.near, w.near.size() + 1);
   w.pairs.insert(record.shape_a, record.shape_b);
   const int contact = w.contacts.add(record);
   link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
@@ -163,7 +163,7 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact) {
   assert(w.contacts[contact].home == ContactHome::Graph);
-  ensure_room(w.near, w.near.size() + 1);
+  ensure_capacity(w.near, w.near.size() + 1);
   set_touching(w, contact, false);
   leave_graph(w, contact);
   enter_near(w, contact);
@@ -214,7 +214,8 @@ void set_touching(WorldData<Real>& w, int contact, bool touching) {
   const auto id = [&](int shape) {
     return ShapeId{static_cast<std::uint32_t>(shape), w.shapes.generation(shape)};
   };
-  (touching ? w.log().begin : w.log().end).push_back({id(record.shape_a), id(record.shape_b)});
+  (touching ? w.event_buffer().begin : w.event_buffer().end)
+      .push_back({id(record.shape_a), id(record.shape_b)});
   record.touching = touching;
 }
 
@@ -254,7 +255,7 @@ void wake_touched(WorldData<Real>& w, int shape) {
   const ShapeRecord<Real>& record = w.shapes[shape];
   if (record.proxy == kNone || w.bodies[record.body].type != BodyType::Static) return;
   const Aabb<Real>& box = w.static_tree.box(record.proxy);
-  w.dynamic_tree.query(box, seen_by(record.filter), [&](int other, int) {
+  w.dynamic_tree.query(box, effective_mask(record.filter), [&](int other, int) {
     const int body = w.shapes[other].body;
     if (!w.bodies[body].awake && may_collide(w, shape, other) && may_touch_now(w, shape, other))
       wake_body(w, body);

@@ -12,21 +12,21 @@ namespace plumb {
 template <class Real>
 bool may_collide(const WorldData<Real>& w, int shape_a, int shape_b);
 
-/// Asks the user's filter about a pair that may collide; returns true if there is no filter. Only the calling
-/// thread may ask it.
+/// Calls the user's filter for a pair that may collide; returns true if there is no filter. Only the calling
+/// thread may call it.
 template <class Real>
-bool is_let_through(const WorldData<Real>& w, int shape_a, int shape_b) {
+bool passes_user_filter(const WorldData<Real>& w, int shape_a, int shape_b) {
   return !w.filter || w.filter(std::min(shape_a, shape_b), std::max(shape_a, shape_b));
 }
-/// Returns true if the two shapes may collide; asks the user's filter too.
+/// Returns true if the two shapes may collide; calls the user's filter too.
 template <class Real>
-bool may_meet(const WorldData<Real>& w, int shape_a, int shape_b) {
-  return may_collide(w, shape_a, shape_b) && is_let_through(w, shape_a, shape_b);
+bool may_create_contact(const WorldData<Real>& w, int shape_a, int shape_b) {
+  return may_collide(w, shape_a, shape_b) && passes_user_filter(w, shape_a, shape_b);
 }
 
 /// Returns the categories to query for a shape's AABB, folded. A shape with a group queries all, because a
 /// group may overrule the mask.
-inline std::uint32_t seen_by(const Filter& filter) {
+inline std::uint32_t effective_mask(const Filter& filter) {
   return filter.group != 0 ? 0xFFFFFFFFu : folded(filter.mask);
 }
 /// Returns true if a contact has points, or had points in the solver.
@@ -35,7 +35,7 @@ inline bool has_points(const ContactRecord& contact) {
 }
 
 /// Returns true if the shape collides with nothing; such a shape has no proxy in the trees.
-inline bool meets_nothing(const Filter& filter) { return seen_by(filter) == 0; }
+inline bool collides_with_nothing(const Filter& filter) { return effective_mask(filter) == 0; }
 
 /// Returns a new record for a contact of two shapes, in the order that contacts require.
 template <class Real>
@@ -70,11 +70,11 @@ ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& 
 template <class Real>
 void set_touching(WorldData<Real>& w, int contact, bool touching);
 
-/// Marks the bodies that a contact presses on. Several threads may mark the same body at once.
+/// Marks the bodies of a contact under load. Several threads may mark the same body at once.
 template <class Real>
-void note_loaded(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+void mark_contact_load(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   for (const int body : {c.body_a, c.body_b})
-    __atomic_store_n(&w.scratch.loaded[body], char(1), __ATOMIC_RELAXED);
+    __atomic_store_n(&w.scratch.has_contact_load[body], char(1), __ATOMIC_RELAXED);
 }
 
 /// Invalidates the manifolds of a body that was teleported.
@@ -106,22 +106,22 @@ void for_each_edge(Items& items, int first, Visit&& visit) {
   }
 }
 
-/// Returns true if `holds` is true of any contact or joint of a body's list; stops at the first.
+/// Returns true if `test` is true of any contact or joint of a body's list; stops at the first.
 template <class Items, class Test>
-bool any_edge(const Items& items, int first, Test&& holds) {
+bool any_edge(const Items& items, int first, Test&& test) {
   for (int edge = first; edge != kNone; edge = items[edge / 2].next[edge & 1])
-    if (holds(items[edge / 2])) return true;
+    if (test(items[edge / 2])) return true;
   return false;
 }
 
-/// Returns true if `holds` is true of any item between two bodies. Walks both bodies' lists in parallel, and
+/// Returns true if `test` is true of any item between two bodies. Walks both bodies' lists in parallel, and
 /// stops at the end of the shorter one.
 template <class Items, class Test>
-bool any_between(const Items& items, int edge_a, int edge_b, int body_a, int body_b, Test&& holds) {
+bool any_between(const Items& items, int edge_a, int edge_b, int body_a, int body_b, Test&& test) {
   while (edge_a != kNone && edge_b != kNone) {
     const auto &of_a = items[edge_a / 2], &of_b = items[edge_b / 2];
-    if (((edge_a & 1) == 0 ? of_a.body_b : of_a.body_a) == body_b && holds(of_a)) return true;
-    if (((edge_b & 1) == 0 ? of_b.body_b : of_b.body_a) == body_a && holds(of_b)) return true;
+    if (((edge_a & 1) == 0 ? of_a.body_b : of_a.body_a) == body_b && test(of_a)) return true;
+    if (((edge_b & 1) == 0 ? of_b.body_b : of_b.body_a) == body_a && test(of_b)) return true;
     edge_a = of_a.next[edge_a & 1], edge_b = of_b.next[edge_b & 1];
   }
   return false;

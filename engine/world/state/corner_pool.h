@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/capacity.h"
 #include "engine/core/hash.h"
-#include "engine/core/room.h"
 #include "engine/geometry/convex.h"
 #include "engine/world/checksum.h"
 
@@ -26,24 +26,25 @@ class CornerPool {
   using Runs = std::array<std::size_t, kMaxCorners + 3>;
 
   /// Reserves memory for `more` runs, so that adding them, or removing any, does not allocate.
-  void make_room_for(const Runs& more) {
+  void reserve_runs(const Runs& more) {
     std::size_t runs = 0, corners = 0, longest = 0;
     for (std::size_t length = 0; length < more.size(); ++length) {
       if (more[length] == 0) continue;
       runs += more[length], corners += more[length] * length, longest = length;
     }
-    make_table(runs);
+    grow_table(runs);
     if (free_.size() <= longest) free_.resize(longest + 1);
     for (std::size_t length = 0; length <= longest; ++length) {
-      if (more[length] > 0) ensure_room(free_[length], free_[length].size() + in_use_[length] + more[length]);
+      if (more[length] > 0)
+        ensure_capacity(free_[length], free_[length].size() + in_use_[length] + more[length]);
     }
-    ensure_room(corners_, corners_.size() + corners);
+    ensure_capacity(corners_, corners_.size() + corners);
   }
 
   /// Adds a use of a run of these corners, and returns its first index. If memory runs out, nothing changes.
   int add(std::span<const Corner<Real>> corners) {
     const int count = static_cast<int>(corners.size());
-    make_room_for_one(corners.size());
+    reserve_run(corners.size());
     Run& found = table_[find(corners)];
     if (found.uses++ > 0) return found.first;
     std::vector<int>& free = free_[corners.size()];
@@ -79,7 +80,7 @@ class CornerPool {
 
   /// Counts one use of a run after parts() were set. Returns false if an equal run begins elsewhere.
   bool count_use(int first, int count) {
-    make_room_for_one(static_cast<std::size_t>(count));
+    reserve_run(static_cast<std::size_t>(count));
     Run& found = table_[find(run(first, count))];
     if (found.uses == 0) {
       found.first = first, found.count = count;
@@ -105,11 +106,11 @@ class CornerPool {
     int uses = 0;  ///< 0: an empty slot
   };
 
-  void make_room_for_one(std::size_t length) {
-    make_table(1);
+  void reserve_run(std::size_t length) {
+    grow_table(1);
     if (free_.size() <= length) free_.resize(length + 1);
-    ensure_room(free_[length], free_[length].size() + in_use_[length] + 1);
-    ensure_room(corners_, corners_.size() + length);
+    ensure_capacity(free_[length], free_[length].size() + in_use_[length] + 1);
+    ensure_capacity(corners_, corners_.size() + length);
   }
 
   // Mixes the upper bits into the lower ones, which choose the slot: coordinates with few digits hardly
@@ -131,7 +132,7 @@ class CornerPool {
   }
 
   // Grows the table for `more` runs, at most three quarters full.
-  void make_table(std::size_t more) {
+  void grow_table(std::size_t more) {
     std::size_t size = std::max<std::size_t>(16, table_.size());
     while (4 * (runs_ + more) > 3 * size) size *= 2;
     if (size == table_.size()) return;

@@ -1,4 +1,4 @@
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/mass.h"
@@ -12,24 +12,25 @@ namespace plumb {
 namespace {
 
 template <class Real>
-void take_out_joint(WorldData<Real>& w, int joint) {
+void erase_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
   w.topology_changed = true;
   w.joint_set.remove(record.slot);  // the only call that may run out of memory
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  if (!lets_go(w, record)) --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
+  if (!has_quarantined_body(w, record))
+    --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
   std::erase(w.load_limits, joint);
   w.joints.remove(joint);
 }
 
 // Reserves memory for the end events of the contacts between two bodies.
 template <class Real>
-void make_room_for_ends(WorldData<Real>& w, int body_a, int body_b) {
+void reserve_end_events(WorldData<Real>& w, int body_a, int body_b) {
   std::size_t contacts = 0;
   for_each_edge(w.contacts, w.bodies[body_a].first_contact, [&](int, const ContactRecord& contact) {
     contacts += contact.body_a == body_b || contact.body_b == body_b ? 1 : 0;
   });
-  ensure_room(w.log().end, w.log().end.size() + contacts);
+  ensure_capacity(w.event_buffer().end, w.event_buffer().end.size() + contacts);
 }
 
 }  // namespace
@@ -40,14 +41,14 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   // First do everything that may reject the definition or run out of memory.
   const bool limited = definition.break_force > 0 || definition.break_torque > 0 ||
                        definition.report_force > 0 || definition.report_torque > 0;
-  w.joints.make_room(1);
-  ensure_room(w.load_limits, w.load_limits.size() + (limited ? 1 : 0));
-  if (!definition.collide) make_room_for_ends(w, body_a, body_b);
+  w.joints.reserve_more(1);
+  ensure_capacity(w.load_limits, w.load_limits.size() + (limited ? 1 : 0));
+  if (!definition.collide) reserve_end_events(w, body_a, body_b);
   w.topology_changed = true;  // before the joints' lists grow, which may fail halfway
   const int slot =
       w.joint_set.add(definition.kind, body_a, body_b, w.bodies[body_a].centre, w.bodies[body_b].centre,
                       w.is_dynamic(body_a), w.is_dynamic(body_b), w.solver_bodies());
-  w.joint_set.meet(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
+  w.joint_set.set_initial_angles(slot, w.bodies[body_a].angle, w.bodies[body_b].angle);
   JointRecord record;
   record.body_a = body_a, record.body_b = body_b;
   record.slot = slot;
@@ -60,7 +61,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   if (limited) w.load_limits.push_back(joint);
   try {
-    if (lets_go(w, record)) {
+    if (has_quarantined_body(w, record)) {
       w.joint_set.set_active(slot, false);
       w.joints[joint].active = false;
     } else {
@@ -68,7 +69,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
     }
     wake_body(w, body_a), wake_body(w, body_b);
   } catch (...) {
-    take_out_joint(w, joint);
+    erase_joint(w, joint);
     throw;
   }
   if (definition.collide) return joint;
@@ -83,7 +84,7 @@ void remove_joint(WorldData<Real>& w, int joint) {
   assert(w.joints.used(joint));
   const JointRecord record = w.joints[joint];
   wake_body(w, record.body_a), wake_body(w, record.body_b);
-  take_out_joint(w, joint);
+  erase_joint(w, joint);
   if (record.collide) return;
   // Shapes that the joint kept from colliding need pairs again.
   const int body = w.bodies[record.body_a].type == BodyType::Static ? record.body_b : record.body_a;
@@ -106,13 +107,13 @@ template <class Real>
 JointStiffness stiffness_of(const WorldData<Real>& w, int joint) {
   const JointRecord& record = w.joints[joint];
   // Masses may still be unsettled: reading changes nothing.
-  const auto centre_of = [&w](int body) { return w.bodies[body].centre + way_to_centre(w, body); };
+  const auto centre_of = [&w](int body) { return w.bodies[body].centre + centre_of_mass_shift(w, body); };
   const auto add = [&w](int body, Real& inverse_mass, Real& inverse_inertia) {
     if (own_type(w, body) != BodyType::Dynamic) return;
     const BodyRecord<Real>& of = w.bodies[body];
     const MassProperties mass =
-        is_unsettled(w, body)
-            ? mass_now(w, body)
+        has_mass_change(w, body)
+            ? current_mass(w, body)
             : MassProperties{static_cast<double>(of.mass), {}, static_cast<double>(of.inertia)};
     inverse_mass = inverse_mass_of(of, mass.mass);
     if (!of.lock_rotation && mass.inertia > 0) inverse_inertia = static_cast<Real>(1 / mass.inertia);

@@ -30,9 +30,9 @@ WorldData<Real>& unlocked(BasicWorld<Real>& world) {
 }
 
 template <class Real>
-WorldData<Real>& settled(BasicWorld<Real>& world) {
+WorldData<Real>& unlocked_with_masses(BasicWorld<Real>& world) {
   WorldData<Real>& w = unlocked(world);
-  if (!w.unsettled.empty()) settle(w);
+  if (!w.unsettled.empty()) apply_mass_changes(w);
   return w;
 }
 
@@ -40,7 +40,7 @@ WorldData<Real>& settled(BasicWorld<Real>& world) {
   template void require_unlocked(const WorldData<Real>&);      \
   template void require_between_steps(const WorldData<Real>&); \
   template WorldData<Real>& unlocked(BasicWorld<Real>&);       \
-  template WorldData<Real>& settled(BasicWorld<Real>&);
+  template WorldData<Real>& unlocked_with_masses(BasicWorld<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -21,7 +21,7 @@ template <class Real>
 WorldData<Real>& unlocked(BasicWorld<Real>& world);
 /// Does the same, and updates all masses. For calls that act on motions.
 template <class Real>
-WorldData<Real>& settled(BasicWorld<Real>& world);
+WorldData<Real>& unlocked_with_masses(BasicWorld<Real>& world);
 
 /// Ends a use of the world. If the user destroyed the world from a callback, the last use deletes its data.
 template <class Real>
@@ -33,8 +33,8 @@ void end_use(const WorldData<Real>& w) {
 template <class Real>
 class Lock {
  public:
-  /// `wanted` is false if there is no user code to call; then nothing is locked.
-  explicit Lock(const WorldData<Real>& w, bool wanted = true) : w_(wanted ? &w : nullptr) {
+  /// `has_user_code` is false if there is no user code to call; then nothing is locked.
+  explicit Lock(const WorldData<Real>& w, bool has_user_code = true) : w_(has_user_code ? &w : nullptr) {
     if (w_ != nullptr) w_->callers.fetch_add(1, std::memory_order_relaxed);
   }
   ~Lock() {

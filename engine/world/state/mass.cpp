@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/geometry/convex_core.h"
 #include "engine/geometry/convex_mass.h"
@@ -27,7 +27,7 @@ void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
   typename CornerPool<Real>::Runs runs{};
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
     ++runs[static_cast<std::size_t>(w.forms[shape].stored())];
-  w.corners.make_room_for(runs);  // nothing below allocates
+  w.corners.reserve_runs(runs);  // nothing below allocates
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     ShapeForm<Real>& form = w.forms[shape];
     Corner<Real> moved[kMaxCorners + 2];
@@ -52,7 +52,7 @@ void update_extents(WorldData<Real>& w, int body) {
   Real extent = 0, half_width = record.first_shape == kNone ? Real(0) : std::numeric_limits<Real>::max();
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
     extent = std::max(extent, convex_extent(w.convex(shape), Vec2<Real>{}));
-    half_width = std::min(half_width, convex_passing_width(w.convex(shape)));
+    half_width = std::min(half_width, convex_tunnelling_width(w.convex(shape)));
   }
   w.extents[body] = extent;
   record.half_width = half_width;
@@ -60,22 +60,22 @@ void update_extents(WorldData<Real>& w, int body) {
 
 // Clamps masses to the largest finite number: a mass or the inverse of one may exceed it.
 template <class Real>
-Real held(double x) {
+Real clamp_finite(double x) {
   return static_cast<Real>(std::min<double>(x, std::numeric_limits<Real>::max()));
 }
 
 template <class Real>
 void apply_mass(WorldData<Real>& w, int body, const MassProperties& mass, Vec2<Real> frame) {
   BodyRecord<Real>& record = w.bodies[body];
-  BodyMotion<Real>& motion = w.motion[body];
+  SolverBody<Real>& motion = w.motion[body];
   assert(mass.mass > 0 && mass.inertia >= 0);
   recentre(w, body, frame);
   w.topology_changed = true;
-  record.mass = held<Real>(mass.mass), record.inertia = held<Real>(mass.inertia);
+  record.mass = clamp_finite<Real>(mass.mass), record.inertia = clamp_finite<Real>(mass.inertia);
   const bool dynamic = own_type(w, body) == BodyType::Dynamic;
   motion.inverse_mass = dynamic ? inverse_mass_of(record, mass.mass) : Real(0);
   motion.inverse_inertia =
-      dynamic && !record.lock_rotation && mass.inertia > 0 ? held<Real>(1 / mass.inertia) : Real(0);
+      dynamic && !record.lock_rotation && mass.inertia > 0 ? clamp_finite<Real>(1 / mass.inertia) : Real(0);
   if (dynamic && record.lock_rotation)
     motion.angular_velocity = 0;  // a kinematic body that became dynamic may have one
   update_extents(w, body);
@@ -111,12 +111,12 @@ void for_each_part(const WorldData<Real>& w, int body, const Visit& visit) {
 
 template <class Real>
 Real inverse_mass_of(const BodyRecord<Real>& record, double mass) {
-  return record.lock_x && record.lock_y ? Real(0) : held<Real>(1 / mass);
+  return record.lock_x && record.lock_y ? Real(0) : clamp_finite<Real>(1 / mass);
 }
 
 // A body whose shapes have no mass gets 1 kg and does not rotate; without a mass it could not be moved.
 template <class Real>
-MassProperties mass_now(const WorldData<Real>& w, int body) {
+MassProperties current_mass(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.mass_given)
     return {static_cast<double>(record.mass), w.extras_of(body).mass_centre.template as<double>(),
@@ -144,13 +144,13 @@ MassProperties mass_now(const WorldData<Real>& w, int body) {
 template <class Real>
 void update_mass(WorldData<Real>& w, int body) {
   if (w.bodies[body].mass_given) return update_extents(w, body);
-  const MassProperties mass = mass_now(w, body);
+  const MassProperties mass = current_mass(w, body);
   apply_mass(w, body, mass, frame_for(w, body, mass));
 }
 
 template <class Real>
-void find_mass(WorldData<Real>& w, int body) {
-  const MassProperties mass = mass_now(w, body);
+void update_mass_for_type(WorldData<Real>& w, int body) {
+  const MassProperties mass = current_mass(w, body);
   const bool stays = own_type(w, body) == BodyType::Static;
   apply_mass(w, body, mass, stays ? w.bodies[body].centre : frame_for(w, body, mass));
 }
@@ -158,19 +158,19 @@ void find_mass(WorldData<Real>& w, int body) {
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass) {
   const Vec2<Real> centre = mass.centre.as<Real>();
-  if (w.extras_of(body).mass_centre != centre) make_uncommon(w, body).mass_centre = centre;
+  if (w.extras_of(body).mass_centre != centre) make_extras(w, body).mass_centre = centre;
   apply_mass(w, body, mass, frame_for(w, body, mass));
   w.bodies[body].mass_given = true;
 }
 
 template <class Real>
-void note_mass_change(WorldData<Real>& w, int body) {
+void record_mass_change(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   if (own_type(w, body) == BodyType::Static) {
     if (!record.mass_given) record.mass = -1;  // unknown
     return;
   }
-  if (is_unsettled(w, body)) return;
+  if (has_mass_change(w, body)) return;
   append(w.unsettled, body);
   record.half_width = -1;
 }
@@ -179,14 +179,14 @@ template <class Real>
 void grow_extents(WorldData<Real>& w, int body, int shape) {
   BodyRecord<Real>& record = w.bodies[body];
   w.extents[body] = std::max(w.extents[body], convex_extent(w.convex(shape), Vec2<Real>{}));
-  if (is_unsettled(w, body)) return;
-  const Real half_width = convex_passing_width(w.convex(shape));
+  if (has_mass_change(w, body)) return;
+  const Real half_width = convex_tunnelling_width(w.convex(shape));
   const bool alone = record.first_shape == shape && w.shapes[shape].next == kNone;
   record.half_width = alone ? half_width : std::min(record.half_width, half_width);
 }
 
 template <class Real>
-void settle(WorldData<Real>& w) {
+void apply_mass_changes(WorldData<Real>& w) {
   while (!w.unsettled.empty()) {
     update_mass(w, w.unsettled.back());
     w.unsettled.pop_back();
@@ -194,41 +194,41 @@ void settle(WorldData<Real>& w) {
 }
 
 template <class Real>
-Vec2<Real> way_to_centre(const WorldData<Real>& w, int body) {
+Vec2<Real> centre_of_mass_shift(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
-  const bool known = !is_unsettled(w, body) && record.mass >= 0;
+  const bool known = !has_mass_change(w, body) && record.mass >= 0;
   if (known || own_type(w, body) == BodyType::Kinematic) return {};
-  return mass_now(w, body).centre.template as<Real>() - record.centre;
+  return current_mass(w, body).centre.template as<Real>() - record.centre;
 }
 
 template <class Real>
-void require_weights(const WorldData<Real>& w, int body) {
+void require_float_masses(const WorldData<Real>& w, int body) {
   if (std::is_same_v<Real, double>) return;
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const double density = static_cast<double>(w.shapes[shape].density);
-    if (!w.forms[shape].chain && density != 0) require_weight(density, mass_of(w, shape));
+    if (!w.forms[shape].chain && density != 0) require_float_mass(density, mass_of(w, shape));
   }
 }
 
 template <class Real>
-void make_room_to_recentre(WorldData<Real>& w, std::span<const NewShape<Real>> shapes) {
+void reserve_recentring(WorldData<Real>& w, std::span<const NewShape<Real>> shapes) {
   typename CornerPool<Real>::Runs runs{};
   for (const NewShape<Real>& shape : shapes) runs[shape.corners.size()] += 2;  // before and after
-  w.corners.make_room_for(runs);
+  w.corners.reserve_runs(runs);
 }
 
-#define PLUMB_FOR(Real)                                                 \
-  template void update_mass(WorldData<Real>&, int);                     \
-  template void find_mass(WorldData<Real>&, int);                       \
-  template void set_mass(WorldData<Real>&, int, const MassProperties&); \
-  template Real inverse_mass_of(const BodyRecord<Real>&, double);       \
-  template void note_mass_change(WorldData<Real>&, int);                \
-  template void grow_extents(WorldData<Real>&, int, int);               \
-  template void settle(WorldData<Real>&);                               \
-  template MassProperties mass_now(const WorldData<Real>&, int);        \
-  template Vec2<Real> way_to_centre(const WorldData<Real>&, int);       \
-  template void require_weights(const WorldData<Real>&, int);           \
-  template void make_room_to_recentre(WorldData<Real>&, std::span<const NewShape<Real>>);
+#define PLUMB_FOR(Real)                                                  \
+  template void update_mass(WorldData<Real>&, int);                      \
+  template void update_mass_for_type(WorldData<Real>&, int);             \
+  template void set_mass(WorldData<Real>&, int, const MassProperties&);  \
+  template Real inverse_mass_of(const BodyRecord<Real>&, double);        \
+  template void record_mass_change(WorldData<Real>&, int);               \
+  template void grow_extents(WorldData<Real>&, int, int);                \
+  template void apply_mass_changes(WorldData<Real>&);                    \
+  template MassProperties current_mass(const WorldData<Real>&, int);     \
+  template Vec2<Real> centre_of_mass_shift(const WorldData<Real>&, int); \
+  template void require_float_masses(const WorldData<Real>&, int);       \
+  template void reserve_recentring(WorldData<Real>&, std::span<const NewShape<Real>>);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

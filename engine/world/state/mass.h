@@ -18,7 +18,7 @@ template <class Real>
 void update_mass(WorldData<Real>& w, int body);
 /// Does the same for a body whose type has changed.
 template <class Real>
-void find_mass(WorldData<Real>& w, int body);
+void update_mass_for_type(WorldData<Real>& w, int body);
 /// Sets a body's mass, which replaces that of its shapes from now on.
 template <class Real>
 void set_mass(WorldData<Real>& w, int body, const MassProperties& mass);
@@ -30,32 +30,32 @@ Real inverse_mass_of(const BodyRecord<Real>& record, double mass);
 
 /// Records that a shape is about to be added to the body or removed from it.
 template <class Real>
-void note_mass_change(WorldData<Real>& w, int body);
+void record_mass_change(WorldData<Real>& w, int body);
 /// Grows the body's sizes by a shape that was added.
 template <class Real>
 void grow_extents(WorldData<Real>& w, int body, int shape);
 /// Updates all bodies that were noted.
 template <class Real>
-void settle(WorldData<Real>& w);
+void apply_mass_changes(WorldData<Real>& w);
 /// Returns true if a change of the body's shapes was recorded and not yet applied.
 template <class Real>
-bool is_unsettled(const WorldData<Real>& w, int body) {
+bool has_mass_change(const WorldData<Real>& w, int body) {
   return w.bodies[body].half_width < 0;
 }
 
 /// Returns the body's mass properties, including a recorded change; the centre is in the body's frame.
 template <class Real>
-MassProperties mass_now(const WorldData<Real>& w, int body);
+MassProperties current_mass(const WorldData<Real>& w, int body);
 /// Returns the offset of the body's centre of mass from its stored one, m; 0 if no change was recorded.
 template <class Real>
-Vec2<Real> way_to_centre(const WorldData<Real>& w, int body);
+Vec2<Real> centre_of_mass_shift(const WorldData<Real>& w, int body);
 
 /// Throws Error (Value) if the densities of a body's shapes give a mass that `Real` cannot hold.
 template <class Real>
-void require_weights(const WorldData<Real>& w, int body);
+void require_float_masses(const WorldData<Real>& w, int body);
 
 /// Reserves memory to move a new body's shapes into the frame of its centre of mass.
 template <class Real>
-void make_room_to_recentre(WorldData<Real>& w, std::span<const NewShape<Real>> shapes);
+void reserve_recentring(WorldData<Real>& w, std::span<const NewShape<Real>> shapes);
 
 }  // namespace plumb

@@ -11,7 +11,7 @@ namespace plumb {
 
 /// Calls `check` and rethrows its errors with `subject()` as their subject.
 template <class Subject, class Check>
-void naming(Subject&& subject, Check&& check) {
+void with_subject(Subject&& subject, Check&& check) {
   try {
     check();
   } catch (const Error& error) {
@@ -26,14 +26,14 @@ std::string body_subject(const WorldData<Real>& w, int body) {
 }
 
 template <class Real, class Check>
-void naming_body(const WorldData<Real>& w, int body, Check&& check) {
-  naming([&] { return body_subject(w, body); }, check);
+void with_body_subject(const WorldData<Real>& w, int body, Check&& check) {
+  with_subject([&] { return body_subject(w, body); }, check);
 }
 
 /// Checks a part of a body; errors name "shape of body 'ball'", with `part` for "shape".
 template <class Real, class Check>
-void naming_part(const WorldData<Real>& w, const std::string& part, int body, Check&& check) {
-  naming([&] { return part + " of " + body_subject(w, body); }, check);
+void with_part_subject(const WorldData<Real>& w, const std::string& part, int body, Check&& check) {
+  with_subject([&] { return part + " of " + body_subject(w, body); }, check);
 }
 
 }  // namespace plumb

@@ -27,7 +27,7 @@ NewShape<Real> prepare_segment(const ChainDefinition& definition, int which);
 
 /// Reserves memory for shapes of a body of this type.
 template <class Real>
-void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes);
+void reserve_shapes(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes);
 
 /// Adds a shape to the body's list; the caller updates mass and tree. Does not allocate if memory is
 /// reserved.

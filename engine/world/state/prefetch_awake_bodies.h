@@ -15,15 +15,15 @@ class PrefetchAwakeBodies {
       : w_(w), end_(w.awake.size() > kCached ? w.awake.size() : 0) {}
 
   // GCC 12 removes calls of a function that only prefetches, unless they are inlined first.
-  [[gnu::always_inline]] void prefetch_motion(std::size_t place) const {
-    if (place + kBodies >= end_) return;
-    const int body = w_.awake[place + kBodies];
+  [[gnu::always_inline]] void prefetch_motion(std::size_t index) const {
+    if (index + kBodies >= end_) return;
+    const int body = w_.awake[index + kBodies];
     __builtin_prefetch(&w_.bodies[body]), __builtin_prefetch(&w_.motion[body]);
   }
   /// Prefetches pose and first shape of a body whose motion was prefetched before.
-  [[gnu::always_inline]] void prefetch_place(std::size_t place) const {
-    if (place + kShapes >= end_) return;
-    const int body = w_.awake[place + kShapes], shape = w_.bodies[body].first_shape;
+  [[gnu::always_inline]] void prefetch_pose(std::size_t index) const {
+    if (index + kShapes >= end_) return;
+    const int body = w_.awake[index + kShapes], shape = w_.bodies[body].first_shape;
     __builtin_prefetch(&w_.position[body]), __builtin_prefetch(&w_.rotation[body]);
     if (shape == kNone) return;
     __builtin_prefetch(&w_.shapes[shape]), __builtin_prefetch(&w_.forms[shape]);

@@ -32,14 +32,14 @@ QuarantinedBody& quarantine_of(WorldData<Real>& w, int body);
 
 /// Returns true if the joint is disabled because one of its bodies is in quarantine.
 template <class Real>
-bool lets_go(const WorldData<Real>& w, const JointRecord& joint) {
+bool has_quarantined_body(const WorldData<Real>& w, const JointRecord& joint) {
   return w.bodies[joint.body_a].quarantined || w.bodies[joint.body_b].quarantined;
 }
 
 /// Applies an impulse, N s, and an angular one about the centre of mass, N m s. Quarantines a body that would
 /// exceed the limits instead.
 template <class Real>
-void push_body(WorldData<Real>& w, int body, Vec2d impulse, double angular_impulse);
+void apply_body_impulse(WorldData<Real>& w, int body, Vec2d impulse, double angular_impulse);
 
 /// Quarantines, before a step, bodies whose loads would take them beyond the limits within `dt`, before they
 /// affect others.
@@ -48,14 +48,14 @@ void quarantine_overloaded(WorldData<Real>& w, double dt);
 
 /// Returns true if a body's motion is finite, of any magnitude.
 template <class Real>
-bool is_finite_motion(const BodyMotion<Real>& motion) {
-  const Real sum = motion.moved.x + motion.moved.y + motion.turned + motion.velocity.x + motion.velocity.y +
-                   motion.angular_velocity;
+bool is_finite_motion(const SolverBody<Real>& motion) {
+  const Real sum = motion.delta_position.x + motion.delta_position.y + motion.delta_angle +
+                   motion.velocity.x + motion.velocity.y + motion.angular_velocity;
   return sum - sum == 0;
 }
 /// Returns true if a motion is finite and within the world's limits.
 template <class Real>
-bool is_sound_motion(const BodyMotion<Real>& motion);
+bool is_valid_motion(const SolverBody<Real>& motion);
 
 /// Returns true if a body's motion of a step leads to a position and an angle within the world's limits.
 template <class Real>

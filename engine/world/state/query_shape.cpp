@@ -8,20 +8,21 @@
 namespace plumb {
 namespace {
 
-bool is_size(double v) { return v >= kSmallestNumber && v <= kLargestNumber; }
-bool is_place(Vec2d v) { return std::abs(v.x) <= kLargestNumber && std::abs(v.y) <= kLargestNumber; }
+bool is_valid_size(double v) { return v >= kSmallestNumber && v <= kLargestNumber; }
+bool is_valid_position(Vec2d v) { return std::abs(v.x) <= kLargestNumber && std::abs(v.y) <= kLargestNumber; }
 
 // Returns true for geometry that needs no validation, which would allocate names for messages.
 struct IsSound {
-  bool operator()(const Circle& circle) const { return is_size(circle.radius); }
-  bool operator()(const Box& box) const { return is_size(box.width) && is_size(box.height); }
+  bool operator()(const Circle& circle) const { return is_valid_size(circle.radius); }
+  bool operator()(const Box& box) const { return is_valid_size(box.width) && is_valid_size(box.height); }
   bool operator()(const Capsule& capsule) const {
-    return is_place(capsule.start) && is_place(capsule.end) && is_size(capsule.radius);
+    return is_valid_position(capsule.start) && is_valid_position(capsule.end) &&
+           is_valid_size(capsule.radius);
   }
   bool operator()(const Polygon&) const { return false; }
   bool operator()(const Segment& segment) const {
-    return is_place(segment.start) && is_place(segment.end) &&
-           is_size(std::sqrt(length_squared(segment.end - segment.start)));
+    return is_valid_position(segment.start) && is_valid_position(segment.end) &&
+           is_valid_size(std::sqrt(length_squared(segment.end - segment.start)));
   }
 };
 

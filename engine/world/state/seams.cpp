@@ -4,17 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/collision/manifold/seam.h"
+#include "engine/collision/manifold/internal_edge.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 
 namespace plumb {
 namespace {
-
-template <class Real>
-Real taxicab(Vec2<Real> v) {
-  return std::abs(v.x) + std::abs(v.y);
-}
 
 template <class Real>
 Pose<Real> inverse(const Pose<Real>& pose) {
@@ -25,16 +21,16 @@ Pose<Real> inverse(const Pose<Real>& pose) {
 // One side of a contact, computed when the first neighbour is tested.
 template <class Real>
 struct Side {
-  bool looked = false;      // the members below are computed
+  bool computed = false;    // the members below are computed
   int shape = 0, body = 0;  // of the touched shape
   TouchedSurface<Real> touched;
-  SeamAnswer<Real> answer{};
+  InternalEdgeResult<Real> answer{};
 };
 
 template <class Real>
-void look_at_side(const WorldData<Real>& w, const ContactRecord& contact, bool of_b, const Pose<Real>& b_in_a,
+void compute_side(const WorldData<Real>& w, const ContactRecord& contact, bool of_b, const Pose<Real>& b_in_a,
                   const ContactManifold<Real>& manifold, Side<Real>& side) {
-  side.looked = true;
+  side.computed = true;
   side.shape = of_b ? contact.shape_b : contact.shape_a;
   side.body = of_b ? contact.body_b : contact.body_a;
   TouchedSurface<Real>& touched = side.touched;
@@ -51,7 +47,7 @@ void look_at_side(const WorldData<Real>& w, const ContactRecord& contact, bool o
     const Vec2<Real> at = of_b ? to_b.position + to_b.rotation * point.point : point.point;
     touched.points[i] = at - (Real(0.5) * point.separation) * touched.normal;
     least = std::min(least, point.separation);
-    size = std::max(size, taxicab(at));
+    size = std::max(size, l1_norm(at));
   }
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   touched.tolerance =
@@ -70,7 +66,7 @@ struct Region {
 
 template <class Real>
 Region<Real> region_of(const WorldData<Real>& w, const ContactRecord& contact,
-                       const ContactManifold<Real>& manifold, Real smaller, Real way) {
+                       const ContactManifold<Real>& manifold, Real smaller, Real displacement) {
   const Vec2<Real> at = w.position[contact.body_a].template as<Real>();
   const Rotation<Real> q = w.rotation[contact.body_a];
   Region<Real> region;
@@ -81,8 +77,8 @@ Region<Real> region_of(const WorldData<Real>& w, const ContactRecord& contact,
     region.box = i == 0 ? Aabb<Real>{point, point} : merged(region.box, Aabb<Real>{point, point});
     most = std::max(most, std::abs(manifold.points[i].separation));
   }
-  const Real rounding = 8 * std::numeric_limits<Real>::epsilon() * (taxicab(at) + taxicab(region.points[0]));
-  region.margin = way + Real(0.5) * most + Real(4 * tuning::kSeamTolerance) * smaller + rounding;
+  const Real rounding = 8 * std::numeric_limits<Real>::epsilon() * (l1_norm(at) + l1_norm(region.points[0]));
+  region.margin = displacement + Real(0.5) * most + Real(4 * tuning::kSeamTolerance) * smaller + rounding;
   region.box = region.box.grown(region.margin);
   return region;
 }
@@ -114,14 +110,14 @@ Pose<Real> pose_in(const WorldData<Real>& w, int body, int frame) {
 // Returns true if a neighbour and the touched shape cannot move relative to each other: on one body, or if
 // neither is dynamic.
 template <class Real>
-bool stays_beside(const WorldData<Real>& w, const Side<Real>& side, int neighbour) {
+bool is_attached(const WorldData<Real>& w, const Side<Real>& side, int neighbour) {
   return neighbour == side.body || (!w.is_dynamic(neighbour) && !w.is_dynamic(side.body));
 }
 
 // Returns true if a face is preferred to another one. Decides ties too, so that the order in which neighbours
 // are tested does not matter.
 template <class Real>
-bool is_preferred(const SeamAnswer<Real>& face, const SeamAnswer<Real>& other) {
+bool is_preferred(const InternalEdgeResult<Real>& face, const InternalEdgeResult<Real>& other) {
   if (face.height != other.height) return face.height > other.height;
   if (face.face != other.face) return face.face < other.face;
   return face.at_start && !other.at_start;
@@ -129,14 +125,14 @@ bool is_preferred(const SeamAnswer<Real>& face, const SeamAnswer<Real>& other) {
 
 // Tests a neighbour. If it gives several faces, keeps the one that the other shape is farthest in front of.
 template <class Real>
-void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
-  using Kind = typename SeamAnswer<Real>::Kind;
+void test_neighbour(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
+  using Kind = typename InternalEdgeResult<Real>::Kind;
   if (side.answer.kind == Kind::Hidden) return;
-  if (!stays_beside(w, side, w.shapes[neighbour].body)) return;
+  if (!is_attached(w, side, w.shapes[neighbour].body)) return;
   const Convex<Real> shape = w.convex(neighbour);
-  const SeamAnswer<Real> answer =
-      look_across_seam(side.touched, shape, w.forms[neighbour].chain ? 1 : shape.count,
-                       pose_in(w, w.shapes[neighbour].body, side.body));
+  const InternalEdgeResult<Real> answer =
+      check_internal_edge(side.touched, shape, w.forms[neighbour].chain ? 1 : shape.count,
+                          pose_in(w, w.shapes[neighbour].body, side.body));
   if (answer.kind == Kind::Hidden ||
       (answer.kind == Kind::Face && (side.answer.kind == Kind::Own || is_preferred(answer, side.answer))))
     side.answer = answer;
@@ -145,7 +141,7 @@ void ask(const WorldData<Real>& w, Side<Real>& side, int neighbour) {
 // Returns the body whose contacts are searched for neighbours: of two dynamic bodies the one with fewer
 // constraints.
 template <class Real>
-int body_to_ask(const WorldData<Real>& w, const ContactRecord& contact) {
+int body_to_search(const WorldData<Real>& w, const ContactRecord& contact) {
   if (!w.is_dynamic(contact.body_a)) return contact.body_b;
   if (!w.is_dynamic(contact.body_b)) return contact.body_a;
   return w.bodies[contact.body_b].constraints < w.bodies[contact.body_a].constraints ? contact.body_b
@@ -153,19 +149,19 @@ int body_to_ask(const WorldData<Real>& w, const ContactRecord& contact) {
 }
 
 template <class Real>
-ContactManifold<Real> on_face(const WorldData<Real>& w, const ContactRecord& contact, const Side<Real>& side,
-                              const Pose<Real>& b_in_a, Real reach) {
+ContactManifold<Real> collide_on_face(const WorldData<Real>& w, const ContactRecord& contact,
+                                      const Side<Real>& side, const Pose<Real>& b_in_a, Real margin) {
   const Convex<Real> shape_a = w.convex(contact.shape_a), shape_b = w.convex(contact.shape_b);
   const Real slack = 4 * side.touched.tolerance;
   const Vec2<Real> pivot = pivot_between(w, contact, b_in_a);
   if (side.shape == contact.shape_a)
-    return collide_face(shape_a, side.answer.face, side.answer.at_start, slack, shape_b, b_in_a, reach,
+    return collide_face(shape_a, side.answer.face, side.answer.at_start, slack, shape_b, b_in_a, margin,
                         pivot);
   const Pose<Real> a_in_b = inverse(b_in_a);
   const ContactManifold<Real> found =
-      collide_face(shape_b, side.answer.face, side.answer.at_start, slack, shape_a, a_in_b, reach,
+      collide_face(shape_b, side.answer.face, side.answer.at_start, slack, shape_a, a_in_b, margin,
                    a_in_b.position + a_in_b.rotation * pivot);
-  return seen_from_other(found, b_in_a);
+  return swapped_manifold(found, b_in_a);
 }
 
 // Returns the least separation of a manifold's points, 0 if none overlaps.
@@ -180,7 +176,7 @@ Real deepest_of(const ContactManifold<Real>& manifold) {
 // corners meet at a point, an internal edge could belong to either body's surface; the motion decides.
 template <class Real>
 bool slides_along(const WorldData<Real>& w, const ContactRecord& contact, const Side<Real>& side) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Rotation<Real> q = w.rotation[side.body];
   const Vec2<Real> from_side = q * side.touched.points[0];
   const Vec2<Real> across = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
@@ -210,34 +206,34 @@ bool has_few_shapes(const WorldData<Real>& w, int body, int& most) {
   return shape == kNone;
 }
 
-// Calls look_at(shape, shape it must have a contact with) for the shapes that may continue the surface of a
+// Calls visit(shape, shape it must have a contact with) for the shapes that may continue the surface of a
 // contact between two dynamic bodies: the other shapes of both.
-template <class Real, class LookAt>
-void for_each_sibling(const WorldData<Real>& w, const ContactRecord& contact, const LookAt& look_at) {
+template <class Real, class Visit>
+void for_each_sibling(const WorldData<Real>& w, const ContactRecord& contact, const Visit& visit) {
   for (int shape = w.bodies[contact.body_a].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    if (shape != contact.shape_a) look_at(shape, contact.shape_b);
+    if (shape != contact.shape_a) visit(shape, contact.shape_b);
   for (int shape = w.bodies[contact.body_b].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    if (shape != contact.shape_b) look_at(shape, contact.shape_a);
+    if (shape != contact.shape_b) visit(shape, contact.shape_a);
 }
 
-// Calls look_at(shape, kNone) for all shapes that have a contact with one of the contact's shapes and belong
+// Calls visit(shape, kNone) for all shapes that have a contact with one of the contact's shapes and belong
 // to the other shape's side. Searches the contacts of the body `asked`.
-template <class Real, class LookAt>
-void for_each_touching(const WorldData<Real>& w, const ContactRecord& contact, int asked,
-                       const LookAt& look_at) {
-  const bool asks_a = asked == contact.body_a;
-  const int own = asks_a ? contact.shape_a : contact.shape_b,
-            other = asks_a ? contact.shape_b : contact.shape_a;
-  for (int edge = w.bodies[asked].first_contact; edge != kNone;) {
+template <class Real, class Visit>
+void for_each_touching(const WorldData<Real>& w, const ContactRecord& contact, int searched,
+                       const Visit& visit) {
+  const bool searches_a = searched == contact.body_a;
+  const int own = searches_a ? contact.shape_a : contact.shape_b,
+            other = searches_a ? contact.shape_b : contact.shape_a;
+  for (int edge = w.bodies[searched].first_contact; edge != kNone;) {
     const ContactRecord& record = w.contacts[edge / 2];
     const bool is_a = (edge & 1) == 0;
     edge = record.next[edge & 1];
-    const int beside = is_a ? record.shape_b : record.shape_a,
-              of_asked = is_a ? record.shape_a : record.shape_b;
+    const int neighbour = is_a ? record.shape_b : record.shape_a,
+              of_searched = is_a ? record.shape_a : record.shape_b;
     // Only shapes that have a contact with the sliding shape count as neighbours, so this body's list
     // contains them all.
-    if (of_asked == own && beside != other) look_at(beside, kNone);
-    if (beside == other && of_asked != own) look_at(of_asked, kNone);
+    if (of_searched == own && neighbour != other) visit(neighbour, kNone);
+    if (neighbour == other && of_searched != own) visit(of_searched, kNone);
   }
 }
 
@@ -250,49 +246,49 @@ bool is_wide(const ContactManifold<Real>& manifold, Real widest) {
 
 // Tests the neighbours of both sides of a contact.
 template <class Real>
-void ask_neighbours(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
-                    const ContactManifold<Real>& manifold, Real smaller, Real way, bool both_dynamic,
-                    Sides<Real>& sides) {
-  const int asked = body_to_ask(w, contact);
+void test_neighbours(const WorldData<Real>& w, const ContactRecord& contact, const Pose<Real>& b_in_a,
+                     const ContactManifold<Real>& manifold, Real smaller, Real displacement,
+                     bool both_dynamic, Sides<Real>& sides) {
+  const int searched = body_to_search(w, contact);
   int few = kFewShapes;
   const bool by_shapes =
       both_dynamic && has_few_shapes(w, contact.body_a, few) && has_few_shapes(w, contact.body_b, few);
   if (!by_shapes) {
-    const int first = w.bodies[asked].first_contact;
+    const int first = w.bodies[searched].first_contact;
     if (first == kNone || w.contacts[first / 2].next[first & 1] == kNone) return;
   }
-  const Region<Real> region = region_of(w, contact, manifold, smaller, way);
-  // Makes the test of `stays_beside` for both sides, before anything is computed.
-  const auto may_be_beside = [&](int body) {
+  const Region<Real> region = region_of(w, contact, manifold, smaller, displacement);
+  // Makes the test of `is_attached` for both sides, before anything is computed.
+  const auto may_be_attached = [&](int body) {
     return body == contact.body_a || body == contact.body_b || (!both_dynamic && !w.is_dynamic(body));
   };
-  const auto look_at = [&](int shape, int touched) {
+  const auto visit = [&](int shape, int touched) {
     const int body = w.shapes[shape].body;
-    if (!may_be_beside(body) || !w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
+    if (!may_be_attached(body) || !w.boxes[shape].overlaps(region.box) || !is_near(w, shape, region)) return;
     if (touched != kNone && !w.pairs.contains(shape, touched)) return;
     if (body != contact.body_b) {
-      if (!sides.of_a.looked) look_at_side(w, contact, false, b_in_a, manifold, sides.of_a);
-      ask(w, sides.of_a, shape);
+      if (!sides.of_a.computed) compute_side(w, contact, false, b_in_a, manifold, sides.of_a);
+      test_neighbour(w, sides.of_a, shape);
     }
     if (body != contact.body_a) {
-      if (!sides.of_b.looked) look_at_side(w, contact, true, b_in_a, manifold, sides.of_b);
-      ask(w, sides.of_b, shape);
+      if (!sides.of_b.computed) compute_side(w, contact, true, b_in_a, manifold, sides.of_b);
+      test_neighbour(w, sides.of_b, shape);
     }
   };
   if (by_shapes) {
-    for_each_sibling(w, contact, look_at);
+    for_each_sibling(w, contact, visit);
   } else {
-    for_each_touching(w, contact, asked, look_at);
+    for_each_touching(w, contact, searched, visit);
   }
 }
 
 }  // namespace
 
 template <class Real>
-ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord& contact,
-                                   const Pose<Real>& b_in_a, Real reach,
-                                   const ContactManifold<Real>& manifold, Real way) {
-  using Kind = typename SeamAnswer<Real>::Kind;
+ContactManifold<Real> correct_at_seams(const WorldData<Real>& w, const ContactRecord& contact,
+                                       const Pose<Real>& b_in_a, Real margin,
+                                       const ContactManifold<Real>& manifold, Real displacement) {
+  using Kind = typename InternalEdgeResult<Real>::Kind;
   // Only neighbours fixed to a touched shape count. Two dynamic bodies with one shape each have none.
   const auto is_single = [&](int body) {
     const int shape = w.bodies[body].first_shape;
@@ -304,7 +300,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   const Real widest = Real(tuning::kSeamDepth) * smaller;
   if (is_wide(manifold, widest)) return manifold;
   Sides<Real> found_sides;
-  ask_neighbours(w, contact, b_in_a, manifold, smaller, way, both_dynamic, found_sides);
+  test_neighbours(w, contact, b_in_a, manifold, smaller, displacement, both_dynamic, found_sides);
   const Side<Real>* const sides[2] = {&found_sides.of_a, &found_sides.of_b};
   if (sides[0]->answer.kind == Kind::Hidden || sides[1]->answer.kind == Kind::Hidden) return {};
   // Static and kinematic bodies first.
@@ -312,7 +308,7 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   for (const int i : {order, 1 - order}) {
     if (sides[i]->answer.kind != Kind::Face) continue;
     if (w.is_dynamic(sides[i]->body) && !slides_along(w, contact, *sides[i])) continue;
-    const ContactManifold<Real> found = on_face(w, contact, *sides[i], b_in_a, reach);
+    const ContactManifold<Real> found = collide_on_face(w, contact, *sides[i], b_in_a, margin);
     if (found.count == 0) {
       // No point is in front of the face: a body inside the shape keeps its contact.
       const bool overlaps = deepest_of(manifold) < -2 * sides[i]->touched.tolerance;
@@ -323,9 +319,10 @@ ContactManifold<Real> across_seams(const WorldData<Real>& w, const ContactRecord
   return manifold;
 }
 
-#define PLUMB_FOR(Real)                                                                     \
-  template ContactManifold<Real> across_seams(const WorldData<Real>&, const ContactRecord&, \
-                                              const Pose<Real>&, Real, const ContactManifold<Real>&, Real);
+#define PLUMB_FOR(Real)                                                                                  \
+  template ContactManifold<Real> correct_at_seams(const WorldData<Real>&, const ContactRecord&,          \
+                                                  const Pose<Real>&, Real, const ContactManifold<Real>&, \
+                                                  Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

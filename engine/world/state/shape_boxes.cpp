@@ -24,21 +24,22 @@ Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * far;
   // Static shapes get no margin: 10 % of a large ground would pair it with everything nearby.
   if (w.bodies[body].type == BodyType::Static) return box.grown(rounding);
-  box = box.grown(Real(tuning::kBoxMargin) * w.forms[shape].extent + rounding);
-  const BodyMotion<Real>& motion = w.motion[body];
+  box = box.grown(Real(tuning::kAabbMargin) * w.forms[shape].extent + rounding);
+  const SolverBody<Real>& motion = w.motion[body];
   const bool alone = w.bodies[body].first_contact == kNone;
-  const Real way = dt * (std::abs(motion.velocity.x) + std::abs(motion.velocity.y));
-  const Real further =
-      alone ? Real(tuning::kBoxSteps - 1) * way
-            : std::clamp(Real(tuning::kBoxRoomInCrowd) * w.forms[shape].extent - way, Real(0), way);
-  const Real steps = way > 0 ? 1 + further / way : Real(1);
-  return room_ahead(box, (steps * dt) * motion.velocity,
-                    dt * std::abs(motion.angular_velocity) * w.extents[body], w.extents[body]);
+  const Real distance = dt * (std::abs(motion.velocity.x) + std::abs(motion.velocity.y));
+  const Real further = alone
+                           ? Real(tuning::kPredictedSteps - 1) * distance
+                           : std::clamp(Real(tuning::kMaxCrowdPrediction) * w.forms[shape].extent - distance,
+                                        Real(0), distance);
+  const Real steps = distance > 0 ? 1 + further / distance : Real(1);
+  return predicted_aabb(box, (steps * dt) * motion.velocity,
+                        dt * std::abs(motion.angular_velocity) * w.extents[body], w.extents[body]);
 }
 
 template <class Real>
-bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real turned) {
-  return update_boxes(w, shape, dt, turned, [&](int left, const Aabb<Real>& box) {
+bool update_proxy(WorldData<Real>& w, int shape, Real dt, Real rotation_distance) {
+  return update_aabbs(w, shape, dt, rotation_distance, [&](int left, const Aabb<Real>& box) {
     store_fat_aabb(w, left, box, w.tree_of(w.bodies[w.shapes[left].body].type));
   });
 }

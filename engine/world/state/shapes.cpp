@@ -36,13 +36,13 @@ struct MakeOutline {
 
 // Removes duplicates and stale entries, left by shapes destroyed since the last step, from the move buffer.
 template <class Real>
-void tidy_moved_shapes(WorldData<Real>& w) {
+void compact_move_buffer(WorldData<Real>& w) {
   std::erase_if(w.move_buffer, [&](int shape) { return !std::exchange(w.shapes[shape].moved, false); });
   for (const int shape : w.move_buffer) w.shapes[shape].moved = true;
 }
 
 template <class Real>
-void put_material(ShapeRecord<Real>& record, const Material& material) {
+void set_coefficients(ShapeRecord<Real>& record, const Material& material) {
   record.friction = static_cast<Real>(material.friction);
   record.restitution = static_cast<Real>(material.restitution);
   record.rolling_resistance = static_cast<Real>(material.rolling_resistance);
@@ -69,7 +69,7 @@ NewShape<Real> prepare_shape(const ShapeDefinition& definition) {
   made.count = static_cast<int>(made.corners.size());
   made.form.sensor = definition.sensor;
   made.form.radius = static_cast<Real>(outline.radius);
-  put_material(made.record, definition.material);
+  set_coefficients(made.record, definition.material);
   made.record.filter = definition.filter;
   made.record.density = static_cast<Real>(definition.density);
   made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
@@ -92,7 +92,7 @@ NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
   made.count = 2;  // two of the four corners are the segment's own
   made.form.chain = true;
   made.form.sensor = definition.sensor;
-  put_material(made.record, definition.material);
+  set_coefficients(made.record, definition.material);
   made.record.filter = definition.filter;
   made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
   made.user_data = definition.user_data;
@@ -100,7 +100,7 @@ NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
 }
 
 template <class Real>
-void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes) {
+void reserve_shapes(WorldData<Real>& w, BodyType type, std::span<const NewShape<Real>> shapes) {
   const std::size_t more = shapes.size(), all = static_cast<std::size_t>(w.shapes.size()) + more;
   typename CornerPool<Real>::Runs runs{};
   std::size_t sensors = 0;
@@ -110,21 +110,21 @@ void make_room_for(WorldData<Real>& w, BodyType type, std::span<const NewShape<R
     sensors += shape.form.sensor ? 1 : 0;
     data = data || shape.user_data != 0;
   }
-  w.shapes.make_room(more);
-  ensure_room(w.forms, all), ensure_room(w.boxes, all);
-  w.shape_data.ensure(static_cast<int>(all), data);
-  w.corners.make_room_for(runs);
-  ensure_room(w.sensors, w.sensors.size() + sensors);
-  w.tree_of(type).make_room(more);
-  if (w.move_buffer.size() > 2 * all) tidy_moved_shapes(w);
-  ensure_room(w.move_buffer, w.move_buffer.size() + more);
+  w.shapes.reserve_more(more);
+  ensure_capacity(w.forms, all), ensure_capacity(w.boxes, all);
+  w.shape_data.reserve(static_cast<int>(all), data);
+  w.corners.reserve_runs(runs);
+  ensure_capacity(w.sensors, w.sensors.size() + sensors);
+  w.tree_of(type).reserve_more(more);
+  if (w.move_buffer.size() > 2 * all) compact_move_buffer(w);
+  ensure_capacity(w.move_buffer, w.move_buffer.size() + more);
 }
 
 template <class Real>
 int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
   const int shape = w.shapes.add(made.record);
-  make_room(w.forms, w.shapes.size()), make_room(w.boxes, w.shapes.size());
-  w.shape_data.renew(shape, w.shapes.size());
+  resize_with_growth(w.forms, w.shapes.size()), resize_with_growth(w.boxes, w.shapes.size());
+  w.shape_data.reset(shape, w.shapes.size());
   if (made.user_data != 0) w.shape_data.at(shape, w.shapes.size()) = made.user_data;
   ShapeForm<Real>& form = w.forms[shape];
   form = made.form;
@@ -156,23 +156,23 @@ template <class Real>
 void add_to_move_buffer(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   if (record.moved) return;
-  if (w.move_buffer.size() > 2 * static_cast<std::size_t>(w.shapes.size()) + 64) tidy_moved_shapes(w);
+  if (w.move_buffer.size() > 2 * static_cast<std::size_t>(w.shapes.size()) + 64) compact_move_buffer(w);
   append(w.move_buffer, shape);
   record.moved = true;
 }
 
 template <class Real>
-void enter_tree(WorldData<Real>& w, int shape) {
+void create_proxy(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   w.boxes[shape] = tight_aabb(w, shape);
-  if (w.bodies[record.body].quarantined || meets_nothing(record.filter)) return;
+  if (w.bodies[record.body].quarantined || collides_with_nothing(record.filter)) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
                      .insert(fat_aabb(w, shape, Real(0)), folded(record.filter.category), shape);
   add_to_move_buffer(w, shape);
 }
 
 template <class Real>
-void leave_tree(WorldData<Real>& w, int shape) {
+void destroy_proxy(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
   if (record.proxy == kNone) return;  // not in a tree: in quarantine, or collides with nothing
   w.tree_of(w.bodies[record.body].type).remove(record.proxy);
@@ -180,10 +180,10 @@ void leave_tree(WorldData<Real>& w, int shape) {
 }
 
 template <class Real>
-void take_out_shape(WorldData<Real>& w, int shape) {
+void erase_shape(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  if (w.forms[shape].sensor) end_visits(w, shape);
-  leave_tree(w, shape);
+  if (w.forms[shape].sensor) end_overlaps(w, shape);
+  destroy_proxy(w, shape);
   const ShapeForm<Real>& form = w.forms[shape];
   w.corners.remove(form.corner, form.stored());
   BodyRecord<Real>& body = w.bodies[record.body];
@@ -195,12 +195,12 @@ void take_out_shape(WorldData<Real>& w, int shape) {
 template <class Real>
 int add_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition) {
   const NewShape<Real> made = prepare_shape<Real>(definition);
-  make_room_for<Real>(w, w.bodies[body].type, {&made, 1});
+  reserve_shapes<Real>(w, w.bodies[body].type, {&made, 1});
   wake_body(w, body);
-  note_mass_change(w, body);
+  record_mass_change(w, body);
   const int shape = insert_shape(w, body, made);
   grow_extents(w, body, shape);
-  enter_tree(w, shape);
+  create_proxy(w, shape);
   wake_touched(w, shape);
   return shape;
 }
@@ -209,23 +209,23 @@ template <class Real>
 void remove_shape(WorldData<Real>& w, int shape) {
   const int body = w.shapes[shape].body;
   wake_body(w, body);
-  note_mass_change(w, body);
+  record_mass_change(w, body);
   destroy_contacts_of(w, body, shape);
-  take_out_shape(w, shape);
+  erase_shape(w, shape);
 }
 
 template <class Real>
 void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
-  w.tree_of(w.bodies[w.shapes[shape].body].type).make_room(1);
-  ensure_room(w.move_buffer, w.move_buffer.size() + 1);
+  w.tree_of(w.bodies[w.shapes[shape].body].type).reserve_more(1);
+  ensure_capacity(w.move_buffer, w.move_buffer.size() + 1);
   std::size_t contacts = 0;
   for_each_contact_of(w, shape, [&](int, const ContactRecord&) { ++contacts; });
-  ensure_room(w.log().end, w.log().end.size() + contacts);
+  ensure_capacity(w.event_buffer().end, w.event_buffer().end.size() + contacts);
   wake_body(w, w.shapes[shape].body);
   w.shapes[shape].filter = filter;
   destroy_forbidden_contacts(w, shape);
-  leave_tree(w, shape);
-  enter_tree(w, shape);
+  destroy_proxy(w, shape);
+  create_proxy(w, shape);
   wake_touched(w, shape);
 }
 
@@ -234,7 +234,7 @@ void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
 template <class Real>
 void set_material(WorldData<Real>& w, int shape, const Material& material) {
   const ShapeRecord<Real> before = w.shapes[shape];
-  put_material(w.shapes[shape], material);
+  set_coefficients(w.shapes[shape], material);
   try {
     for_each_contact_of(w, shape, [&](int, const ContactRecord& contact) {
       ContactConstraint<Real> trial;
@@ -259,13 +259,13 @@ void set_density(WorldData<Real>& w, int shape, double density) {
   const Real before = std::exchange(w.shapes[shape].density, static_cast<Real>(density));
   if (w.is_dynamic(body) && !w.bodies[body].mass_given) {
     try {
-      naming_part(w, "shape", body, [&] { require_weights(w, body); });
+      with_part_subject(w, "shape", body, [&] { require_float_masses(w, body); });
     } catch (...) {
       w.shapes[shape].density = before;
       throw;
     }
   }
-  note_mass_change(w, body);
+  record_mass_change(w, body);
   wake_body(w, body);
 }
 
@@ -273,19 +273,19 @@ template <class Real>
 void set_sensor(WorldData<Real>& w, int shape, bool sensor) {
   if (w.forms[shape].sensor == sensor) return;
   const int body = w.shapes[shape].body;
-  w.tree_of(w.bodies[body].type).make_room(1);
-  ensure_room(w.move_buffer, w.move_buffer.size() + 1);
-  ensure_room(w.sensors, w.sensors.size() + 1);
+  w.tree_of(w.bodies[body].type).reserve_more(1);
+  ensure_capacity(w.move_buffer, w.move_buffer.size() + 1);
+  ensure_capacity(w.sensors, w.sensors.size() + 1);
   wake_body(w, body);
   if (sensor) {
     destroy_contacts_of(w, body, shape);
     w.sensors.push_back({shape, {}});
   } else {
-    end_visits(w, shape);
+    end_overlaps(w, shape);
   }
   w.forms[shape].sensor = sensor;
-  leave_tree(w, shape);
-  enter_tree(w, shape);
+  destroy_proxy(w, shape);
+  create_proxy(w, shape);
   wake_touched(w, shape);
 }
 
@@ -308,21 +308,21 @@ void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
   });
 }
 
-#define PLUMB_FOR(Real)                                                                     \
-  template NewShape<Real> prepare_shape(const ShapeDefinition&);                            \
-  template NewShape<Real> prepare_segment(const ChainDefinition&, int);                     \
-  template void make_room_for(WorldData<Real>&, BodyType, std::span<const NewShape<Real>>); \
-  template int insert_shape(WorldData<Real>&, int, const NewShape<Real>&);                  \
-  template void add_to_move_buffer(WorldData<Real>&, int);                                  \
-  template void enter_tree(WorldData<Real>&, int);                                          \
-  template void leave_tree(WorldData<Real>&, int);                                          \
-  template void take_out_shape(WorldData<Real>&, int);                                      \
-  template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);                    \
-  template void remove_shape(WorldData<Real>&, int);                                        \
-  template void set_filter(WorldData<Real>&, int, const Filter&);                           \
-  template void set_material(WorldData<Real>&, int, const Material&);                       \
-  template void set_density(WorldData<Real>&, int, double);                                 \
-  template void set_sensor(WorldData<Real>&, int, bool);                                    \
+#define PLUMB_FOR(Real)                                                                      \
+  template NewShape<Real> prepare_shape(const ShapeDefinition&);                             \
+  template NewShape<Real> prepare_segment(const ChainDefinition&, int);                      \
+  template void reserve_shapes(WorldData<Real>&, BodyType, std::span<const NewShape<Real>>); \
+  template int insert_shape(WorldData<Real>&, int, const NewShape<Real>&);                   \
+  template void add_to_move_buffer(WorldData<Real>&, int);                                   \
+  template void create_proxy(WorldData<Real>&, int);                                         \
+  template void destroy_proxy(WorldData<Real>&, int);                                        \
+  template void erase_shape(WorldData<Real>&, int);                                          \
+  template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);                     \
+  template void remove_shape(WorldData<Real>&, int);                                         \
+  template void set_filter(WorldData<Real>&, int, const Filter&);                            \
+  template void set_material(WorldData<Real>&, int, const Material&);                        \
+  template void set_density(WorldData<Real>&, int, double);                                  \
+  template void set_sensor(WorldData<Real>&, int, bool);                                     \
   template void set_flags(WorldData<Real>&, int, bool, bool);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/core/union_find.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
@@ -21,15 +21,15 @@ BodyId id_of(const WorldData<Real>& w, int body) {
 // Adds an event. Bodies may wake and sleep any number of times between two steps, so a long list is reduced
 // to one event for each existing body.
 template <class Real>
-void tell(WorldData<Real>& w, std::vector<BodyId>& told, int body) {
-  if (told.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
+void add_event(WorldData<Real>& w, std::vector<BodyId>& events, int body) {
+  if (events.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
     std::vector<char>& known = w.scratch.cannot_sleep;
     known.assign(static_cast<std::size_t>(w.bodies.size()), 0);
-    std::erase_if(told, [&](BodyId each) {
+    std::erase_if(events, [&](BodyId each) {
       return !w.bodies.holds(each.index, each.generation) || std::exchange(known[each.index], 1) != 0;
     });
   }
-  told.push_back(id_of(w, body));
+  events.push_back(id_of(w, body));
 }
 
 // Calls visit(other body) for every body that a contact with points or a joint connects to `body`.
@@ -43,7 +43,7 @@ void for_each_constraint_edge(WorldData<Real>& w, int body, Visit&& visit) {
 }
 
 template <class Real>
-bool gives_way_awake(const WorldData<Real>& w, int body) {
+bool is_awake_dynamic(const WorldData<Real>& w, int body) {
   return w.bodies[body].awake && w.is_dynamic(body);
 }
 
@@ -51,23 +51,23 @@ bool gives_way_awake(const WorldData<Real>& w, int body) {
 // kinematic body is awake.
 template <class Real, class Record>
 bool is_solved(const WorldData<Real>& w, const Record& record) {
-  return gives_way_awake(w, record.body_a) || gives_way_awake(w, record.body_b);
+  return is_awake_dynamic(w, record.body_a) || is_awake_dynamic(w, record.body_b);
 }
 
 template <class Real>
-void unpark_ties(WorldData<Real>& w, int body) {
+void unpark_constraints(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
     if (contact.home != ContactHome::Parked || is_solved(w, contact)) unpark_contact(w, edge / 2);
   });
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
-    if (joint.active || lets_go(w, joint) || !is_solved(w, joint)) return;
+    if (joint.active || has_quarantined_body(w, joint) || !is_solved(w, joint)) return;
     w.joint_set.set_active(joint.slot, true);
     joint.active = true;
   });
 }
 
 template <class Real>
-void park_ties(WorldData<Real>& w, int body) {
+void park_constraints(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
     if (contact.home == ContactHome::Near || !is_solved(w, contact)) park_contact(w, edge / 2);
   });
@@ -79,29 +79,29 @@ void park_ties(WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-bool still(const WorldData<Real>& w, int body) {
+bool may_fall_asleep(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   return record.may_sleep && record.sleep_time >= Real(tuning::kSleepTime);
 }
 
 // Returns true if the shapes of a contact lie too deep in each other to be at rest.
 template <class Real>
-bool lies_deep(const ContactConstraint<Real>& c) {
+bool is_deep(const ContactConstraint<Real>& c) {
   const Real depth = -(c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0]);
   return depth > Real(tuning::kSleepOverlap / tuning::kPushSpeed) * c.push_speed;
 }
 
 // Reserves memory for the contacts of bodies that fall asleep.
 template <class Real>
-void make_room_to_park(WorldData<Real>& w, const std::vector<int>& sleepers) {
+void reserve_parked(WorldData<Real>& w, const std::vector<int>& sleepers) {
   std::size_t contacts = 0;
   for (const int body : sleepers) {
     for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
       contacts += contact.home == ContactHome::Graph ? 1 : 0;
     });
   }
-  ensure_room(w.parked, w.parked.size() + std::min(contacts, w.graph.size()));
-  ensure_room(w.log().fell_asleep, w.log().fell_asleep.size() + sleepers.size());
+  ensure_capacity(w.parked, w.parked.size() + std::min(contacts, w.graph.size()));
+  ensure_capacity(w.event_buffer().fell_asleep, w.event_buffer().fell_asleep.size() + sleepers.size());
 }
 
 }  // namespace
@@ -131,13 +131,13 @@ void leave_awake(WorldData<Real>& w, int body) {
 
 template <class Real>
 void fall_asleep(WorldData<Real>& w, int body) {
-  tell(w, w.log().fell_asleep, body);
+  add_event(w, w.event_buffer().fell_asleep, body);
   leave_awake(w, body);
   // Islands on a kinematic body check that body's sleep timer, so set it.
   w.bodies[body].sleep_time = std::max(w.bodies[body].sleep_time, Real(tuning::kSleepTime));
-  BodyMotion<Real>& motion = w.motion[body];
+  SolverBody<Real>& motion = w.motion[body];
   motion.velocity = {}, motion.angular_velocity = 0;
-  motion.moved = {}, motion.turned = 0;
+  motion.delta_position = {}, motion.delta_angle = 0;
 }
 
 template <class Real>
@@ -148,8 +148,8 @@ void wake_body(WorldData<Real>& w, int body) {
   const std::size_t first = queue.size();  // calls may be nested
   const auto wake = [&](int i) {
     if (!sleeps(i)) return;
-    ensure_room(w.awake, w.awake.size() + 1), ensure_room(queue, queue.size() + 1);
-    tell(w, w.log().woke, i);
+    ensure_capacity(w.awake, w.awake.size() + 1), ensure_capacity(queue, queue.size() + 1);
+    add_event(w, w.event_buffer().woke, i);
     enter_awake(w, i);
     queue.push_back(i);
   };
@@ -157,14 +157,14 @@ void wake_body(WorldData<Real>& w, int body) {
     wake(body);
     for (std::size_t next = first; next < queue.size(); ++next) {
       const int current = queue[next];
-      unpark_ties(w, current);
+      unpark_constraints(w, current);
       if (w.is_dynamic(current)) for_each_constraint_edge(w, current, wake);
     }
   } catch (...) {
     // Keeps the whole island asleep, because an island must not be half awake. This needs no memory: the
     // lists contained these bodies before.
     for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
-    for (std::size_t i = first; i < queue.size(); ++i) park_ties(w, queue[i]);
+    for (std::size_t i = first; i < queue.size(); ++i) park_constraints(w, queue[i]);
     queue.resize(first);
     throw;
   }
@@ -180,36 +180,38 @@ void wake_neighbours(WorldData<Real>& w, int body) {
 template <class Real>
 void sleep_islands(WorldData<Real>& w) {
   if (!w.settings.sleeping) return;
-  if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return still(w, body); })) return;
+  if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return may_fall_asleep(w, body); }))
+    return;
   UnionFind islands(w.scratch.island_of, w.bodies.size());
   w.scratch.islands_known = false;  // they are overwritten here
   std::vector<char>& cannot_sleep = w.scratch.cannot_sleep;
   cannot_sleep.assign(w.bodies.size(), 0);
-  const auto tie = [&](int a, int b) {
+  const auto connect = [&](int a, int b) {
     if (w.is_dynamic(a) && w.is_dynamic(b)) return islands.join(a, b);
     // Bodies on a moving kinematic body do not sleep.
     for (const auto& [platform, rider] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (w.bodies[platform].type == BodyType::Kinematic && !still(w, platform)) cannot_sleep[rider] = 1;
+      if (w.bodies[platform].type == BodyType::Kinematic && !may_fall_asleep(w, platform))
+        cannot_sleep[rider] = 1;
     }
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
-    tie(c.body_a, c.body_b);
-    if (lies_deep(c)) cannot_sleep[c.body_a] = cannot_sleep[c.body_b] = 1;
+    connect(c.body_a, c.body_b);
+    if (is_deep(c)) cannot_sleep[c.body_a] = cannot_sleep[c.body_b] = 1;
   });
   w.joints.for_each([&](int, const JointRecord& joint) {
-    if (joint.active) tie(joint.body_a, joint.body_b);
+    if (joint.active) connect(joint.body_a, joint.body_b);
   });
   for (const int body : w.awake) {
-    if (cannot_sleep[body] || !still(w, body)) cannot_sleep[islands.find(body)] = 1;
+    if (cannot_sleep[body] || !may_fall_asleep(w, body)) cannot_sleep[islands.find(body)] = 1;
   }
   std::vector<int>& sleepers = w.scratch.queue;
   sleepers.clear();
   for (const int body : w.awake) {
     if (!cannot_sleep[islands.find(body)]) sleepers.push_back(body);
   }
-  make_room_to_park(w, sleepers);
+  reserve_parked(w, sleepers);
   for (const int body : sleepers) fall_asleep(w, body);
-  for (const int body : sleepers) park_ties(w, body);
+  for (const int body : sleepers) park_constraints(w, body);
   sleepers.clear();
 }
 
@@ -229,9 +231,9 @@ void put_to_sleep(WorldData<Real>& w, int body) {
   for (std::size_t next = 0; next < island.size(); ++next) {
     if (w.is_dynamic(island[next])) for_each_constraint_edge(w, island[next], add);
   }
-  make_room_to_park(w, island);
+  reserve_parked(w, island);
   for (const int i : island) fall_asleep(w, i);
-  for (const int i : island) park_ties(w, i);
+  for (const int i : island) park_constraints(w, i);
 }
 
 #define PLUMB_FOR(Real)                                 \

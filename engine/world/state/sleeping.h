@@ -15,7 +15,7 @@ namespace plumb {
 /// velocity, for example when a joint is closed: then its displacement in `dt`, s, counts as motion (with 0
 /// only its velocity does).
 template <class Real>
-bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const BodyMotion<Real>& motion,
+bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const SolverBody<Real>& motion,
               Real extent, Real dt) {
   if (record.type == BodyType::Kinematic && (motion.velocity != Vec2<Real>{} || motion.angular_velocity != 0))
     return false;
@@ -27,7 +27,7 @@ bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const Bo
     return std::sqrt(length_squared(way)) + std::abs(turn) * extent;
   };
   return record.may_sleep && moves(motion.velocity, motion.angular_velocity) <= slow &&
-         (dt == 0 || moves(motion.moved, motion.turned) <= slow * dt);
+         (dt == 0 || moves(motion.delta_position, motion.delta_angle) <= slow * dt);
 }
 
 /// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic body wakes alone.

@@ -13,8 +13,8 @@
 namespace plumb {
 namespace {
 
-[[noreturn]] void refuse(const std::string& subject, const std::string& field, double value,
-                         const std::string& problem) {
+[[noreturn]] void throw_invalid(const std::string& subject, const std::string& field, double value,
+                                const std::string& problem) {
   throw Error(Error::Kind::Value, subject, field, shortest(value), problem);
 }
 
@@ -27,8 +27,8 @@ void require_one_of(const std::string& subject, const std::string& field, Enum v
   throw Error(Error::Kind::Value, subject, field, std::to_string(number), "is no member of its enumeration");
 }
 
-void require_share(const std::string& subject, const std::string& field, double value) {
-  if (!(value >= 0 && value <= 1)) refuse(subject, field, value, "must be a number from 0 to 1");
+void require_fraction(const std::string& subject, const std::string& field, double value) {
+  if (!(value >= 0 && value <= 1)) throw_invalid(subject, field, value, "must be a number from 0 to 1");
 }
 
 constexpr int kCombineRules = 5, kBodyTypes = 3;
@@ -71,7 +71,7 @@ struct CheckGeometry {
 
 void require_finite(const std::string& subject, const std::string& field, double value) {
   if (!(std::abs(value) <= kLargestNumber))
-    refuse(subject, field, value, "must be a number between -1e12 and 1e12");
+    throw_invalid(subject, field, value, "must be a number between -1e12 and 1e12");
 }
 
 void require_finite(const std::string& subject, const std::string& field, Vec2d value) {
@@ -80,7 +80,7 @@ void require_finite(const std::string& subject, const std::string& field, Vec2d 
   }
 }
 
-void require_place(const std::string& subject, const std::string& field, Vec2d value) {
+void require_query_position(const std::string& subject, const std::string& field, Vec2d value) {
   if (!(std::abs(value.x) <= 1e100 && std::abs(value.y) <= 1e100)) {
     throw Error(Error::Kind::Value, subject, field, text_of(value),
                 "must be numbers between -1e100 and 1e100");
@@ -89,18 +89,18 @@ void require_place(const std::string& subject, const std::string& field, Vec2d v
 
 void require_not_negative(const std::string& subject, const std::string& field, double value) {
   if (!(value >= 0 && value <= kLargestNumber))
-    refuse(subject, field, value, "must be a number from 0 to 1e12");
+    throw_invalid(subject, field, value, "must be a number from 0 to 1e12");
 }
 
 void require_positive(const std::string& subject, const std::string& field, double value) {
   if (!(value >= kSmallestNumber && value <= kLargestNumber)) {
-    refuse(subject, field, value, "must be a positive number between 1e-12 and 1e12");
+    throw_invalid(subject, field, value, "must be a positive number between 1e-12 and 1e12");
   }
 }
 
 void require_inertia(const std::string& subject, double value) {
   if (!(value >= kSmallestInertia && value <= kLargestInertia))
-    refuse(subject, "inertia", value, "must be a positive number between 1e-30 and 1e30");
+    throw_invalid(subject, "inertia", value, "must be a positive number between 1e-30 and 1e30");
 }
 
 void validate(const WorldDefinition& definition) {
@@ -137,7 +137,7 @@ void validate(const BodyDefinition& definition) {
   require_not_negative(subject, "angular_damping", definition.angular_damping);
   if (!definition.mass) return;
   if (!(definition.mass->mass >= 1 / kLargestMass && definition.mass->mass <= kLargestMass))
-    refuse(subject, "mass", definition.mass->mass, "must be a positive number between 1e-18 and 1e18");
+    throw_invalid(subject, "mass", definition.mass->mass, "must be a positive number between 1e-18 and 1e18");
   require_finite(subject, "centre", definition.mass->centre);
   require_inertia(subject, definition.mass->inertia);
 }
@@ -149,7 +149,7 @@ void validate(const ShapeDefinition& definition) {
   require_finite(subject, "angle", definition.angle);
   if (definition.density != 0 &&
       !(definition.density >= kSmallestNumber && definition.density <= kLargestNumber))
-    refuse(subject, "density", definition.density, "must be 0 or a number from 1e-12 to 1e12");
+    throw_invalid(subject, "density", definition.density, "must be 0 or a number from 1e-12 to 1e12");
   validate(subject, definition.material);
 }
 
@@ -184,30 +184,30 @@ void validate(const JointDefinition& definition) {
 
 void validate(const std::string& subject, const Material& material) {
   require_not_negative(subject, "friction", material.friction);
-  require_share(subject, "restitution", material.restitution);
+  require_fraction(subject, "restitution", material.restitution);
   require_not_negative(subject, "rolling_resistance", material.rolling_resistance);
   require_finite(subject, "surface_speed", material.surface_speed);
 }
 
 void validate(BodyType type) { require_one_of("body", "type", type, kBodyTypes); }
 
-void require_weight(const ShapeDefinition& definition) {
+void require_float_mass(const ShapeDefinition& definition) {
   if (definition.density == 0) return;
   ConvexMass part = convex_mass(QueryShape(definition.geometry).convex(), definition.density);
   part.centroid = definition.position + rotation_of(definition.angle) * part.centroid;
-  require_weight(definition.density, part);
+  require_float_mass(definition.density, part);
 }
 
 // The inertia about any point of the body is an upper bound of that about the centre of mass.
-void require_weight(double density, const ConvexMass& part) {
+void require_float_mass(double density, const ConvexMass& part) {
   if (part.mass == 0) return;
   const double whole = part.inertia + part.mass * length_squared(part.centroid);
-  const bool holds = part.mass >= kSmallestWeight && part.mass <= kLargestWeight &&
-                     part.inertia >= kSmallestWeight && whole <= kLargestWeight;
+  const bool holds = part.mass >= kSmallestFloatMass && part.mass <= kLargestFloatMass &&
+                     part.inertia >= kSmallestFloatMass && whole <= kLargestFloatMass;
   if (holds) return;
-  refuse("shape", "density", density,
-         "gives a mass of " + shortest(part.mass) + " kg and an inertia of " + shortest(whole) +
-             " kg m^2, of which single precision holds 1e-36 to 1e36");
+  throw_invalid("shape", "density", density,
+                "gives a mass of " + shortest(part.mass) + " kg and an inertia of " + shortest(whole) +
+                    " kg m^2, of which single precision holds 1e-36 to 1e36");
 }
 
 }  // namespace plumb

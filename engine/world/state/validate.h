@@ -22,9 +22,9 @@ void validate(const std::string& subject, const Material& material);
 
 /// Checks a shape that gives a dynamic body mass by its density: throws Error (Value) if float cannot hold
 /// mass, inertia and their reciprocals. Double can, for all valid input.
-void require_weight(const ShapeDefinition& definition);
+void require_float_mass(const ShapeDefinition& definition);
 /// Does the same; `part` is relative to the body's origin or its centre of mass.
-void require_weight(double density, const ConvexMass& part);
+void require_float_mass(double density, const ConvexMass& part);
 
 /// Checks a number or vector of a call: finite and at most kLargestNumber in magnitude.
 void require_finite(const std::string& subject, const std::string& field, double value);
@@ -35,7 +35,7 @@ void require_positive(const std::string& subject, const std::string& field, doub
 void require_inertia(const std::string& subject, double value);
 
 /// Checks a position that is used only for reading: any finite value is allowed.
-void require_place(const std::string& subject, const std::string& field, Vec2d value);
+void require_query_position(const std::string& subject, const std::string& field, Vec2d value);
 
 /// Limits beyond which squares and cubes of a float would not be finite.
 inline constexpr double kLargestNumber = 1e12;
@@ -52,10 +52,10 @@ inline constexpr double kLargestInertia = 1e30;
 inline constexpr double kLargestMass = 1e18;
 /// Limits of mass and inertia in float worlds: the reciprocal of the smallest is finite in float, and so is
 /// the sum of hundreds of the largest.
-inline constexpr double kSmallestWeight = 1e-36, kLargestWeight = 1e36;
+inline constexpr double kSmallestFloatMass = 1e-36, kLargestFloatMass = 1e36;
 
 /// Maximum number of steps of a world: doubles represent every integer up to here. It lasts 285,000 years at
 /// a thousand steps per second.
-inline constexpr std::int64_t kMostSteps = std::int64_t{1} << 53;
+inline constexpr std::int64_t kMaxSteps = std::int64_t{1} << 53;
 
 }  // namespace plumb

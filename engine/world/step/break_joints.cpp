@@ -17,12 +17,12 @@ void break_joints(WorldData<Real>& w, double h) {
     const double force = record.active ? static_cast<double>(w.joint_set.force(record.slot, rate)) : 0;
     const double torque = record.active ? static_cast<double>(w.joint_set.torque(record.slot, rate)) : 0;
     if (bears && (exceeds(force, record.report_force) || exceeds(torque, record.report_torque)))
-      w.log().loaded.push_back({id, force, torque});
+      w.event_buffer().loaded.push_back({id, force, torque});
     if (!exceeds(force, record.break_force) && !exceeds(torque, record.break_torque)) {
       ++i;
       continue;
     }
-    w.log().broken.push_back({id});
+    w.event_buffer().broken.push_back({id});
     remove_joint(w, joint);
   }
 }

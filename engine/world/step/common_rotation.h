@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/math/small_turn.h"
+#include "engine/math/small_rotation.h"
 #include "engine/world/state/contact_setup.h"
 
 /// The rotation that two bodies have in common, as on a carousel or in a drum. It turns their contact's
@@ -18,7 +18,7 @@ inline constexpr double kLargestCommonRotation = 0.25;
 /// their normal follows the line between their centres.
 template <class Real>
 Real common_rotation(const WorldData<Real>& w, const ContactRecord& contact, Vec2<Real> between, Real time) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   if (!(a.angular_velocity * b.angular_velocity > 0)) return 0;
   const Real spin =
       std::abs(a.angular_velocity) < std::abs(b.angular_velocity) ? a.angular_velocity : b.angular_velocity;
@@ -35,11 +35,11 @@ template <class Real>
 void prepare_turning_contact(const WorldData<Real>& w, const ContactRecord& contact,
                              const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c,
                              Real (&impulse)[2]) {
-  const Vec2<Real> between = between_bodies(w, contact);
+  const Vec2<Real> between = centres_a_to_b(w, contact);
   const Real turn = common_rotation(w, contact, between, Real(0.5) * dt);
   const Rotation<Real> q = w.rotation[contact.body_a];
   if (turn == 0) return prepare_contact(w, contact, manifold, q, between, c, impulse);
-  prepare_contact(w, contact, manifold, turned_by(q, turn), turned_by(Rotation<Real>{1, 0}, turn) * between,
+  prepare_contact(w, contact, manifold, rotated_by(q, turn), rotated_by(Rotation<Real>{1, 0}, turn) * between,
                   c, impulse);
 }
 

@@ -48,8 +48,9 @@ template <class Real>
 /// Updates the load estimate: most of the load, or all of it if the load pressed the shapes into each other.
 template <class Real>
 [[gnu::always_inline]] inline void update_load_estimate(ContactConstraint<Real>& c) {
-  constexpr Real kShare = Real(tuning::kExpectedShare), kRate = Real(tuning::kExpectedRate);
-  constexpr Real kRise = Real((1 - tuning::kExpectedShare) * tuning::kPushSpeed / tuning::kExpectedOverlap);
+  constexpr Real kShare = Real(tuning::kLoadEstimateFraction), kRate = Real(tuning::kLoadEstimateRate);
+  constexpr Real kRise =
+      Real((1 - tuning::kLoadEstimateFraction) * tuning::kPushSpeed / tuning::kLoadEstimateOverlap);
   const Real rise = kRise / c.push_speed;
   for (int i = 0; i < 2; ++i) {
     const Real share = std::min(kShare + rise * std::max(-c.separation[i], Real(0)), Real(1));
@@ -65,7 +66,7 @@ bool begin_contact_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Re
   c.now[0] = c.separation[0], c.now[1] = c.separation[1];
   if (c.watched == Watch::Off) return false;
   c.peak_impulse[0] = c.peak_impulse[1] = c.step_impulse = 0;
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
     c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
@@ -78,14 +79,14 @@ bool begin_contact_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Re
 
 template <class Real>
 bool has_touched(const ContactConstraint<Real>& c) {
-  const Real near_enough = c.push_speed * Real(tuning::kTouch / tuning::kPushSpeed);
+  const Real near_enough = c.push_speed * Real(tuning::kTouchSeparation / tuning::kPushSpeed);
   // A contact that bounced off within a step has touched, too.
   return c.separation[0] <= near_enough || (c.count == 2 && c.separation[1] <= near_enough) || has_pressed(c);
 }
 
 template <class Real>
 ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real reach =
       speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
   if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return {};
@@ -99,18 +100,18 @@ ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord
 template <class Real>
 [[gnu::always_inline]] inline bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact,
                                                    std::uint8_t face, Real dt) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real form_a = w.forms[contact.shape_a].extent, form_b = w.forms[contact.shape_b].extent;
   const Real turning = std::abs(a.angular_velocity) * std::max(form_a, w.extents[contact.body_a]) +
                        std::abs(b.angular_velocity) * std::max(form_b, w.extents[contact.body_b]);
   const Real smaller = std::min(form_a, form_b);
   const Real rounding = 1 + 4 * std::numeric_limits<Real>::epsilon();
-  const Real closing = rounding * (dt * (size_of(b.velocity - a.velocity) + turning));
+  const Real closing = rounding * (dt * (l1_norm(b.velocity - a.velocity) + turning));
   const Real reach = Real(tuning::kSpeculativeMargin) * smaller + closing;
   if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return true;
   // Shapes that approach faster are searched along their curved paths, for which a face at the start says
   // little.
-  return face != kNoFace && closing <= Real(tuning::kSpeculativeMarginMost) * smaller &&
+  return face != kNoFace && closing <= Real(tuning::kMaxSpeculativeApproach) * smaller &&
          are_separated_by(w, contact, face, reach);
 }
 
@@ -124,12 +125,12 @@ bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
 template <class Real, class Build>
 void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, const Build& build) {
   const ContactRecord& contact = w.contacts[id];
-  BegunContact<Real> begun{.pressing = pressing, .asked = is_asked(w, contact)};
+  BegunContact<Real> begun{.pressing = pressing, .needs_pre_solve = is_asked(w, contact)};
   ContactConstraint<Real>& c = begun.constraint;
   build(c);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
-  if (!begun.asked) begun.bounces = begin_contact_step(w, c, dt);
+  if (!begun.needs_pre_solve) begun.bounces = begin_contact_step(w, c, dt);
   w.scratch.begun_contacts.add(block, begun);
 }
 
@@ -212,7 +213,7 @@ template <class Real>
     if (meets_in_flight(w, contact, at, settled, dt)) {
       w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = settled, .in_graph = true});
     } else {
-      w.scratch.found_presses.add(block, {c.body_a, c.body_b});
+      w.scratch.found_pressed.add(block, {c.body_a, c.body_b});
     }
   } else {
     prepare_turning_contact(w, contact, manifold, dt, c, c.now);
@@ -226,7 +227,7 @@ template <class Real>
 /// have moved too far for that, and kLeft if its shapes may have separated.
 template <class Real>
 [[gnu::always_inline]] inline int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
-  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) note_loaded(w, c);
+  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) mark_contact_load(w, c);
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = has_touched(c) != c.touching ? kTouchChange : 0;
   const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeft : 0;

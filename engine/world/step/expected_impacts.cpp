@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
@@ -19,7 +19,7 @@ constexpr double kAtOnce = 2.5e-4;
 
 template <class Real>
 Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) {
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   return dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
          c.arm_a[i] * a.angular_velocity;
 }
@@ -31,18 +31,18 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
 template <class Real>
 bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
   const Real rate = rate_of(w, c, i);
-  return !(dt * rate > rounding_between(w, c.body_a, c.body_b)) &&
+  return !(dt * rate > rounding_overlap(w, c.body_a, c.body_b)) &&
          !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
 }
 
 // Returns true if a dynamic body without joints moves so far in a step that continuous collision sweeps it.
 template <class Real>
 bool moves_far(const WorldData<Real>& w, int body, Real dt) {
-  const BodyMotion<Real>& motion = w.motion[body];
+  const SolverBody<Real>& motion = w.motion[body];
   const Real speed = std::abs(motion.velocity.x) + std::abs(motion.velocity.y) +
                      std::abs(motion.angular_velocity) * w.extents[body];
   return w.is_dynamic(body) && w.bodies[body].first_joint == kNone &&
-         dt * speed > Real(tuning::kFastShare) * w.bodies[body].half_width;
+         dt * speed > Real(tuning::kFastFraction) * w.bodies[body].half_width;
 }
 
 // Returns true if a body is in free flight until its impact, or is not dynamic.
@@ -87,7 +87,7 @@ template <class Real>
 void leave_simultaneous(WorldData<Real>& w, Real dt) {
   std::vector<char>& met = w.scratch.expecting;
   std::vector<Real>& earliest = w.scratch.impacts.earliest;  // by body
-  if (earliest.size() < w.motion.size()) make_room(earliest, static_cast<int>(w.motion.size()));
+  if (earliest.size() < w.motion.size()) resize_with_growth(earliest, static_cast<int>(w.motion.size()));
   const auto counts = [&](const ContactConstraint<Real>& c) {
     return c.restitution > 0 || (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b));
   };
@@ -123,7 +123,7 @@ void leave_simultaneous(WorldData<Real>& w, Real dt) {
 template <class Real>
 bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
   const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
-  const Real rounding = rounding_between(w, c.body_a, c.body_b);
+  const Real rounding = rounding_overlap(w, c.body_a, c.body_b);
   for (int i = 0; i < c.count; ++i) {
     if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
     if (c.separation[i] <= near && lies_on(w, c, i, dt)) return true;
@@ -164,7 +164,7 @@ bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
                            ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
                            : at.manifold.points[0].separation;
   const Real smaller = c.push_speed / Real(tuning::kPushSpeed);
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   for (int i = 0; i < c.count; ++i) {
     if (c.normal_impulse[i] > 0) return false;
     if (at.manifold.points[i].separation > nearest + Real(tuning::kImpactTolerance) * smaller) continue;

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "engine/collision/broad_phase/prefetched_enlarging.h"
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/geometry/convex_bounds.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/constants.h"
@@ -31,17 +31,17 @@ Vec2d* position_compensation_of(WorldData<Real>& w) {
 
 // Moves a body by the displacement and rotation that the solver found.
 template <class Real>
-void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const BodyMotion<Real>& motion,
+void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const SolverBody<Real>& motion,
                [[maybe_unused]] Vec2d* position_compensation) {
   if constexpr (std::is_same_v<Real, double>) {
-    const Vec2d way = motion.moved + position_compensation[body], before = w.position[body];
+    const Vec2d way = motion.delta_position + position_compensation[body], before = w.position[body];
     w.position[body] = before + way;
     position_compensation[body] = way - (w.position[body] - before);
   } else {
-    w.position[body] += motion.moved.template as<double>();
+    w.position[body] += motion.delta_position.template as<double>();
   }
-  if (motion.turned == 0) return;
-  record.angle += static_cast<double>(motion.turned);
+  if (motion.delta_angle == 0) return;
+  record.angle += static_cast<double>(motion.delta_angle);
   // One Newton step towards |q| = 1.
   Rotation<Real>& q = w.rotation[body];
   const Real scale = Real(1.5) - Real(0.5) * (q.c * q.c + q.s * q.s);
@@ -72,7 +72,7 @@ struct NotedInBlock {
   WorldData<Real>& w;
   int block;
   void leave(int shape, const Aabb<Real>& box) const {
-    w.scratch.left_boxes.add(block, LeftBox<Real>{shape, box});
+    w.scratch.proxy_updates.add(block, ProxyUpdate<Real>{shape, box});
   }
   void find_fast(const FastBody& fast) const { w.scratch.found_fast.add(block, fast); }
   void find_nonfinite(int body) const { w.scratch.found_nonfinite.add(block, body); }
@@ -84,13 +84,13 @@ template <class Real, class Found>
                                                  Load<Real>* loads, Vec2d* position_compensation,
                                                  const Found& found) {
   BodyRecord<Real>& record = w.bodies[body];
-  const BodyMotion<Real>& motion = w.motion[body];
+  const SolverBody<Real>& motion = w.motion[body];
   const Real extent = w.extents[body];
-  const Real turned = std::abs(motion.turned) * extent;
-  const Real way = std::abs(motion.moved.x) + std::abs(motion.moved.y) + turned;
+  const Real turned = std::abs(motion.delta_angle) * extent;
+  const Real way = std::abs(motion.delta_position.x) + std::abs(motion.delta_position.y) + turned;
   const bool expected = expects && w.scratch.expecting[body];
-  const bool fast = expected || way > Real(tuning::kFastShare) * record.half_width;
-  if (!is_finite_motion(motion) || (fast && !(is_sound_motion(motion) && stays_in_range(w, body)))) {
+  const bool fast = expected || way > Real(tuning::kFastFraction) * record.half_width;
+  if (!is_finite_motion(motion) || (fast && !(is_valid_motion(motion) && stays_in_range(w, body)))) {
     found.find_nonfinite(body);
     return;
   }
@@ -102,12 +102,12 @@ template <class Real, class Found>
     record.sleep_time = 0;
   }
   w.enlarged[body] = 0;
-  if (!expected && motion.moved == Vec2<Real>{} && motion.turned == 0) return;
+  if (!expected && motion.delta_position == Vec2<Real>{} && motion.delta_angle == 0) return;
   const auto note = [&](int shape, const Aabb<Real>& box) { found.leave(shape, box); };
   if (fast) {
     bool covered = true;
     for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
-      covered = update_boxes(w, shape, dt, turned, note) && covered;
+      covered = update_aabbs(w, shape, dt, turned, note) && covered;
     // A body that stays within its fat AABBs and has no contact cannot hit anything.
     const bool alone = covered && record.first_contact == kNone;
     if (!alone) found.find_fast({body, covered, expected});
@@ -119,7 +119,7 @@ template <class Real, class Found>
       const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
       w.boxes[shape] = box;
       // Predict one step ahead, so that a pair exists in the step in which its shapes meet.
-      if (!w.dynamic_tree.box(proxy).contains(room_ahead(box, dt * motion.velocity, turned, extent)))
+      if (!w.dynamic_tree.box(proxy).contains(predicted_aabb(box, dt * motion.velocity, turned, extent)))
         note(shape, fat_aabb(w, shape, dt));
     }
   }
@@ -139,7 +139,7 @@ void finalize_bodies(WorldData<Real>& w, Real dt) {
   const auto finalize = [&w, &ahead, dt, expects, loads, position_compensation ](
       int first, int last, const auto& found) __attribute__((always_inline)) {
     for (int place = first; place < last; ++place) {
-      ahead.prefetch_motion(place), ahead.prefetch_place(place);
+      ahead.prefetch_motion(place), ahead.prefetch_pose(place);
       finalize_body(w, w.awake[place], dt, expects, loads, position_compensation, found);
     }
   };
@@ -150,12 +150,14 @@ void finalize_bodies(WorldData<Real>& w, Real dt) {
     finalize(0, count, at_once);
   } else {
     const int blocks = (count + kBodiesOfBlock - 1) / kBodiesOfBlock;
-    scratch.left_boxes.begin(blocks), scratch.found_fast.begin(blocks), scratch.found_nonfinite.begin(blocks);
+    scratch.proxy_updates.begin(blocks), scratch.found_fast.begin(blocks),
+        scratch.found_nonfinite.begin(blocks);
     w.crew.blocks(blocks, [&](int block) {
       finalize(block * kBodiesOfBlock, std::min(count, (block + 1) * kBodiesOfBlock),
                NotedInBlock<Real>{w, block});
     });
-    scratch.left_boxes.for_each([&](const LeftBox<Real>& left) { at_once.leave(left.shape, left.box); });
+    scratch.proxy_updates.for_each(
+        [&](const ProxyUpdate<Real>& left) { at_once.leave(left.shape, left.box); });
     scratch.found_fast.for_each([&](const FastBody& fast) { at_once.find_fast(fast); });
     scratch.found_nonfinite.for_each([&](int body) { at_once.find_nonfinite(body); });
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/collision/manifold/contact_manifold.h"
-#include "engine/math/small_turn.h"
+#include "engine/math/small_rotation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/seams.h"
@@ -26,7 +26,7 @@ template <class Real>
 SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact,
                                            Vec2<Real> closed, Real common, Real dt) {
   SpeculativeContact<Real> at;
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real half = Real(0.5) * dt;
   at.closed = closed;
   at.turned_a = half * a.angular_velocity, at.turned_b = half * b.angular_velocity;
@@ -36,13 +36,13 @@ SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const Conta
            Real(0.5) * turn * turn * w.extents[body] > Real(kLastingBend) * w.bodies[body].half_width;
   };
   if (bends(contact.body_a, at.turned_a) || bends(contact.body_b, at.turned_b)) return at;
-  at.between = between_bodies(w, contact) + at.closed;
-  at.rotation = turned_by(w.rotation[contact.body_a], at.turned_a);
-  const Rotation<Real> to_a = at.rotation.inverse(), q = turned_by(w.rotation[contact.body_b], at.turned_b);
+  at.between = centres_a_to_b(w, contact) + at.closed;
+  at.rotation = rotated_by(w.rotation[contact.body_a], at.turned_a);
+  const Rotation<Real> to_a = at.rotation.inverse(), q = rotated_by(w.rotation[contact.body_b], at.turned_b);
   const Pose<Real> b_in_a{to_a * at.between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
   const Real reach =
       speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-  at.manifold = collide_shapes(w, contact, b_in_a, reach, size_of(at.closed));
+  at.manifold = collide_shapes(w, contact, b_in_a, reach, l1_norm(at.closed));
   return at;
 }
 
@@ -50,7 +50,7 @@ SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const Conta
 template <class Real>
 SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                          const ContactConstraint<Real>& c, Real dt) {
-  const BodyMotion<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real half = Real(0.5) * dt, near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
   const Real along = half * dot(c.normal, b.velocity - a.velocity);
   bool lasts = false;
@@ -75,14 +75,14 @@ SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const Contact
 template <class Real>
 bool may_arrive(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
                 Real near, Real dt) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Vec2<Real> closed = Real(0.5) * dt * (b.velocity - a.velocity);
   const Real turned = Real(0.5) * dt *
                       (std::abs(a.angular_velocity) * w.extents[contact.body_a] +
                        std::abs(b.angular_velocity) * w.extents[contact.body_b]);
   if (manifold.count == 0)
-    return size_of(closed) + turned >
-           Real(0.5 * tuning::kSpeculativeMarginMost / tuning::kRecycleDistance) * near;
+    return l1_norm(closed) + turned >
+           Real(0.5 * tuning::kMaxSpeculativeApproach / tuning::kRecycleDistance) * near;
   Real apart = manifold.points[0].separation;
   if (manifold.count == 2) apart = std::min(apart, manifold.points[1].separation);
   const Real along = dot(w.rotation[contact.body_a] * manifold.normal, closed);
@@ -99,7 +99,7 @@ bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real 
   const Real deepest = std::min({c.now[0], c.count == 2 ? c.now[1] : Real(0), Real(0)});
   prepare_speculative_contact(w, contact, lasting, c, c.now);
   // The bodies' common rotation curves their paths about each other.
-  const Real common = common_rotation(w, contact, between_bodies(w, contact), Real(0.5) * dt);
+  const Real common = common_rotation(w, contact, centres_a_to_b(w, contact), Real(0.5) * dt);
   const Real curve = Real(0.5) * common * common * dot(c.normal, lasting.between);
   for (int i = 0; i < c.count; ++i) c.separation[i] += curve;
   // Extrapolated back to the start, points deviate from their tangents. An overlap that may be this deviation
@@ -117,16 +117,16 @@ bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real 
 template <class Real>
 bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
                    const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c) {
-  const BodyMotion<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Vec2<Real> between = between_bodies(w, contact);
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const Vec2<Real> between = centres_a_to_b(w, contact);
   const Real half = Real(0.5) * dt, turn = common_rotation(w, contact, between, half);
   if (turn == 0) return false;
   const Real near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
   const Vec2<Real> closed = half * (b.velocity - a.velocity);
   // Velocities lie along the last step's contact plane: they lag by up to three half steps behind the middle
   // of this one.
-  const Real explained = 3 * std::abs(turn) * size_of(closed) + near;
-  const Rotation<Real> q = w.rotation[contact.body_a], turned = turned_by(Rotation<Real>{1, 0}, turn);
+  const Real explained = 3 * std::abs(turn) * l1_norm(closed) + near;
+  const Rotation<Real> q = w.rotation[contact.body_a], turned = rotated_by(Rotation<Real>{1, 0}, turn);
   const Vec2<Real> before = q * manifold.normal, n = turned * before, t{n.y, -n.x};
   bool touches = false;
   for (int i = 0; i < manifold.count; ++i) {
@@ -149,14 +149,15 @@ bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
       return true;
     }
   }
-  prepare_contact(w, contact, manifold, turned_by(q, turn), turned * between, c, c.now);
+  prepare_contact(w, contact, manifold, rotated_by(q, turn), turned * between, c, c.now);
   return true;
 }
 
 template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt) {
-  if (w.scratch.loaded[contact.body_a] == 0 && w.scratch.loaded[contact.body_b] == 0) return {};
+  if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
+    return {};
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   const Real near = Real(tuning::kRecycleDistance) * smaller;
   if (!may_arrive(w, contact, manifold, near, dt)) return {};

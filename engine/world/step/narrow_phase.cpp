@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/sleeping.h"
 #include "engine/world/step/contact_reading.h"
@@ -34,11 +34,11 @@ void find_contact_runs(WorldData<Real>& w) {
   runs.clear();
   // This comes first: if memory runs out, no changes of any run have been recorded.
   std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
-  make_room(changes, static_cast<int>(w.near.size() + w.graph.size()));
+  resize_with_growth(changes, static_cast<int>(w.near.size() + w.graph.size()));
   std::fill(changes.begin(), changes.end(), std::uint8_t{0});
   std::vector<std::uint8_t>& faces = w.scratch.separating_faces;
   if (static_cast<int>(faces.size()) < w.contacts.size()) {
-    ensure_room(faces, static_cast<std::size_t>(w.contacts.size()));
+    ensure_capacity(faces, static_cast<std::size_t>(w.contacts.size()));
     faces.resize(static_cast<std::size_t>(w.contacts.size()), kNoFace);
   }
   int place = static_cast<int>(w.near.size());
@@ -55,7 +55,7 @@ void find_contact_runs(WorldData<Real>& w) {
 // Stores the new impulses of a run's rebuilt contacts.
 template <class Real>
 void settle_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
-  std::uint8_t* const changes = w.scratch.contact_changes.data() + run.place;
+  std::uint8_t* const changes = w.scratch.contact_changes.data() + run.first_index;
   for (int i = 0; i < run.count; ++i) {
     if ((changes[i] & kRenewed) == 0) continue;
     ContactConstraint<Real>& c = run.first[i];
@@ -73,18 +73,18 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   const std::vector<ContactRun<Real>>& runs = scratch.contact_runs;
   const int blocks = near_blocks + static_cast<int>(runs.size());
   scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
-  scratch.found_presses.begin(blocks);
+  scratch.found_pressed.begin(blocks);
   std::uint8_t* const changes = scratch.contact_changes.data();
   // By run: the union of its contacts' changes.
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
-  scratch.loaded.assign(w.bodies.size(), 0);
+  scratch.has_contact_load.assign(w.bodies.size(), 0);
   const auto carry = [&](int block) {
     const ContactRun<Real> run = runs[block];
     for (int i = 0; i < run.count; ++i) {
       const int change = recycle_contact(w, run.first[i], dt);
       if (change == 0) continue;
-      changes[run.place + i] = static_cast<std::uint8_t>(change);
+      changes[run.first_index + i] = static_cast<std::uint8_t>(change);
       any[block] |= change;
     }
   };
@@ -103,10 +103,10 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
     const ContactRun<Real> run = runs[block - near_blocks];
     int places[kContactsOfBlock], count = 0;
     for (int i = 0; i < run.count; ++i)
-      if ((changes[run.place + i] & (kStale | kLeft)) != 0) places[count++] = i;
+      if ((changes[run.first_index + i] & (kStale | kLeft)) != 0) places[count++] = i;
     for (int i = 0; i < count; ++i) {
       prefetch_contacts(w, i, count, [&](int k) { return run.first[places[k]].contact; });
-      std::uint8_t& change = changes[run.place + places[i]];
+      std::uint8_t& change = changes[run.first_index + places[i]];
       change = static_cast<std::uint8_t>(rebuild_contact(w, block, run.first[places[i]], change, dt, h));
       any[block - near_blocks] |= change;
     }
@@ -129,7 +129,7 @@ void invalidate_all(WorldData<Real>& w) {
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
     for (int i = 0; i < run.count; ++i) {
       ContactConstraint<Real>& c = run.first[i];
-      if ((w.scratch.contact_changes[run.place + i] & kRenewed) != 0)
+      if ((w.scratch.contact_changes[run.first_index + i] & kRenewed) != 0)
         c.normal_impulse[0] = c.now[0], c.normal_impulse[1] = c.now[1];
       c.recycle_budget = -1;
     }
@@ -141,13 +141,13 @@ template <class Real>
 void ask_hook(WorldData<Real>& w, Real dt) {
   if (!w.pre_solve) return;
   w.scratch.begun_contacts.for_each([&](BegunContact<Real>& begun) {
-    if (!begun.asked) return;
-    begun.waived = !w.pre_solve(begun.constraint.contact, begun.constraint);
-    if (!begun.waived) begun.bounces = begin_contact_step(w, begun.constraint, dt);
+    if (!begun.needs_pre_solve) return;
+    begun.disabled = !w.pre_solve(begun.constraint.contact, begun.constraint);
+    if (!begun.disabled) begun.bounces = begin_contact_step(w, begun.constraint, dt);
   });
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
     for (int i = 0; i < run.count; ++i) {
-      std::uint8_t& change = w.scratch.contact_changes[run.place + i];
+      std::uint8_t& change = w.scratch.contact_changes[run.first_index + i];
       if ((change & kAsked) == 0) continue;
       ContactConstraint<Real>& c = run.first[i];
       if (!w.pre_solve(c.contact, c)) {
@@ -164,12 +164,12 @@ template <class Real>
 void collect_changes(WorldData<Real>& w) {
   Scratch<Real>& scratch = w.scratch;
   scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
-    if (begun.waived) return;
+    if (begun.disabled) return;
     const ContactConstraint<Real>& c = begun.constraint;
-    if (begun.bounces) append(scratch.bouncing, c.contact);
+    if (begun.bounces) append(scratch.bounce_candidates, c.contact);
     if (begun.pressing) note_pressed(w, c.body_a, c.body_b);
   });
-  scratch.found_presses.for_each(
+  scratch.found_pressed.for_each(
       [&](const std::pair<int, int>& bodies) { note_pressed(w, bodies.first, bodies.second); });
   scratch.found_impacts.for_each(
       [&](const ExpectedImpact<Real>& impact) { append(scratch.expected_impacts, impact); });
@@ -184,13 +184,13 @@ void collect_changes(WorldData<Real>& w) {
     // Rebuilt contacts may bounce, too.
     if ((scratch.block_firsts[block] & (kNoted | kRenewed)) == 0) continue;
     for (int i = 0; i < run.count; ++i) {
-      const int change = changes[run.place + i];
+      const int change = changes[run.first_index + i];
       if ((change & kNoted) == 0) continue;
       const int id = run.first[i].contact;
       if ((change & kTouchChange) != 0) append(scratch.touch_changes, id);
       if ((change & kLost) != 0) append(scratch.lost_contacts, id);
       if ((change & kEnded) != 0) append(scratch.ended_contacts, id);
-      if ((change & kBounces) != 0) append(scratch.bouncing, id);
+      if ((change & kBounces) != 0) append(scratch.bounce_candidates, id);
     }
   }
 }
@@ -205,7 +205,7 @@ void settle_expected_impacts(WorldData<Real>& w, Real dt) {
     if (impact.in_graph) {
       if (!impact.left) append(w.scratch.ended_contacts, c.contact);
     } else if (impact.left) {
-      if (begin_contact_step(w, c, dt)) append(w.scratch.bouncing, c.contact);
+      if (begin_contact_step(w, c, dt)) append(w.scratch.bounce_candidates, c.contact);
       append(w.scratch.left_impacts, c);
     } else {
       wake_body(w, c.body_a), wake_body(w, c.body_b);
@@ -228,7 +228,7 @@ template <class Real>
 void begin_unparked(WorldData<Real>& w, Real dt) {
   for (const int id : w.scratch.unparked) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
-    if (begin_contact_step(w, constraint_of(w, w.contacts[id]), dt)) append(w.scratch.bouncing, id);
+    if (begin_contact_step(w, constraint_of(w, w.contacts[id]), dt)) append(w.scratch.bounce_candidates, id);
   }
   w.scratch.unparked.clear();
 }
@@ -239,7 +239,7 @@ template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
   scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
-  scratch.bouncing.clear(), scratch.parted_contacts.clear(), scratch.unparked.clear();
+  scratch.bounce_candidates.clear(), scratch.parted_contacts.clear(), scratch.unparked.clear();
   clear_expected_impacts(w);
   if (w.near.empty() && w.graph.empty()) return;
   try {
@@ -259,7 +259,7 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   for (const int id : scratch.lost_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
   scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
-    if (begun.waived) {
+    if (begun.disabled) {
       set_touching(w, begun.constraint.contact, false);
     } else {
       enter(w, begun.constraint);
@@ -274,7 +274,7 @@ void report_impacts(WorldData<Real>& w) {
   const auto struck = [](const ContactConstraint<Real>& c) {
     return c.peak_impulse[0] > 0 || (c.count == 2 && c.peak_impulse[1] > 0);
   };
-  for (const int id : w.scratch.bouncing) {
+  for (const int id : w.scratch.bounce_candidates) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     if (struck(c)) set_touching(w, id, true);
@@ -287,8 +287,9 @@ void report_impacts(WorldData<Real>& w) {
     if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least_hit_speed(w, c)) return;
     set_touching(w, c.contact, true);
     const ContactReading reading = reading_of(w, contact, c);
-    w.log().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
-                            -static_cast<double>(c.approach[hardest]), reading.step_impulse});
+    w.event_buffer().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest],
+                                     reading.normal, -static_cast<double>(c.approach[hardest]),
+                                     reading.step_impulse});
   });
 }
 

@@ -28,10 +28,10 @@ bool is_mostly_apart(const WorldData<Real>& w) {
 template <class Real>
 bool mark_self_overlaps(WorldData<Real>& w) {
   const int moved = static_cast<int>(w.move_buffer.size()), all = w.dynamic_tree.size();
-  if (all < tuning::kScreenedMoves) return false;
-  w.scratch.meets.resize(static_cast<std::size_t>(w.dynamic_tree.proxies()));
-  if (moved < tuning::kScreenedMoves || moved * tuning::kScreenedShare < all) return false;
-  return is_mostly_apart(w) && w.dynamic_tree.mark_self_overlaps(w.scratch.meets, 4 * moved);
+  if (all < tuning::kMinOverlapPassMoves) return false;
+  w.scratch.has_overlap.resize(static_cast<std::size_t>(w.dynamic_tree.proxies()));
+  if (moved < tuning::kMinOverlapPassMoves || moved * tuning::kOverlapPassDivisor < all) return false;
+  return is_mostly_apart(w) && w.dynamic_tree.mark_self_overlaps(w.scratch.has_overlap, 4 * moved);
 }
 
 // Prefetch distances in pairs and in shapes: entries of the pair set are scattered, and records of a million
@@ -65,7 +65,7 @@ template <class Real>
 bool moves_with(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
   const ShapeRecord<Real>& other = w.shapes[next];
   return other.body == shape.body && other.moved && other.proxy != kNone &&
-         seen_by(other.filter) == seen_by(shape.filter);
+         effective_mask(other.filter) == effective_mask(shape.filter);
 }
 
 // Collects the shapes of one body, starting at an index of the move buffer, as long as one search in the box
@@ -97,7 +97,7 @@ bool find_pairs_together(const WorldData<Real>& w, const MovedTogether<Real>& mo
   Held held[kHeld];
   int count = 0;
   const ShapeRecord<Real>& record = w.shapes[moved.shapes[0]];
-  const std::uint32_t mask = seen_by(record.filter);
+  const std::uint32_t mask = effective_mask(record.filter);
   const auto search = [&](const DynamicTree<Real>& tree) {
     tree.query(moved.around, mask, [&](int other, int proxy) {
       if (w.shapes[other].body == record.body) return true;
@@ -136,9 +136,9 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
     if (!record.moved || record.proxy == kNone) continue;  // destroyed meanwhile
     // Without static shapes every proxy is in the dynamic tree, so one without an overlap can be skipped
     // without reading its body.
-    if (marked && !grounds && w.scratch.meets[record.proxy] == 0) continue;
+    if (marked && !grounds && w.scratch.has_overlap[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
-    const std::uint32_t mask = seen_by(record.filter);
+    const std::uint32_t mask = effective_mask(record.filter);
     if (mask == 0) continue;
     if (!marked && type == BodyType::Dynamic && i + 1 < last && moves_with(w, record, w.move_buffer[i + 1])) {
       const MovedTogether<Real> moved = moved_together(w, i, last);
@@ -152,13 +152,13 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
       note(shape, other);
       return true;
     };
-    if (type == BodyType::Static || !marked || w.scratch.meets[record.proxy] != 0)
+    if (type == BodyType::Static || !marked || w.scratch.has_overlap[record.proxy] != 0)
       w.dynamic_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.static_tree.query(box, mask, visit);
   }
   // Most pairs have their contact already.
-  found.template keep<kAhead>(
-      block, [&](const std::pair<int, int>& pair) { w.pairs.ask_for(pair.first, pair.second); },
+  found.template filter<kAhead>(
+      block, [&](const std::pair<int, int>& pair) { w.pairs.prefetch(pair.first, pair.second); },
       [&](const std::pair<int, int>& pair) {
         return !w.pairs.contains(pair.first, pair.second) && may_collide(w, pair.first, pair.second);
       });
@@ -170,10 +170,10 @@ void make_room_ahead(WorldData<Real>& w, Real dt) {
   for (const int shape : w.move_buffer) {
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone || !w.is_dynamic(record.body)) continue;
-    const BodyMotion<Real>& motion = w.motion[record.body];
+    const SolverBody<Real>& motion = w.motion[record.body];
     const Real extent = w.extents[record.body], turned = dt * std::abs(motion.angular_velocity) * extent;
     if (w.dynamic_tree.box(record.proxy)
-            .contains(room_ahead(w.boxes[shape], dt * motion.velocity, turned, extent)))
+            .contains(predicted_aabb(w.boxes[shape], dt * motion.velocity, turned, extent)))
       continue;
     w.dynamic_tree.enlarge(record.proxy, fat_aabb(w, shape, dt));
     w.enlarged[record.body] = 1;
@@ -194,7 +194,7 @@ void find_pairs(WorldData<Real>& w, Real dt) {
   w.scratch.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
     // If a shape was created in the slot of a destroyed one that had moved, it is listed twice, and finds its
     // pairs twice.
-    if (!w.pairs.contains(pair.first, pair.second) && is_let_through(w, pair.first, pair.second))
+    if (!w.pairs.contains(pair.first, pair.second) && passes_user_filter(w, pair.first, pair.second))
       create_contact(w, pair.first, pair.second);
   });
   // Clear the flags last: if memory runs out above, these pairs are searched again.

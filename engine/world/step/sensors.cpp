@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "engine/collision/distance/distance.h"
-#include "engine/core/room.h"
+#include "engine/core/capacity.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/step/step.h"
@@ -42,16 +42,16 @@ void update_sensors(WorldData<Real>& w) {
       return true;
     };
     const bool senses = !w.bodies[body].quarantined;
-    if (senses) w.dynamic_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
+    if (senses) w.dynamic_tree.query(w.boxes[shape], effective_mask(w.shapes[shape].filter), visit);
     if (senses && w.bodies[body].type != BodyType::Static) {
-      w.static_tree.query(w.boxes[shape], seen_by(w.shapes[shape].filter), visit);
+      w.static_tree.query(w.boxes[shape], effective_mask(w.shapes[shape].filter), visit);
     }
     std::sort(now.begin(), now.end(), before);
     // Reserve first, so that events and visitors stay consistent if memory runs out.
-    Events& told = w.log();
-    ensure_room(sensor.visitors, now.size());
-    ensure_room(told.sensor_begin, told.sensor_begin.size() + now.size());
-    ensure_room(told.sensor_end, told.sensor_end.size() + sensor.visitors.size());
+    Events& told = w.event_buffer();
+    ensure_capacity(sensor.visitors, now.size());
+    ensure_capacity(told.sensor_begin, told.sensor_begin.size() + now.size());
+    ensure_capacity(told.sensor_end, told.sensor_end.size() + sensor.visitors.size());
     const ShapeId id = id_of(w, shape);
     for (const ShapeId& visitor : now) {
       if (!std::binary_search(sensor.visitors.begin(), sensor.visitors.end(), visitor, before)) {
@@ -68,17 +68,17 @@ void update_sensors(WorldData<Real>& w) {
 }
 
 template <class Real>
-void end_visits(WorldData<Real>& w, int shape) {
+void end_overlaps(WorldData<Real>& w, int shape) {
   const auto sensor = std::find_if(w.sensors.begin(), w.sensors.end(),
                                    [&](const SensorRecord& each) { return each.shape == shape; });
-  std::vector<SensorEvent>& told = w.log().sensor_end;
-  ensure_room(told, told.size() + sensor->visitors.size());
+  std::vector<SensorEvent>& told = w.event_buffer().sensor_end;
+  ensure_capacity(told, told.size() + sensor->visitors.size());
   for (const ShapeId& visitor : sensor->visitors) told.push_back({id_of(w, shape), visitor});
   w.sensors.erase(sensor);
 }
 
-template void end_visits(WorldData<float>&, int);
-template void end_visits(WorldData<double>&, int);
+template void end_overlaps(WorldData<float>&, int);
+template void end_overlaps(WorldData<double>&, int);
 template void update_sensors(WorldData<float>&);
 template void update_sensors(WorldData<double>&);
 

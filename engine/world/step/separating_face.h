@@ -33,7 +33,7 @@ bool are_separated_by(const WorldData<Real>& w, const ContactRecord& contact, st
   }
   const Real apart = dot(normal, between) + least - dot(corner.normal, corner.point);
   const Real rounding =
-      16 * std::numeric_limits<Real>::epsilon() * (w.extents[body] + w.extents[others] + size_of(between));
+      16 * std::numeric_limits<Real>::epsilon() * (w.extents[body] + w.extents[others] + l1_norm(between));
   return apart - (own.radius + other.radius) > reach + rounding;
 }
 

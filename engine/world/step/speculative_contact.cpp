@@ -29,7 +29,7 @@ Real turning(const WorldData<Real>& w, int body) {
 template <class Real>
 bool is_fast(const WorldData<Real>& w, int body, Real dt) {
   return w.is_dynamic(body) && dt * fastest(w.motion[body].velocity, turning(w, body)) >
-                                   Real(tuning::kFastShare) * w.bodies[body].half_width;
+                                   Real(tuning::kFastFraction) * w.bodies[body].half_width;
 }
 
 // Returns true if the body is in free flight, as far as this is known before the step is solved.
@@ -37,13 +37,13 @@ template <class Real>
 bool flies(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
-  return w.scratch.loaded[body] == 0;
+  return w.scratch.has_contact_load[body] == 0;
 }
 
 // Returns the body's motion in the step, relative to `origin`.
 template <class Real>
 Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double dt) {
-  const BodyMotion<Real>& motion = w.motion[body];
+  const SolverBody<Real>& motion = w.motion[body];
   const Rotation<Real> q = w.rotation[body];
   const Vec2d curve = flies(w, body) ? (0.5 * dt * dt) * free_acceleration(w, body) : Vec2d{};
   return {w.position[body] - origin, dt * motion.velocity.template as<double>(),
@@ -69,7 +69,7 @@ bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const Conta
   const Real turned =
       std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
   const bool any_point =
-      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kSpeculativeMarginMost) * smaller;
+      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kMaxSpeculativeApproach) * smaller;
   for (int i = 0; i < manifold.count; ++i) {
     const Vec2<Real> arm = q * manifold.points[i].point;
     const Real open = manifold.points[i].separation;
@@ -86,7 +86,7 @@ bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Rea
   const int a = contact.body_a, b = contact.body_b;
   const Real closing =
       dt * fastest(w.motion[b].velocity - w.motion[a].velocity, turning(w, a) + turning(w, b));
-  const Real guessed = Real(tuning::kSpeculativeMarginMost) * smaller;
+  const Real guessed = Real(tuning::kMaxSpeculativeApproach) * smaller;
   if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
   if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
@@ -123,8 +123,8 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
   at.rotation = rounded(at_a.rotation);
   at.between = between.template as<Real>();
   at.closed = (between - (sweep_b.start - sweep_a.start)).template as<Real>();
-  at.turned_a = static_cast<Real>(fraction * sweep_a.turn),
-  at.turned_b = static_cast<Real>(fraction * sweep_b.turn);
+  at.turned_a = static_cast<Real>(fraction * sweep_a.delta_angle),
+  at.turned_b = static_cast<Real>(fraction * sweep_b.delta_angle);
   const auto velocity = [&](const Sweep<double>& sweep) {
     return sweep.motion + (2 * fraction) * sweep.curve;
   };
@@ -142,7 +142,7 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
   for (int i = 0; i < closest.count; ++i)
-    if (!(closest.points[i].separation > -rounding_between(w, a, b))) return {};
+    if (!(closest.points[i].separation > -rounding_overlap(w, a, b))) return {};
   // Keep the manifold of two bodies of a pile: they push each other off the trajectories that a search for
   // the time of impact would follow.
   if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
@@ -155,7 +155,8 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
       return ahead * (sweep.motion + ahead * sweep.curve);
     };
     if (!crosses(w, contact, closest, (displacement(sweep_b) - displacement(sweep_a)).template as<Real>(),
-                 static_cast<Real>(ahead * sweep_a.turn), static_cast<Real>(ahead * sweep_b.turn), smaller))
+                 static_cast<Real>(ahead * sweep_a.delta_angle),
+                 static_cast<Real>(ahead * sweep_b.delta_angle), smaller))
       return {};
   }
   // Search to rounding: with a coarser tolerance, a shape that passes at a smaller distance would count as

@@ -48,13 +48,13 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
 /// Returns the speculative margin: a fraction of the smaller shape's extent, plus the possible approach in
 /// the step.
 template <class Real>
-Real speculative_margin(const BodyMotion<Real>& a, const BodyMotion<Real>& b, Real extent_a, Real extent_b,
+Real speculative_margin(const SolverBody<Real>& a, const SolverBody<Real>& b, Real extent_a, Real extent_b,
                         Real dt) {
   const Real smaller = std::min(extent_a, extent_b);
-  const Real closing = dt * (size_of(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
+  const Real closing = dt * (l1_norm(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
                              std::abs(b.angular_velocity) * extent_b);
   return Real(tuning::kSpeculativeMargin) * smaller +
-         std::min(closing, Real(tuning::kSpeculativeMarginMost) * smaller);
+         std::min(closing, Real(tuning::kMaxSpeculativeApproach) * smaller);
 }
 
 /// Builds a speculative constraint at the predicted impact, with the present separations. Writes the impulses

@@ -52,7 +52,7 @@ void make_good(WorldData<Real>& w) {
   for (const int body : w.awake) {
     const Rotation<double> q = rotation_of(w.bodies[body].angle);
     w.rotation[body] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
-    w.motion[body].moved = {}, w.motion[body].turned = 0;
+    w.motion[body].delta_position = {}, w.motion[body].delta_angle = 0;
     // Direct islands may have increased the inertia of links.
     const BodyRecord<Real>& record = w.bodies[body];
     if (record.type == BodyType::Dynamic) {
@@ -127,7 +127,7 @@ class StageClock {
 
 template <class Real>
 void step_world(WorldData<Real>& w, double dt, int substeps) {
-  settle(w);
+  apply_mass_changes(w);
   // RAII guard: resets `stepping` even if a stage throws.
   const Stepping<Real> stepping(w);
   StageClock<Real> clock(w);
@@ -145,7 +145,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     w.crew.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
     clock.end(WorldStage::Finalize);
     {
-      const Crew::Alone alone(w.crew, w.asks_user());
+      const Crew::Alone alone(w.crew, w.calls_user_code());
       w.crew.session([&] { solve_continuous(w, static_cast<Real>(dt)); });
     }
     clock.end(WorldStage::Continuous);

@@ -32,7 +32,7 @@ struct Rigid {
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
-  double turns = 1;      ///< factor on the angle by which points are turned into the world
+  double turns = 1;      ///< factor on the rotation angle from the body's frame to the world's
   bool touched = false;  ///< had a contact in the last step
   const Body* body = nullptr;
 
@@ -45,7 +45,7 @@ struct Touch {
   std::size_t a = 0, b = 0;
   Vec2d point, normal;  ///< from a to b
   double depth = 0, bounce = 0, sum = 0, sum_across = 0;
-  double last = 0;  ///< the last impulse along the normal
+  double last = 0;  ///< normal impulse of the last iteration
 };
 
 /// The learner's world, and the mistakes in it.
@@ -74,7 +74,7 @@ class StudentWorld {
   std::vector<BodyState> truly() const;  ///< the current states, even if the engine reports others
   bool scales(Name quantity) const { return quantity.hash == scaled_hash_; }
   double times(Name quantity) const { return scales(quantity) ? factor_ : 1; }
-  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with the x and y that the mistake gives it
+  Vec2d mixed(Name quantity, Vec2d v) const;  ///< the vector with x and y replaced as in the mistake
   void read_mistake(const std::string& mistake);
   Vec2d turned(Name what, const Rigid& body, Vec2d local) const;
   std::array<Vec2d, 4> corner_signs() const;
@@ -146,7 +146,7 @@ class StudentWorld {
   std::uint64_t mistake_hash_ = 0, scaled_hash_ = 0, mixed_hash_ = 0;
   double factor_ = 1;
   Edit edit_;
-  std::uint64_t turned_hash_ = 0, turned_how_ = 0;  ///< whose points are turned wrongly, and how
+  std::uint64_t turned_hash_ = 0, turned_how_ = 0;  ///< quantity whose points are rotated wrongly, and how
   std::uint64_t acting_hash_ = 0, acting_how_ = 0;  ///< which law acts wrongly, and on what
   std::array<Vec2d, 2> axes_;  ///< directions that give the x and the y of a mixed vector
   reference::Scheme scheme_;
@@ -154,8 +154,8 @@ class StudentWorld {
   bool touched_ = false;  ///< there was a contact
   long steps_ = 0;
   std::vector<BodyState> before_step_;            ///< the states before the last step
-  std::vector<Rigid> bodies_;                     ///< the scene's, then the world
-  std::vector<std::array<std::size_t, 2>> ends_;  ///< of the joints
+  std::vector<Rigid> bodies_;                     ///< bodies of the scene, then the fixed world
+  std::vector<std::array<std::size_t, 2>> ends_;  ///< indices of the two bodies of each joint
 };
 
 }  // namespace plumb::course

@@ -15,7 +15,7 @@ void build(Draft& draft) {
   const double s = draft.size, g = random.within(2, 20), thick = random.within(0.05, 0.3) * s;
   draft.site.kind = Site::Kind::Air;
   draft.out.scene.gravity = {0, -g};
-  draft.out.sleeping = false;  // it may approach its rest position more slowly than the speed of sleep
+  draft.out.sleeping = false;  // it may approach its rest position at less than the sleep threshold
   const int arm = draft.box({0.5 * s, 0}, s, thick);
   RevoluteJoint& hinge = draft.revolute(-1, arm, {0, 0});
   const bool loaded = random.chance(0.5);
@@ -42,7 +42,7 @@ void build(Draft& draft) {
     const Vec2d to = direction(angle);
     angle -= (stiffness * angle + moment * g * to.x) / (stiffness - moment * g * to.y);
   }
-  // A load slows the swing: uses the period of arm and load together.
+  // A load lengthens the period: uses that of arm and load together.
   const double rate =
       6.283185307179586 * hertz / std::sqrt(1 + heavy * draft.body(arm).mass * s * s * 1.1 / own);
   const double time = std::min(12.0, 40 / rate);

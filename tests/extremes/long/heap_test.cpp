@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kRows = 100;
 
-// Its contacts yield to a tenth of their load, and to less the deeper they are (`kExpectedOverlap`).
+// Its contacts yield to a tenth of their load, and to less the deeper they are (`kLoadEstimateOverlap`).
 TEST(Heap, OfAHundredRowsRestsWithinAMillimetre) {
   World world(without_sleep());
   add_ground(world);

@@ -34,7 +34,7 @@ struct Squeeze {
     system.rows.push_back(row);
   }
 
-  BodyMotion<float> bodies[2];
+  SolverBody<float> bodies[2];
   float impulses[3] = {};
   DirectRows<float> system;
 };

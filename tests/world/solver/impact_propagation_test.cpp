@@ -33,7 +33,7 @@ struct Line {
     return propagate_impacts(bodies.data(), rotations.data(), bounces, step, room);
   }
 
-  std::vector<BodyMotion<double>> bodies;
+  std::vector<SolverBody<double>> bodies;
   std::vector<Rotation<double>> rotations;
   std::vector<ContactConstraint<double>> contacts;
   std::vector<RestitutionContact<double>> bounces;

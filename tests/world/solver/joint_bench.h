@@ -12,7 +12,7 @@ namespace plumb {
 /// Bodies without shapes and the order of a substep: v += h a, warm start, solve, x += h v, relax.
 template <class Real>
 struct JointBench {
-  std::vector<BodyMotion<Real>> motion;
+  std::vector<SolverBody<Real>> motion;
   std::vector<Rotation<Real>> rotation;
   std::vector<Vec2d> position;
   std::vector<double> angle;
@@ -75,24 +75,24 @@ struct JointBench {
  private:
   void accelerate(Real h) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
-      BodyMotion<Real>& m = motion[i];
+      SolverBody<Real>& m = motion[i];
       if (m.inverse_mass > 0) m.velocity += h * (acceleration[i] + gravity.as<Real>());
       m.angular_velocity += h * angular_acceleration[i];
     }
   }
   void move(Real h) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
-      motion[i].moved += h * motion[i].velocity;
-      motion[i].turned += h * motion[i].angular_velocity;
-      rotation[i] = rotation_of(static_cast<Real>(angle[i] + motion[i].turned));
+      motion[i].delta_position += h * motion[i].velocity;
+      motion[i].delta_angle += h * motion[i].angular_velocity;
+      rotation[i] = rotation_of(static_cast<Real>(angle[i] + motion[i].delta_angle));
     }
   }
   void finish() {
     for (std::size_t i = 0; i < motion.size(); ++i) {
-      position[i] += motion[i].moved.template as<double>();
-      angle[i] += motion[i].turned;
-      motion[i].moved = {};
-      motion[i].turned = 0;
+      position[i] += motion[i].delta_position.template as<double>();
+      angle[i] += motion[i].delta_angle;
+      motion[i].delta_position = {};
+      motion[i].delta_angle = 0;
     }
   }
 };

@@ -50,7 +50,7 @@ JointBench<Real> crowd(bool side_by_side) {
       if (bench.dynamic(a)) bench.motion[a].velocity = {Real(0.7), Real(-0.2 * (number % 15))};
       bench.motion[b].angular_velocity = Real(1 + number % 15);
       const int made = bench.join(kind, a, b);
-      if (pair.held) bench.joints.hold(made);
+      if (pair.held) bench.joints.set_external(made);
       ++number;
     }
   }
@@ -96,7 +96,7 @@ TYPED_TEST(JointLanesTest, GiveEachJointTheBitsItHasOneAtATime) {
   using Real = TypeParam;
   JointBench<Real> one = crowd<Real>(false);
   for (int step = 0; step < 60; ++step) one.step(1.0 / (step < 30 ? 60 : 75));
-  for (const BodyMotion<Real>& m : one.motion) ASSERT_TRUE(std::isfinite(m.angular_velocity));
+  for (const SolverBody<Real>& m : one.motion) ASSERT_TRUE(std::isfinite(m.angular_velocity));
   test::at_each_vector_width([&](VectorWidth) {
     JointBench<Real> wide = crowd<Real>(true);
     for (int step = 0; step < 60; ++step) wide.step(1.0 / (step < 30 ? 60 : 75));
@@ -147,7 +147,7 @@ TYPED_TEST(JointLanesTest, LoseNoImpulseOfJointsThatShareABody) {
   }
   const auto momentum = [&] {
     Vec2d sum;
-    for (const BodyMotion<Real>& m : bench.motion)
+    for (const SolverBody<Real>& m : bench.motion)
       sum += (1.0 / m.inverse_mass) * m.velocity.template as<double>();
     return sum;
   };

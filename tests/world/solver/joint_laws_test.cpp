@@ -47,7 +47,7 @@ template <class Real>
 Momentum<Real> momentum(const JointBench<Real>& bench) {
   Momentum<Real> sum;
   for (std::size_t i = 0; i < bench.motion.size(); ++i) {
-    const BodyMotion<Real>& m = bench.motion[i];
+    const SolverBody<Real>& m = bench.motion[i];
     const double mass = m.inverse_mass > 0 ? 1.0 / m.inverse_mass : 0;
     const double inertia = m.inverse_inertia > 0 ? 1.0 / m.inverse_inertia : 0;
     const Vec2d v = m.velocity.template as<double>();
@@ -60,7 +60,7 @@ Momentum<Real> momentum(const JointBench<Real>& bench) {
 template <class Real>
 double kinetic_energy(const JointBench<Real>& bench) {
   double sum = 0;
-  for (const BodyMotion<Real>& m : bench.motion) {
+  for (const SolverBody<Real>& m : bench.motion) {
     if (m.inverse_mass > 0) sum += 0.5 * length_squared(m.velocity.template as<double>()) / m.inverse_mass;
     if (m.inverse_inertia > 0) sum += 0.5 * m.angular_velocity * m.angular_velocity / m.inverse_inertia;
   }
@@ -139,7 +139,7 @@ void expect_finite(const JointKind& kind, double mass_a, double inertia_a, doubl
   const int joint = bench.join(kind, 0, 1);
   bench.angular_acceleration[1] = static_cast<Real>(inertia_b > 0 ? 1 : 0);
   for (int i = 0; i < 120; ++i) bench.step(kStep);
-  for (const BodyMotion<Real>& m : bench.motion) {
+  for (const SolverBody<Real>& m : bench.motion) {
     EXPECT_TRUE(std::isfinite(m.velocity.x) && std::isfinite(m.velocity.y) &&
                 std::isfinite(m.angular_velocity))
         << kind.index();

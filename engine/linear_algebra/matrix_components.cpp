@@ -1,0 +1,40 @@
+#include "engine/linear_algebra/matrix_components.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace plumb {
+
+void MatrixComponents::find(std::size_t size, std::span<const double> matrix) {
+  assert(matrix.size() == size * size);
+  size_ = size;
+  found_.assign(size, 0);
+  rows_.clear();
+  starts_.assign(1, 0);
+  for (std::size_t first = 0; first < size; ++first) {
+    if (found_[first]) continue;
+    found_[first] = 1;
+    rows_.push_back(first);
+    for (std::size_t next = starts_.back(); next < rows_.size(); ++next) {
+      const std::size_t i = rows_[next];
+      for (std::size_t j = 0; j < size; ++j) {
+        if (found_[j] || (matrix[i * size + j] == 0 && matrix[j * size + i] == 0)) continue;
+        found_[j] = 1;
+        rows_.push_back(j);
+      }
+    }
+    std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(starts_.back()), rows_.end());
+    starts_.push_back(rows_.size());
+  }
+}
+
+void MatrixComponents::take(std::size_t p, std::span<const double> matrix, std::vector<double>& out) const {
+  assert(p < count() && matrix.size() == size_ * size_);
+  if (count() == 1) return out.assign(matrix.begin(), matrix.end());
+  out.clear();
+  for (const std::size_t i : part(p)) {
+    for (const std::size_t j : part(p)) out.push_back(matrix[i * size_ + j]);
+  }
+}
+
+}  // namespace plumb
