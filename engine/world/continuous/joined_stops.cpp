@@ -9,8 +9,8 @@
 namespace plumb {
 namespace {
 
-// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. `kicks`
-// has the order of `awake`; a body that is not in it moves freely, with the mean of its velocities.
+// Returns twice the work of forces, without those of contacts and joints, on a body in the step, J. A body
+// that is not awake moves freely, with the mean of its velocities.
 template <class Real>
 double twice_work_on(const WorldData<Real>& w, int body, double dt) {
   const std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;

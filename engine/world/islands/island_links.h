@@ -82,9 +82,9 @@ void save_displacements(const WorldData<Real>& w, JointedIsland<Real>& island) {
   }
 }
 
-/// Moves the bodies of an island by a common fraction of the `shifts` of its system: the largest one at which
-/// no body rotates by more than `most`, rad, or moves by more than that fraction of its extent. Returns the
-/// fraction.
+/// Moves the bodies of an island by a common fraction of the `displacements` of its system: the largest one
+/// at which no body rotates by more than `max_rotation`, rad, or moves by more than that fraction of its
+/// extent. Returns the fraction.
 template <class Real>
 double displace_links(WorldData<Real>& w, const JointedIsland<Real>& island, double max_rotation) {
   double fraction = 1;
