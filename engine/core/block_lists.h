@@ -9,9 +9,9 @@
 
 namespace plumb {
 
-/// Lists of the results of a loop's blocks (crew.h), one list per block, to be read in the order of the
-/// blocks: the same for every number of threads. Lists consist of chunks from a common store that is kept, so
-/// that the amount of memory in use does not depend on the threads either.
+/// Lists of the results of a loop's blocks (loop_scheduler.h), one list per block, to be read in the order of
+/// the blocks: the same for every number of threads. Lists consist of chunks from a common store that is
+/// kept, so that the amount of memory in use does not depend on the threads either.
 template <class T>
 class BlockLists {
  public:

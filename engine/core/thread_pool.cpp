@@ -56,7 +56,7 @@ TaskSystem ThreadPool::tasks() {
 void ThreadPool::start(TaskSystem::Task task, void* data, int count) {
   task_ = task, data_ = data, count_ = count;
   done_.store(0, std::memory_order_relaxed);
-  claims_.publish(0, static_cast<std::uint32_t>(count));
+  range_.publish(0, static_cast<std::uint32_t>(count));
   round_.fetch_add(1, std::memory_order_acq_rel);
   round_.notify_all();
 }
@@ -70,7 +70,7 @@ void ThreadPool::finish() {
 }
 
 void ThreadPool::run_claimed() {
-  for (int item = claims_.claim(); item >= 0; item = claims_.claim()) {
+  for (int item = range_.claim(); item >= 0; item = range_.claim()) {
     task_(data_, item);
     done_.fetch_add(1, std::memory_order_acq_rel);
     done_.notify_all();

@@ -9,10 +9,10 @@
 
 namespace plumb {
 
-/// Blocks of a loop, claimed one by one by several threads: the end in the upper half, the next block in the
-/// lower. A successful claim belongs to the loop that is published at that moment, so a late thread needs no
-/// knowledge of earlier loops.
-class Claims {
+/// Range of a loop's blocks, which several threads claim one by one. Stored in one word: the end in the upper
+/// half, the next block in the lower. A successful claim belongs to the loop that is published at that
+/// moment, so a late thread needs no knowledge of earlier loops.
+class AtomicBlockRange {
  public:
   void publish(std::uint32_t first, std::uint32_t end) {
     word_.store(std::uint64_t{end} << 32 | first, std::memory_order_release);
@@ -66,7 +66,7 @@ class ThreadPool {
   TaskSystem::Task task_ = nullptr;
   void* data_ = nullptr;
   int count_ = 0;
-  Claims claims_;
+  AtomicBlockRange range_;
   std::atomic<int> done_{0};
   std::atomic<int> round_{0};  ///< changes with each loop
   std::atomic<bool> ended_{false};

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/core/crew.h"
+#include "engine/core/loop_scheduler.h"
 #include "engine/core/text.h"
 #include "engine/scene/check.h"
 #include "engine/scene/error.h"
@@ -98,7 +98,7 @@ void validate(const Accuracy& accuracy) {
                 "must be a positive number of seconds, from 1e-12 to 1e12");
   require_at_least_one(realtime.substeps, "substeps");
   require_at_least_one(realtime.iterations, "iterations");
-  require_at_least_one(realtime.threads, "threads", Crew::kMostThreads);
+  require_at_least_one(realtime.threads, "threads", LoopScheduler::kMaxThreads);
   require_known(static_cast<int>(realtime.precision), static_cast<int>(Precision::Double), "precision");
   require_known(static_cast<int>(realtime.integrator), static_cast<int>(Integrator::ExplicitEuler),
                 "integrator");

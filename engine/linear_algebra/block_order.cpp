@@ -5,46 +5,46 @@
 
 namespace plumb {
 
-void BlockOrder::find(int blocks, std::span<const std::pair<int, int>> ends) {
+void BlockOrder::compute(int blocks, std::span<const std::pair<int, int>> body_blocks) {
   assert(blocks >= 0);
-  assert(std::all_of(ends.begin(), ends.end(),
-                     [&](const auto& end) { return end.second >= 0 && end.second < blocks; }));
+  assert(std::all_of(body_blocks.begin(), body_blocks.end(),
+                     [&](const auto& each) { return each.second >= 0 && each.second < blocks; }));
   neighbours_.resize(std::max<std::size_t>(neighbours_.size(), blocks));
   for (int i = 0; i < blocks; ++i) neighbours_[i].clear();
-  ends_.assign(ends.begin(), ends.end());
-  std::sort(ends_.begin(), ends_.end());
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends_.size() && ends_[j].first == ends_[i].first; ++j) {
-      neighbours_[ends_[i].second].push_back(ends_[j].second);
-      neighbours_[ends_[j].second].push_back(ends_[i].second);
+  body_blocks_.assign(body_blocks.begin(), body_blocks.end());
+  std::sort(body_blocks_.begin(), body_blocks_.end());
+  for (std::size_t i = 0; i < body_blocks_.size(); ++i) {
+    for (std::size_t j = i + 1; j < body_blocks_.size() && body_blocks_[j].first == body_blocks_[i].first;
+         ++j) {
+      neighbours_[body_blocks_[i].second].push_back(body_blocks_[j].second);
+      neighbours_[body_blocks_[j].second].push_back(body_blocks_[i].second);
     }
   }
-  // Orders breadth first from a block at the edge of the graph: the last block that a search from any start
-  // reaches.
-  degree_.assign(blocks, 0);
-  const auto walk = [&](int start, int mark) {
-    const std::size_t begin = sequence_.size();
-    sequence_.push_back(start);
-    degree_[start] = mark;
-    for (std::size_t next = begin; next < sequence_.size(); ++next) {
-      for (const int other : neighbours_[sequence_[next]]) {
-        if (degree_[other] >= mark) continue;
-        degree_[other] = mark;
-        sequence_.push_back(other);
+  // Orders breadth first from a pseudo-peripheral block: the last one that a search from any start reaches.
+  mark_.assign(blocks, 0);
+  const auto search = [&](int start, int mark) {
+    const std::size_t begin = order_.size();
+    order_.push_back(start);
+    mark_[start] = mark;
+    for (std::size_t next = begin; next < order_.size(); ++next) {
+      for (const int other : neighbours_[order_[next]]) {
+        if (mark_[other] >= mark) continue;
+        mark_[other] = mark;
+        order_.push_back(other);
       }
     }
-    return sequence_.back();
+    return order_.back();
   };
-  sequence_.clear();
+  order_.clear();
   for (int start = 0; start < blocks; ++start) {
-    if (degree_[start] != 0) continue;
-    const std::size_t begin = sequence_.size();
-    const int edge = walk(start, 1);
-    sequence_.resize(begin);
-    walk(edge, 2);
+    if (mark_[start] != 0) continue;
+    const std::size_t begin = order_.size();
+    const int edge = search(start, 1);
+    order_.resize(begin);
+    search(edge, 2);
   }
-  std::reverse(sequence_.begin(), sequence_.end());
-  assert(static_cast<int>(sequence_.size()) == blocks);
+  std::reverse(order_.begin(), order_.end());
+  assert(static_cast<int>(order_.size()) == blocks);
 }
 
 }  // namespace plumb

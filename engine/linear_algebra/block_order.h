@@ -12,21 +12,19 @@ namespace plumb {
 class BlockOrder {
  public:
   explicit BlockOrder(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : ends_(memory), neighbours_(memory), sequence_(memory), degree_(memory) {}
+      : body_blocks_(memory), neighbours_(memory), order_(memory), mark_(memory) {}
 
-  /// `ends`: body and block, for each dynamic body of each block.
-  void find(int blocks, std::span<const std::pair<int, int>> ends);
+  /// Computes the order. `body_blocks`: body and block, for each dynamic body of each block.
+  void compute(int blocks, std::span<const std::pair<int, int>> body_blocks);
 
   /// Blocks in elimination order.
-  std::span<const int> sequence() const { return sequence_; }
+  std::span<const int> sequence() const { return order_; }
   std::span<const int> neighbours(int block) const { return neighbours_[block]; }
-  /// Pairs of body and block, sorted by body.
-  std::span<const std::pair<int, int>> ends() const { return ends_; }
 
  private:
-  std::pmr::vector<std::pair<int, int>> ends_;
+  std::pmr::vector<std::pair<int, int>> body_blocks_;
   std::pmr::vector<std::pmr::vector<int>> neighbours_;
-  std::pmr::vector<int> sequence_, degree_;
+  std::pmr::vector<int> order_, mark_;
 };
 
 }  // namespace plumb

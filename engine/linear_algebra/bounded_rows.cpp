@@ -16,13 +16,14 @@ namespace {
 double mobility_of(std::span<const BoundedBody> bodies, const BoundedRow& row) {
   constexpr double kRounding = 1e-30;
   const double along = coupling(bodies, row, row);
-  const auto most = [](const BoundedBody& body, Vec2d linear, double angular) {
+  const auto mobility_bound = [](const BoundedBody& body, Vec2d linear, double angular) {
     return std::max(body.inverse_mass.x, body.inverse_mass.y) * length_squared(linear) +
            body.inverse_inertia * angular * angular;
   };
   const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
   if (a.inverse_mass.x == a.inverse_mass.y && b.inverse_mass.x == b.inverse_mass.y) return along;
-  const double bound = most(a, row.linear_a, row.angular_a) + most(b, row.linear_b, row.angular_b);
+  const double bound =
+      mobility_bound(a, row.linear_a, row.angular_a) + mobility_bound(b, row.linear_b, row.angular_b);
   return along > kRounding * bound ? along : 0;
 }
 
@@ -33,17 +34,17 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* memory)
       rows(memory),
       displacements(memory),
       order_(memory),
-      all_(memory),
-      matrix_(memory),
+      full_matrix_(memory),
+      free_matrix_(memory),
       start_(memory),
       mobility_(memory),
       block_first_(memory),
       free_(memory),
-      places_(memory),
-      block_place_(memory),
-      sequence_(memory),
-      rank_(memory),
-      first_(memory),
+      free_positions_(memory),
+      block_positions_(memory),
+      rows_in_order_(memory),
+      free_before_(memory),
+      first_columns_(memory),
       x_(memory),
       guess_(memory),
       best_(memory),
@@ -51,23 +52,23 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* memory)
 
 double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes) {
   assert(blocks.size() == sizes.size());
-  std::pmr::vector<std::pair<int, int>> ends(rows.get_allocator());
+  std::pmr::vector<std::pair<int, int>> body_blocks(rows.get_allocator());
   const int count = static_cast<int>(blocks.size());
   for (int block = 0; block < count; ++block) {
-    if (bodies[blocks[block].first].is_dynamic()) ends.emplace_back(blocks[block].first, block);
-    if (bodies[blocks[block].second].is_dynamic()) ends.emplace_back(blocks[block].second, block);
+    if (bodies[blocks[block].first].is_dynamic()) body_blocks.emplace_back(blocks[block].first, block);
+    if (bodies[blocks[block].second].is_dynamic()) body_blocks.emplace_back(blocks[block].second, block);
   }
-  order_.find(count, ends);
-  block_place_.assign(count, 0);
+  order_.compute(count, body_blocks);
+  block_positions_.assign(count, 0);
   int next = 0;
-  for (const int block : order_.sequence()) block_place_[block] = next, next += sizes[block];
-  first_.clear();
+  for (const int block : order_.sequence()) block_positions_[block] = next, next += sizes[block];
+  first_columns_.clear();
   for (const int block : order_.sequence()) {
-    int first = block_place_[block];
-    for (const int other : order_.neighbours(block)) first = std::min(first, block_place_[other]);
-    for (int i = 0; i < sizes[block]; ++i) first_.push_back(first);
+    int first = block_positions_[block];
+    for (const int other : order_.neighbours(block)) first = std::min(first, block_positions_[other]);
+    for (int i = 0; i < sizes[block]; ++i) first_columns_.push_back(first);
   }
-  return EnvelopeMatrix::cost(first_);
+  return EnvelopeMatrix::cost(first_columns_);
 }
 
 double BoundedRows::row_velocity(const BoundedRow& row) const {
@@ -87,7 +88,7 @@ void BoundedRows::apply_impulse(const BoundedRow& row, double impulse) {
   add(bodies[row.b], row.linear_b, row.angular_b);
 }
 
-void BoundedRows::find_mobility() {
+void BoundedRows::compute_mobility() {
   assert(std::all_of(rows.begin(), rows.end(), [&](const BoundedRow& row) {
     const int count = static_cast<int>(bodies.size());
     return row.a >= 0 && row.a < count && row.b >= 0 && row.b < count;
@@ -101,7 +102,7 @@ void BoundedRows::find_mobility() {
 }
 
 // Finds the largest energy v^2 / mobility of a row, or what the caller gave.
-void BoundedRows::find_energy_scale() {
+void BoundedRows::compute_energy_scale() {
   energy_scale_ = min_energy_scale_;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double speed = std::max(std::abs(row_velocity(rows[i])), std::abs(rows[i].target));
@@ -111,7 +112,7 @@ void BoundedRows::find_energy_scale() {
 }
 
 // Finds the first row of each block.
-void BoundedRows::find_blocks() {
+void BoundedRows::index_blocks() {
   const int blocks = static_cast<int>(order_.sequence().size());
   block_first_.assign(blocks + 1, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -123,31 +124,31 @@ void BoundedRows::find_blocks() {
 }
 
 void BoundedRows::assemble() {
-  find_blocks();
-  sequence_.clear(), first_.clear();
+  index_blocks();
+  rows_in_order_.clear(), first_columns_.clear();
   for (const int block : order_.sequence()) {
-    block_place_[block] = static_cast<int>(sequence_.size());
-    for (int i = block_first_[block]; i < block_first_[block + 1]; ++i) sequence_.push_back(i);
+    block_positions_[block] = static_cast<int>(rows_in_order_.size());
+    for (int i = block_first_[block]; i < block_first_[block + 1]; ++i) rows_in_order_.push_back(i);
   }
-  for (const int i : sequence_) {
-    int first = block_place_[rows[i].block];
-    for (const int other : order_.neighbours(rows[i].block)) first = std::min(first, block_place_[other]);
-    first_.push_back(first);
+  for (const int i : rows_in_order_) {
+    int first = block_positions_[rows[i].block];
+    for (const int other : order_.neighbours(rows[i].block)) first = std::min(first, block_positions_[other]);
+    first_columns_.push_back(first);
   }
-  assert(sequence_.size() == rows.size());
-  all_.reset(first_);
-  for (int place = 0; place < static_cast<int>(sequence_.size()); ++place) {
-    const int i = sequence_[place];
+  assert(rows_in_order_.size() == rows.size());
+  full_matrix_.reset(first_columns_);
+  for (int position = 0; position < static_cast<int>(rows_in_order_.size()); ++position) {
+    const int i = rows_in_order_[position];
     const BoundedRow& row = rows[i];
     const auto couple_with = [&](int block) {
-      const int from = block_place_[block];
-      const int count = std::min(block_first_[block + 1] - block_first_[block], place + 1 - from);
+      const int from = block_positions_[block];
+      const int count = std::min(block_first_[block + 1] - block_first_[block], position + 1 - from);
       couple(bodies, row, rows.data() + block_first_[block], count,
-             all_.row(place) + from - all_.first(place));
+             full_matrix_.row(position) + from - full_matrix_.first(position));
     };
     couple_with(row.block);
     for (const int other : order_.neighbours(row.block)) couple_with(other);
-    all_.at(place, place) = mobility_[i] + (row.compliance + mobility_[i] * row.softening);
+    full_matrix_.at(position, position) = mobility_[i] + (row.compliance + mobility_[i] * row.softening);
   }
   assembled_ = true, factorised_ = regularised_ = false;
 }
@@ -155,47 +156,47 @@ void BoundedRows::assemble() {
 // Factorises the free rows, with regularisation if they depend on each other. Rows before the first one whose
 // state has changed keep their factors.
 void BoundedRows::factorise() {
-  places_.clear(), first_.clear();
-  const int count = static_cast<int>(sequence_.size());
-  rank_.resize(count);
-  int kept = 0;
-  for (int place = 0; place < count; ++place) {
-    const int row = sequence_[place], k = static_cast<int>(places_.size());
-    rank_[place] = k;
+  free_positions_.clear(), first_columns_.clear();
+  const int count = static_cast<int>(rows_in_order_.size());
+  free_before_.resize(count);
+  int unchanged = 0;
+  for (int position = 0; position < count; ++position) {
+    const int row = rows_in_order_[position], k = static_cast<int>(free_positions_.size());
+    free_before_[position] = k;
     if (rows[row].state != BoundedRow::kFree) continue;
-    if (factorised_ && kept == k && k < static_cast<int>(free_.size()) && free_[k] == row) ++kept;
-    places_.push_back(place);
-    first_.push_back(rank_[all_.first(place)]);
+    if (factorised_ && unchanged == k && k < static_cast<int>(free_.size()) && free_[k] == row) ++unchanged;
+    free_positions_.push_back(position);
+    first_columns_.push_back(free_before_[full_matrix_.first(position)]);
   }
-  const int all = static_cast<int>(places_.size());
-  if (factorised_ && kept == all && free_.size() == places_.size()) return;
+  const int all = static_cast<int>(free_positions_.size());
+  if (factorised_ && unchanged == all && free_.size() == free_positions_.size()) return;
   free_.clear();
-  for (const int place : places_) free_.push_back(sequence_[place]);
-  matrix_.shape(first_);
+  for (const int position : free_positions_) free_.push_back(rows_in_order_[position]);
+  free_matrix_.shape(first_columns_);
   if (!regularised_) {
-    gather_free(kept);
-    regularised_ = !(matrix_.factorise(kept) > kLeastPivot);
-    if (regularised_) kept = 0;
+    copy_free_rows(unchanged);
+    regularised_ = !(free_matrix_.factorise(unchanged) > kMinPivot);
+    if (regularised_) unchanged = 0;
   }
   if (regularised_) {
-    gather_free(kept);
-    for (int k = kept; k < static_cast<int>(free_.size()); ++k)
-      matrix_.at(k, k) += kRegularisation * mobility_[free_[k]];
-    matrix_.factorise(kept);
+    copy_free_rows(unchanged);
+    for (int k = unchanged; k < static_cast<int>(free_.size()); ++k)
+      free_matrix_.at(k, k) += kRegularisation * mobility_[free_[k]];
+    free_matrix_.factorise(unchanged);
   }
   factorised_ = true;
 }
 
 // Copies the rows and columns of the free rows, starting at free row `from`.
-void BoundedRows::gather_free(int from) {
-  const bool all_free = places_.size() == sequence_.size();
-  for (int k = from; k < static_cast<int>(places_.size()); ++k) {
-    double* to = matrix_.row(k);
+void BoundedRows::copy_free_rows(int from) {
+  const bool all_free = free_positions_.size() == rows_in_order_.size();
+  for (int k = from; k < static_cast<int>(free_positions_.size()); ++k) {
+    double* to = free_matrix_.row(k);
     if (all_free) {
-      std::copy_n(all_.row(k), k + 1 - first_[k], to);
+      std::copy_n(full_matrix_.row(k), k + 1 - first_columns_[k], to);
     } else {
-      const double* row = all_.row(places_[k]) - all_.first(places_[k]);
-      for (int j = first_[k]; j <= k; ++j) *to++ = row[places_[j]];
+      const double* row = full_matrix_.row(free_positions_[k]) - full_matrix_.first(free_positions_[k]);
+      for (int j = first_columns_[k]; j <= k; ++j) *to++ = row[free_positions_[j]];
     }
   }
 }
@@ -207,7 +208,7 @@ double BoundedRows::residual(int i) const {
   return missing - row.softening * mobility_[i] * row.impulse;
 }
 
-// Returns true if a row's speed is more than the fraction `share` of that of the row with the largest energy.
+// Returns true if a row's speed is more than `fraction` of that of the row with the largest energy.
 bool BoundedRows::is_significant(int i, double speed, double fraction) const {
   return speed * speed > fraction * fraction * energy_scale_ * mobility_[i];
 }
@@ -220,7 +221,7 @@ void BoundedRows::apply_all() {
 
 // Solves for the impulses of the free rows, given those of the others. If free rows depend on each other,
 // finds the solution nearest to `guess_`, up to the error of the regularisation.
-void BoundedRows::find_free() {
+void BoundedRows::solve_free() {
   if (regularised_ && !guess_set_) prepare_guess();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     BoundedRow& row = rows[i];
@@ -241,10 +242,10 @@ bool BoundedRows::refine() {
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     x_[k] = residual(free_[k]);
-    exact = exact && !is_significant(free_[k], x_[k], kExact);
+    exact = exact && !is_significant(free_[k], x_[k], kResidualTolerance);
   }
   if (exact) return false;
-  matrix_.solve(x_.data());
+  free_matrix_.solve(x_.data());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     rows[free_[k]].impulse += x_[k];
     apply_impulse(rows[free_[k]], x_[k]);
@@ -252,8 +253,8 @@ bool BoundedRows::refine() {
   return true;
 }
 
-// Counts the rows that violate their bounds or inequality by more than `slack`, and notes the state that each
-// should have.
+// Counts the rows that violate their bounds or inequality by more than `slack`, and records the state that
+// each should have.
 int BoundedRows::count_violations(double slack) {
   int count = 0;
   next_state_.assign(rows.size(), 0);
@@ -290,8 +291,8 @@ BoundedRows::Work BoundedRows::work() const {
     const double before = dot(row.linear_a, a.velocity) + row.angular_a * a.spin +
                           dot(row.linear_b, b.velocity) + row.angular_b * b.spin;
     const double target = row.impulse * (row.target - before);
-    out.target += target;
-    out.own += target - row.impulse * residual(i);
+    out.linear += target;
+    out.quadratic += target - row.impulse * residual(i);
   }
   return out;
 }
@@ -299,16 +300,16 @@ BoundedRows::Work BoundedRows::work() const {
 // Returns 1/2 x A x - x (target - J v), which solutions minimise.
 double BoundedRows::energy() const {
   const Work w = work();
-  return 0.5 * w.own - w.target;
+  return 0.5 * w.quadratic - w.linear;
 }
 
 // Scales all impulses by the factor that minimises the energy. Then x A x = x (target - J v), so they gain no
 // energy, even far from the solution: where rows are infeasible, or the factorisation is inexact.
 void BoundedRows::scale_impulses() {
   const Work w = work();
-  if (!(w.own > w.target + kTolerance * std::abs(w.target))) return;
+  if (!(w.quadratic > w.linear + kTolerance * std::abs(w.linear))) return;
   // x A x is never negative except by rounding; the quotient of two roundings could be any number.
-  const double fraction = w.own > 0 ? std::max(w.target / w.own, 0.0) : 0.0;
+  const double fraction = w.quadratic > 0 ? std::max(w.linear / w.quadratic, 0.0) : 0.0;
   for (BoundedRow& row : rows) row.impulse *= fraction;
   apply_all();
 }
@@ -317,18 +318,18 @@ void BoundedRows::scale_impulses() {
 bool BoundedRows::pivot() {
   guess_set_ = false;
   best_.resize(rows.size());
-  int least = std::numeric_limits<int>::max();
+  int min_violations = std::numeric_limits<int>::max();
   for (int pivots = 0; pivots < kMaxPivots; ++pivots) {
     factorise();
-    find_free();
-    int wrong = count_violations(regularised_ ? kClearViolation : kTolerance);
-    if (wrong == 0 && regularised_) {
+    solve_free();
+    int violations = count_violations(regularised_ ? kClearViolation : kTolerance);
+    if (violations == 0 && regularised_) {
       for (int i = 0; i < kRefinements && refine(); ++i) continue;
-      wrong = count_violations(kTolerance);
+      violations = count_violations(kTolerance);
     }
-    if (wrong == 0) return true;
-    if (wrong < least) {
-      least = wrong;
+    if (violations == 0) return true;
+    if (violations < min_violations) {
+      min_violations = violations;
       for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -361,7 +362,7 @@ void BoundedRows::set_fixed() {
 
 void BoundedRows::solve(double energy) {
   start_.assign(bodies.begin(), bodies.end());
-  find_mobility();
+  compute_mobility();
   energy_scale_ = min_energy_scale_ = energy;
   assembled_ = false;
   solve_from_start();
@@ -384,13 +385,13 @@ void BoundedRows::solve_from_start() {
   descended_ = false;
   set_fixed();
   if (solve_small()) return;
-  if (!assembled_) find_energy_scale(), assemble();
-  find_impulses();
+  if (!assembled_) compute_energy_scale(), assemble();
+  solve_impulses();
   if (is_infeasible()) relax_infeasible_rows();
 }
 
 // Finds the impulses by pivots or, if these do not end, by descent.
-void BoundedRows::find_impulses() {
+void BoundedRows::solve_impulses() {
   const bool solved = pivot();
   if (!solved) {
     descended_ = true;
@@ -408,7 +409,7 @@ void BoundedRows::start_from(std::span<const double> impulses) {
   apply_all();
 }
 
-// Makes sure that no energy is gained. If all rows are free, none is. A row at its bound may gain its impulse
+// Ensures that no energy is gained. If all rows are free, none is. A row at its bound may gain its impulse
 // times the tolerated violation, and impulses of wedged parts have no limit.
 void BoundedRows::prevent_energy_gain(bool exact) {
   const auto held = [](const BoundedRow& row) { return row.state != BoundedRow::kFree && row.impulse != 0; };
@@ -433,13 +434,13 @@ void BoundedRows::correct(double softening) {
   // Maximum number of rounds. Of 76,500 corrections of ragdolls that fall onto a heap, 2,000 take a second
   // round, 102 a third and 5 a fourth.
   constexpr int kRounds = 4;
-  find_mobility();
+  compute_mobility();
   for (BoundedRow& row : rows) row.softening = softening;
   assemble();
   bool overrun = true;
   for (int round = 0; overrun && round < kRounds; ++round) {
     factorise();
-    find_displacements();
+    solve_displacements();
     overrun = false;
     for (BoundedRow& row : rows) {
       if (row.state == BoundedRow::kFree || !(row.upper > 0)) continue;
@@ -454,11 +455,11 @@ void BoundedRows::correct(double softening) {
 }
 
 // Finds the displacements that close the gaps of the free rows.
-void BoundedRows::find_displacements() {
+void BoundedRows::solve_displacements() {
   displacements.assign(bodies.size(), {});
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;
-  matrix_.solve(x_.data());
+  free_matrix_.solve(x_.data());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const BoundedRow& row = rows[free_[k]];
     const auto add = [&](int body, Vec2d linear, double angular) {

@@ -47,8 +47,8 @@ struct BoundedRow {
 /// linear complementarity problem with bounds,
 ///     w = J (v + M^-1 J^T x) + C x - target,   lower <= x <= upper,   w = 0 between,
 /// which states the minimum of the kinetic energy relative to the target velocities. Solved first by block
-/// principal pivoting (Judice and Pires, Computers and Operations Research 21, 1994): all rows on the wrong
-/// side change sides at once. If a few pivots do not suffice, by gradient projection with subspace
+/// principal pivoting (Judice and Pires, Computers and Operations Research 21, 1994): all infeasible
+/// rows are exchanged at once. If a few pivots do not suffice, by gradient projection with subspace
 /// minimisation (More and Toraldo, SIAM Journal on Optimization 1, 1991). Each step lowers the energy.
 /// Projected Gauss-Seidel identifies the rows at their bounds, and the others are solved together within
 /// their bounds. The free rows are factorised sparsely, with a little compliance if they depend on each
@@ -101,11 +101,11 @@ class BoundedRows {
   static constexpr int kMaxPivots = 4;
   // Tolerated violation of a row's inequality, relative to the row with the largest energy v^2 / mobility
   // (speeds of linear and of angular rows have different units). A violation beyond kClearViolation, a
-  // hundred times the regularisation, counts before iterative refinement too: it would be in vain to refine
-  // rows that change sides anyway.
+  // hundred times the regularisation, counts before iterative refinement too: refining
+  // rows that are exchanged anyway would be useless.
   static constexpr double kTolerance = 1e-9, kClearViolation = 1e-5;
   // Residual, on the same scale, below which a row is not refined.
-  static constexpr double kExact = 1e-11;
+  static constexpr double kResidualTolerance = 1e-11;
   // Regularisation of rows that depend on each other: this fraction of each row's mobility is added to it, so
   // that the rows share their load. Iterative refinement removes the error that this causes in other rows.
   // The value is that of the rounding of positions in float: rows that differ only by rounding must not block
@@ -117,14 +117,14 @@ class BoundedRows {
 
   double row_velocity(const BoundedRow& row) const;
   void apply_impulse(const BoundedRow& row, double impulse);
-  void find_mobility();
-  void find_energy_scale();
-  void find_blocks();
+  void compute_mobility();
+  void compute_energy_scale();
+  void index_blocks();
   void assemble();
   void factorise();
-  void gather_free(int from);
-  void find_free();
-  void find_displacements();
+  void copy_free_rows(int from);
+  void solve_free();
+  void solve_displacements();
   bool refine();
   void apply_all();
   double residual(int row) const;
@@ -137,15 +137,15 @@ class BoundedRows {
   void prevent_energy_gain(bool exact);
   bool is_infeasible() const;
   void relax_infeasible_rows();
-  void find_impulses();
+  void solve_impulses();
   void descend();
-  void sweep(int passes);
+  void gauss_seidel(int iterations);
   void minimise_free();
-  void advance(double fraction);
+  void apply_step(double fraction);
   double max_step_fraction() const;
   bool minimise_on_face();
   struct Work {
-    double target = 0, own = 0;  // J
+    double linear = 0, quadratic = 0;  // J
   };
   Work work() const;
   double energy() const;
@@ -153,22 +153,22 @@ class BoundedRows {
   void prepare_guess();
 
   BlockOrder order_;
-  EnvelopeMatrix all_, matrix_;          // of all rows in elimination order; of the free ones
-  std::pmr::vector<BoundedBody> start_;  // the bodies as given
-  std::pmr::vector<double> mobility_;    // J M^-1 J^T + compliance, by row
-  std::pmr::vector<int> block_first_;    // by block: index of its first row
-  std::pmr::vector<int> free_;           // free rows in elimination order, which matrix_ has
-  std::pmr::vector<int> places_;         // the same as places in `sequence_`, used by `factorise`
-  std::pmr::vector<int> block_place_;    // by block: its first row's place in the elimination order
-  std::pmr::vector<int> sequence_;       // rows in elimination order
-  std::pmr::vector<int> rank_;           // by place in that order: number of free rows before it
-  std::pmr::vector<int> first_;
+  EnvelopeMatrix full_matrix_, free_matrix_;  // of all rows in elimination order; of the free ones
+  std::pmr::vector<BoundedBody> start_;       // the bodies as given
+  std::pmr::vector<double> mobility_;         // J M^-1 J^T + compliance, by row
+  std::pmr::vector<int> block_first_;         // by block: index of its first row
+  std::pmr::vector<int> free_;                // free rows in elimination order, which free_matrix_ has
+  std::pmr::vector<int> free_positions_;      // the same as places in `rows_in_order_`, used by `factorise`
+  std::pmr::vector<int> block_positions_;     // by block: its first row's place in the elimination order
+  std::pmr::vector<int> rows_in_order_;       // rows in elimination order
+  std::pmr::vector<int> free_before_;         // by place in that order: number of free rows before it
+  std::pmr::vector<int> first_columns_;
   std::pmr::vector<double> x_, guess_, best_;
   std::pmr::vector<std::int8_t> next_state_;  // 0, or 1 + the state to change to
   double energy_scale_ = 0;      // J, the largest v^2 / mobility of a row, or what the caller gave:
   double min_energy_scale_ = 0;  // J
-  bool assembled_ = false;       // all_ holds the present rows
-  bool factorised_ = false;      // matrix_ holds the factors of the rows in free_
+  bool assembled_ = false;       // full_matrix_ holds the present rows
+  bool factorised_ = false;      // free_matrix_ holds the factors of the rows in free_
   bool regularised_ = false;     // free rows depend on each other: they are regularised
   bool guess_set_ = false;       // guess_ is set (`prepare_guess`)
   bool descended_ = false;       // the last solution was found by descent

@@ -7,35 +7,35 @@ namespace plumb {
 namespace {
 
 // Number of rounds of descent; iterations in each; iterations at the end if the rounds do not converge.
-constexpr int kRounds = 10, kSweeps = 3, kLastSweeps = 10;
+constexpr int kRounds = 10, kSmoothingIterations = 3, kFinalIterations = 10;
 // Tolerated violation, relative to the row with the largest energy v^2 / mobility. In wedged bodies impulses
 // are a thousand times the load, and the regularisation of dependent rows leaves errors of 1e-7 of them. At
 // 1e-8 a third of the descents of two wedged ragdolls do not end, at 1e-6 one in twenty.
-constexpr double kSolved = 1e-6;
+constexpr double kDescentTolerance = 1e-6;
 
 }  // namespace
 
 // Runs passes of projected Gauss-Seidel, each of which lowers the energy.
-void BoundedRows::sweep(int passes) {
-  for (int pass = 0; pass < passes; ++pass) {
+void BoundedRows::gauss_seidel(int iterations) {
+  for (int pass = 0; pass < iterations; ++pass) {
     for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
       BoundedRow& row = rows[i];
-      const double own = mobility_[i] * (1 + row.softening) + row.compliance;
-      if (!(own > 0)) continue;
-      const double now = std::min(std::max(row.impulse + residual(i) / own, row.lower), row.upper);
-      apply_impulse(row, now - row.impulse);
-      row.impulse = now;
+      const double diagonal = mobility_[i] * (1 + row.softening) + row.compliance;
+      if (!(diagonal > 0)) continue;
+      const double impulse = std::min(std::max(row.impulse + residual(i) / diagonal, row.lower), row.upper);
+      apply_impulse(row, impulse - row.impulse);
+      row.impulse = impulse;
     }
   }
 }
 
 // Adds a fraction of the step x_ to the free rows.
-void BoundedRows::advance(double fraction) {
+void BoundedRows::apply_step(double fraction) {
   for (std::size_t k = 0; k < free_.size(); ++k) {
     BoundedRow& row = rows[free_[k]];
-    const double now = std::min(std::max(row.impulse + fraction * x_[k], row.lower), row.upper);
-    apply_impulse(row, now - row.impulse);
-    row.impulse = now;
+    const double impulse = std::min(std::max(row.impulse + fraction * x_[k], row.lower), row.upper);
+    apply_impulse(row, impulse - row.impulse);
+    row.impulse = impulse;
   }
 }
 
@@ -63,23 +63,23 @@ bool BoundedRows::minimise_on_face() {
     bool exact = true;
     for (std::size_t k = 0; k < free_.size(); ++k) {
       x_[k] = residual(free_[k]);
-      exact = exact && !is_significant(free_[k], x_[k], kExact);
+      exact = exact && !is_significant(free_[k], x_[k], kResidualTolerance);
     }
     if (exact) return true;
-    matrix_.solve(x_.data());
+    free_matrix_.solve(x_.data());
     const double fraction = max_step_fraction();
     if (fraction == 1) {
-      advance(1);
+      apply_step(1);
       continue;
     }
     // Try the whole step, clamped at the bounds; keep it if it is better than the step to the first bound.
     for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
-    advance(fraction);
-    const double near = energy();
+    apply_step(fraction);
+    const double energy_at_bound = energy();
     for (std::size_t i = 0; i < rows.size(); ++i) std::swap(best_[i], rows[i].impulse);
     apply_all();
-    advance(1);
-    if (energy() <= near) return false;
+    apply_step(1);
+    if (energy() <= energy_at_bound) return false;
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse = best_[i];
     apply_all();
     return false;
@@ -96,11 +96,11 @@ void BoundedRows::minimise_free() {
 // Minimises the energy over the impulses within their bounds, starting from the present ones.
 void BoundedRows::descend() {
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) sweep(kSweeps);
+    if (round > 0) gauss_seidel(kSmoothingIterations);
     minimise_free();
-    if (count_violations(kSolved) == 0) return;
+    if (count_violations(kDescentTolerance) == 0) return;
   }
-  sweep(kLastSweeps);
+  gauss_seidel(kFinalIterations);
 }
 
 }  // namespace plumb

@@ -11,7 +11,7 @@ namespace {
 // A row at this bound has an impulse of at most 1e-4 / kRegularisation = 1000 times that row's. With 1e-5,
 // taut bridges of 24 and 40 planks under heavy crates lost pulls that they need, and opened by 6 and 1 % of a
 // plank.
-constexpr double kInfeasible = 1e-4;
+constexpr double kInfeasibleResidual = 1e-4;
 
 }  // namespace
 
@@ -19,7 +19,8 @@ constexpr double kInfeasible = 1e-4;
 bool BoundedRows::is_infeasible() const {
   if (!regularised_) return false;
   for (int i = 0; i < static_cast<int>(rows.size()); ++i)
-    if (rows[i].state == BoundedRow::kFree && is_significant(i, residual(i), kInfeasible)) return true;
+    if (rows[i].state == BoundedRow::kFree && is_significant(i, residual(i), kInfeasibleResidual))
+      return true;
   return false;
 }
 

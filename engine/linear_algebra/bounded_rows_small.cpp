@@ -55,8 +55,8 @@ bool BoundedRows::solve_small() {
       to[i] = mobility_[i] * (1 + row.softening) + row.compliance;
     }
   }
-  if (bounded) find_energy_scale();
-  int which[kSmallRows];
+  if (bounded) compute_energy_scale();
+  int free_rows[kSmallRows];
   double x[kSmallRows];
   for (int pivots = 0; pivots < kMaxPivots; ++pivots) {
     int size = 0;
@@ -64,22 +64,22 @@ bool BoundedRows::solve_small() {
     for (int i = 0; i < count; ++i) {
       BoundedRow& row = rows[i];
       if (row.state == BoundedRow::kFree) {
-        row.impulse = 0, which[size++] = i;
+        row.impulse = 0, free_rows[size++] = i;
       } else {
         row.impulse = row.state == BoundedRow::kLower ? row.lower : row.upper;
         held = held || row.impulse != 0;
       }
     }
     if (held) apply_all();
-    for (int k = 0; k < size; ++k) x[k] = residual(which[k]);
-    if (bounded) gather(all, which, size, part);
+    for (int k = 0; k < size; ++k) x[k] = residual(free_rows[k]);
+    if (bounded) gather(all, free_rows, size, part);
     SmallMatrix& free = bounded ? part : all;  // without bounds all rows are free and remain so
-    const bool well = free.factorise(size);
-    if (well) {
+    const bool regular = free.factorise(size);
+    if (regular) {
       free.solve(size, x);
       for (int k = 0; k < size; ++k) {
-        rows[which[k]].impulse = x[k];
-        apply_impulse(rows[which[k]], x[k]);
+        rows[free_rows[k]].impulse = x[k];
+        apply_impulse(rows[free_rows[k]], x[k]);
       }
       if (!bounded) return true;
       if (count_violations(kTolerance) == 0) {
@@ -90,7 +90,7 @@ bool BoundedRows::solve_small() {
         if (next_state_[i] != 0) rows[i].state = static_cast<BoundedRow::State>(next_state_[i] - 1);
     }
     std::copy(start_.begin(), start_.end(), bodies.begin());
-    if (!well) return false;
+    if (!regular) return false;
   }
   return false;
 }

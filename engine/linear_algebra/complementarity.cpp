@@ -16,7 +16,7 @@ namespace {
 class Tableau {
  public:
   Tableau(std::span<const double> matrix, std::span<const double> q, std::span<const double> covering,
-          double least_pivot)
+          double min_pivot)
       : n_(q.size()), width_(2 * n_ + 2), entries_(n_ * width_, 0.0), basis_(n_) {
     assert(matrix.size() == n_ * n_ && covering.size() == n_);
     for (std::size_t i = 0; i < n_; ++i) {
@@ -28,7 +28,7 @@ class Tableau {
     }
     double largest = 1;
     for (const double x : matrix) largest = std::max(largest, std::abs(x));
-    least_pivot_ = least_pivot * largest;
+    min_pivot_ = min_pivot * largest;
   }
 
   std::size_t cover() const { return 2 * n_; }  // column of z0
@@ -53,12 +53,12 @@ class Tableau {
   std::optional<std::size_t> leaving(std::size_t column) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n_; ++i) {
-      if (!(at(i, column) > least_pivot_)) continue;
+      if (!(at(i, column) > min_pivot_)) continue;
       if (!best || precedes(i, at(i, column), *best, at(*best, column))) best = i;
     }
     if (!best) return best;
     for (std::size_t i = 0; i < n_; ++i) {  // ties: z0 first
-      if (basis_[i] != cover() || !(at(i, column) > least_pivot_)) continue;
+      if (basis_[i] != cover() || !(at(i, column) > min_pivot_)) continue;
       const double ratio = value(i) / at(i, column), least = value(*best) / at(*best, column);
       if (ratio <= least + 1e-14 * std::abs(least)) return i;
     }
@@ -101,7 +101,7 @@ class Tableau {
   std::size_t n_, width_;
   std::vector<double> entries_;
   std::vector<std::size_t> basis_, entries_in_row_;
-  double least_pivot_ = 0;
+  double min_pivot_ = 0;
 };
 
 /// Recomputes the basic components from the original problem, to remove the rounding errors of pivoting.
@@ -125,21 +125,21 @@ void polish(std::span<const double> matrix, std::span<const double> q, Complemen
 }
 
 ComplementaritySolution run_lemke(std::span<const double> matrix, std::span<const double> q,
-                                  std::span<const double> covering, double least_pivot) {
+                                  std::span<const double> covering, double min_pivot) {
   using Status = ComplementaritySolution::Status;
   const std::size_t n = q.size();
   ComplementaritySolution solution;
   solution.z.assign(n, 0.0);
   solution.basic.assign(n, 0);
-  Tableau tableau(matrix, q, covering, least_pivot);
+  Tableau tableau(matrix, q, covering, min_pivot);
   std::size_t row = tableau.first_leaving(), entering = tableau.cover();
-  const int most = 50 * static_cast<int>(n) + 50;
+  const int max_pivots = 50 * static_cast<int>(n) + 50;
   for (;;) {
     const std::size_t left = tableau.basis(row);
     tableau.pivot(row, entering);
     ++solution.pivots;
     if (left == tableau.cover()) break;
-    if (solution.pivots > most) {
+    if (solution.pivots > max_pivots) {
       solution.status = Status::Limit;
       return solution;
     }
@@ -185,20 +185,20 @@ ComplementaritySolution solve_component(std::span<const double> matrix, std::spa
   if (std::all_of(q.begin(), q.end(), [](double x) { return x >= 0; })) return solution;
   // After a failure by rounding or on a ray, tries another covering vector, which takes another path. A
   // slightly enlarged diagonal avoids pivots that consist of rounding error.
-  constexpr double kLeastPivot[] = {1e-11, 1e-13, 1e-9, 1e-12, 1e-12, 1e-12};
+  constexpr double kMinPivot[] = {1e-11, 1e-13, 1e-9, 1e-12, 1e-12, 1e-12};
   constexpr double kDiagonalShift[] = {0, 0, 0, 0, 1e-10, 1e-8};
   std::vector<double> enlarged(matrix.begin(), matrix.end());
   std::vector<double> covering(n, 1.0);
   int pivots = 0;
-  for (std::size_t attempt = 0; attempt < std::size(kLeastPivot); ++attempt) {
-    for (std::size_t i = 0; i < n; ++i) enlarged[i * n + i] = matrix[i * n + i] + kDiagonalShift[attempt];
-    solution = run_lemke(enlarged, q, covering, kLeastPivot[attempt]);
+  for (std::size_t trial = 0; trial < std::size(kMinPivot); ++trial) {
+    for (std::size_t i = 0; i < n; ++i) enlarged[i * n + i] = matrix[i * n + i] + kDiagonalShift[trial];
+    solution = run_lemke(enlarged, q, covering, kMinPivot[trial]);
     if (solution.status == Status::Solved) polish(matrix, q, solution);
     pivots += solution.pivots;
     if (solution.status == Status::Solved && !is_solution(matrix, q, solution))
       solution.status = Status::Limit;
     if (solution.status == Status::Solved) break;
-    for (std::size_t i = 0; i < n; ++i) covering[i] = 1 + static_cast<double>((i * (attempt + 3)) % 7) / 7;
+    for (std::size_t i = 0; i < n; ++i) covering[i] = 1 + static_cast<double>((i * (trial + 3)) % 7) / 7;
   }
   solution.pivots = pivots;
   return solution;
@@ -207,16 +207,16 @@ ComplementaritySolution solve_component(std::span<const double> matrix, std::spa
 }  // namespace
 
 ComplementaritySolution solve_complementarity(std::span<const double> matrix, std::span<const double> q) {
-  MatrixComponents parts;
-  parts.find(q.size(), matrix);
-  if (parts.count() == 1) return solve_component(matrix, q);
+  MatrixComponents components;
+  components.compute(q.size(), matrix);
+  if (components.count() == 1) return solve_component(matrix, q);
   ComplementaritySolution solution;
   solution.z.assign(q.size(), 0.0);
   solution.basic.assign(q.size(), 0);
   std::vector<double> own_matrix, own_q;
-  for (std::size_t p = 0; p < parts.count(); ++p) {
-    const std::span<const std::size_t> rows = parts.part(p);
-    parts.take(p, matrix, own_matrix);
+  for (std::size_t p = 0; p < components.count(); ++p) {
+    const std::span<const std::size_t> rows = components.component(p);
+    components.extract(p, matrix, own_matrix);
     own_q.clear();
     for (const std::size_t i : rows) own_q.push_back(q[i]);
     const ComplementaritySolution own = solve_component(own_matrix, own_q);

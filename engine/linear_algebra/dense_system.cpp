@@ -21,16 +21,16 @@ std::size_t DenseSystem::factor(std::size_t size, std::span<const double> matrix
   size_ = size;
   original_.assign(matrix.begin(), matrix.end());
   work_.resize(size);
-  components_.find(size, matrix);
+  components_.compute(size, matrix);
   if (parts_.size() < components_.count()) parts_.resize(components_.count());
   double largest = 0;
   for (const double x : original_) largest = std::max(largest, std::abs(x));
   rank_ = 0;
   for (std::size_t p = 0; p < components_.count(); ++p) {
     Part& part = parts_[p];
-    const std::span<const std::size_t> rows = components_.part(p);
+    const std::span<const std::size_t> rows = components_.component(p);
     part.size = rows.size();
-    components_.take(p, original_, part.lu);
+    components_.extract(p, original_, part.lu);
     part.factor(dependent * largest);
     for (std::size_t i = 0; i < part.size; ++i)
       part.row[i] = rows[part.row[i]], part.column[i] = rows[part.column[i]];
@@ -62,9 +62,10 @@ void DenseSystem::Part::begin() {
 void DenseSystem::Part::factor(double least) {
   begin();
   for (; rank < size; ++rank) {
-    const auto most = std::max_element(largest.begin() + static_cast<std::ptrdiff_t>(rank), largest.end());
-    if (!(*most > least)) break;
-    move_pivot(static_cast<std::size_t>(most - largest.begin()));
+    const auto largest_row =
+        std::max_element(largest.begin() + static_cast<std::ptrdiff_t>(rank), largest.end());
+    if (!(*largest_row > least)) break;
+    move_pivot(static_cast<std::size_t>(largest_row - largest.begin()));
     eliminate();
   }
   // So far, only `column` records how columns were exchanged: now move them.
@@ -82,10 +83,10 @@ void DenseSystem::Part::factor(double least) {
 /// preserves zeros (H. M. Markowitz, Management Science 3, 1957; with a threshold as in I. S. Duff, A. M.
 /// Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 1986, ch. 7).
 void DenseSystem::Part::move_pivot(std::size_t from_row) {
-  const bool lean = size > kCompletePivotingSize;
-  const double enough = kPivotThreshold * largest[from_row];
-  for (std::size_t i = rank; lean && i < size; ++i) {
-    if (largest[i] >= enough && entries[i].size() < entries[from_row].size()) from_row = i;
+  const bool sparse = size > kCompletePivotingSize;
+  const double min_pivot = kPivotThreshold * largest[from_row];
+  for (std::size_t i = rank; sparse && i < size; ++i) {
+    if (largest[i] >= min_pivot && entries[i].size() < entries[from_row].size()) from_row = i;
   }
   const double* own = lu.data() + from_row * size;
   std::size_t from_column = size - 1;
@@ -94,7 +95,8 @@ void DenseSystem::Part::move_pivot(std::size_t from_row) {
       from_column = place[unknown];
   }
   const std::size_t diagonal = row[from_row];
-  if (lean && place[diagonal] >= rank && std::abs(own[diagonal]) >= enough) from_column = place[diagonal];
+  if (sparse && place[diagonal] >= rank && std::abs(own[diagonal]) >= min_pivot)
+    from_column = place[diagonal];
 
   if (from_row != rank) {
     const auto begin_of = [&](std::size_t i) { return lu.begin() + static_cast<std::ptrdiff_t>(i * size); };
@@ -112,18 +114,19 @@ void DenseSystem::Part::move_pivot(std::size_t from_row) {
 void DenseSystem::Part::eliminate() {
   assert(rank < size);
   const double* pivots = lu.data() + rank * size;
-  const std::size_t gone = column[rank];
-  assert(pivots[gone] != 0);
-  std::erase(entries[rank], gone);
+  const std::size_t eliminated = column[rank];
+  assert(pivots[eliminated] != 0);
+  std::erase(entries[rank], eliminated);
   for (std::size_t i = rank + 1; i < size; ++i) {
     double* own = lu.data() + i * size;
-    if (own[gone] == 0) continue;
-    const double factor = own[gone] /= pivots[gone];
+    if (own[eliminated] == 0) continue;
+    const double factor = own[eliminated] /= pivots[eliminated];
     for (const std::size_t unknown : entries[rank]) {
       if (own[unknown] == 0) entries[i].push_back(unknown);
       own[unknown] -= factor * pivots[unknown];
     }
-    std::erase_if(entries[i], [&](std::size_t unknown) { return unknown == gone || own[unknown] == 0; });
+    std::erase_if(entries[i],
+                  [&](std::size_t unknown) { return unknown == eliminated || own[unknown] == 0; });
     largest[i] = 0;
     for (const std::size_t unknown : entries[i]) largest[i] = std::max(largest[i], std::abs(own[unknown]));
   }

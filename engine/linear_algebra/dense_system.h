@@ -24,8 +24,6 @@ class DenseSystem {
   /// Solves as `solve`, plus one step of iterative refinement with the original matrix.
   void solve_refined(std::span<double> b);
 
-  std::size_t rank() const { return rank_; }
-
  private:
   struct Part {
     std::size_t size = 0, rank = 0;

@@ -12,17 +12,17 @@ double dot_in_fours(const double* a, const double* b, int count) {
   int i = 0;
   for (; i + 4 <= count; i += 4)
     for (int lane = 0; lane < 4; ++lane) sums[lane] += a[i + lane] * b[i + lane];
-  double rest = 0;
-  for (; i < count; ++i) rest += a[i] * b[i];
-  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest;
+  double remainder = 0;
+  for (; i < count; ++i) remainder += a[i] * b[i];
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + remainder;
 }
 
 // The rows of chains and trees are short.
 inline double dot_product(const double* a, const double* b, int count) {
   if (count >= 4) return dot_in_fours(a, b, count);
-  double rest = 0;
-  for (int i = 0; i < count; ++i) rest += a[i] * b[i];
-  return rest;
+  double remainder = 0;
+  for (int i = 0; i < count; ++i) remainder += a[i] * b[i];
+  return remainder;
 }
 
 }  // namespace
@@ -33,60 +33,59 @@ void EnvelopeMatrix::reset(std::span<const int> first) {
 }
 
 void EnvelopeMatrix::shape(std::span<const int> first) {
-  first_.assign(first.begin(), first.end());
-  start_.resize(first.size());
+  first_columns_.assign(first.begin(), first.end());
+  row_starts_.resize(first.size());
   int next = 0;
   for (int i = 0; i < size(); ++i) {
-    start_[i] = next;
-    assert(first_[i] >= 0 && first_[i] <= i);
-    next += i - first_[i] + 1;
+    row_starts_[i] = next;
+    assert(first_columns_[i] >= 0 && first_columns_[i] <= i);
+    next += i - first_columns_[i] + 1;
   }
   values_.resize(static_cast<std::size_t>(next));
-  pivots_.resize(first.size()), inverse_pivots_.resize(first.size());
+  inverse_pivots_.resize(first.size());
 }
 
 double EnvelopeMatrix::factorise(int from) {
   // Pivots below this fraction of the diagonal count as zero: the row depends on others, up to rounding.
   constexpr double kDependentPivot = 1e-12;
-  double least = 1;
+  double min_ratio = 1;
   for (int i = from; i < size(); ++i) {
-    double* row = &values_[start_[i]] - first_[i];
+    double* row = &values_[row_starts_[i]] - first_columns_[i];
     const double diagonal = row[i];
     assert(!(diagonal < 0));  // positive definite; NaN: quarantined later
     // row[j] <- (L D)_ij = a_ij - sum_k (L D)_ik L_jk
-    for (int j = first_[i]; j < i; ++j) {
-      const double* above = &values_[start_[j]] - first_[j];
-      const int k = std::max(first_[i], first_[j]);
+    for (int j = first_columns_[i]; j < i; ++j) {
+      const double* above = &values_[row_starts_[j]] - first_columns_[j];
+      const int k = std::max(first_columns_[i], first_columns_[j]);
       row[j] -= dot_product(row + k, above + k, j - k);
     }
     double pivot = diagonal;
-    for (int j = first_[i]; j < i; ++j) {
+    for (int j = first_columns_[i]; j < i; ++j) {
       const double l = row[j] * inverse_pivots_[j];
       pivot -= l * row[j];
       row[j] = l;
     }
     const bool independent = pivot > kDependentPivot * diagonal;
-    pivots_[i] = independent ? pivot : 0;
     inverse_pivots_[i] = independent ? 1 / pivot : 0;
     if (!independent) {
-      least = 0;
-    } else if (pivot < least * diagonal) {
-      least = pivot / diagonal;
+      min_ratio = 0;
+    } else if (pivot < min_ratio * diagonal) {
+      min_ratio = pivot / diagonal;
     }
   }
-  return least;
+  return min_ratio;
 }
 
 void EnvelopeMatrix::solve(double* x) const {
   for (int i = 0; i < size(); ++i) {
-    const double* row = &values_[start_[i]] - first_[i];
-    x[i] -= dot_product(row + first_[i], x + first_[i], i - first_[i]);
+    const double* row = &values_[row_starts_[i]] - first_columns_[i];
+    x[i] -= dot_product(row + first_columns_[i], x + first_columns_[i], i - first_columns_[i]);
   }
   for (int i = 0; i < size(); ++i) x[i] *= inverse_pivots_[i];
   for (int i = size() - 1; i >= 0; --i) {
-    const double* row = &values_[start_[i]] - first_[i];
+    const double* row = &values_[row_starts_[i]] - first_columns_[i];
     const double xi = x[i];
-    for (int j = first_[i]; j < i; ++j) x[j] -= row[j] * xi;
+    for (int j = first_columns_[i]; j < i; ++j) x[j] -= row[j] * xi;
   }
 }
 

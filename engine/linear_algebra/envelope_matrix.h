@@ -12,7 +12,7 @@ namespace plumb {
 class EnvelopeMatrix {
  public:
   explicit EnvelopeMatrix(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : first_(memory), start_(memory), values_(memory), inverse_pivots_(memory), pivots_(memory) {}
+      : first_columns_(memory), row_starts_(memory), values_(memory), inverse_pivots_(memory) {}
 
   /// Sets up rows 0 .. first.size() - 1, row i from column first[i] <= i, with zeros. Allocates only when it
   /// grows.
@@ -21,12 +21,12 @@ class EnvelopeMatrix {
   /// Does the same without setting entries: the caller sets all of them.
   void shape(std::span<const int> first);
 
-  int size() const { return static_cast<int>(first_.size()); }
-  int first(int row) const { return first_[row]; }
+  int size() const { return static_cast<int>(first_columns_.size()); }
+  int first(int row) const { return first_columns_[row]; }
   /// Returns a row from its first entry to the diagonal.
-  double* row(int row) { return &values_[start_[row]]; }
-  double& at(int row, int column) { return values_[start_[row] + column - first_[row]]; }
-  double at(int row, int column) const { return values_[start_[row] + column - first_[row]]; }
+  double* row(int row) { return &values_[row_starts_[row]]; }
+  double& at(int row, int column) { return values_[row_starts_[row] + column - first_columns_[row]]; }
+  double at(int row, int column) const { return values_[row_starts_[row] + column - first_columns_[row]]; }
 
   /// Factorises in place. Dependent rows are left out: their unknown is 0. If only the rows from `from` on
   /// were set anew, and those before it are still factorised, factorises only the new ones. Returns their
@@ -40,8 +40,8 @@ class EnvelopeMatrix {
   static double cost(std::span<const int> first);
 
  private:
-  std::pmr::vector<int> first_, start_;
-  std::pmr::vector<double> values_, inverse_pivots_, pivots_;
+  std::pmr::vector<int> first_columns_, row_starts_;
+  std::pmr::vector<double> values_, inverse_pivots_;
 };
 
 }  // namespace plumb

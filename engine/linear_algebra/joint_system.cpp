@@ -122,7 +122,7 @@ void JointSystem<Real>::find_terms(std::span<const Row<Real>> rows, const std::v
 }
 
 template <class Real>
-void JointSystem<Real>::take_jacobian(std::span<const Row<Real>> rows) {
+void JointSystem<Real>::set_jacobian(std::span<const Row<Real>> rows) {
   const auto put = [&](std::size_t at, int body, Vec2<Real> linear, Real angular) {
     const Real mass = body == kFixedFrame ? 0 : inverse_mass_[body];
     const Real inertia = body == kFixedFrame ? 0 : inverse_inertia_[body];
@@ -146,7 +146,7 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
   min_pivot_place_ = order_.size();
   if (!hinges_.empty()) return factor_hinges(rows);
   int dependent = 0;
-  take_jacobian(rows);
+  set_jacobian(rows);
   std::copy(column_start_.begin(), column_start_.end() - 1, filled_.begin());
   for (std::size_t k = 0; k < order_.size(); ++k) {
     for (std::size_t p = term_start_[k]; p < term_start_[k + 1]; ++p) {
@@ -154,9 +154,9 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
       const Real* j = &jacobian_[terms_[p].right];
       work_[terms_[p].place] += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
     }
-    const Real own = work_[k];
+    const Real diagonal = work_[k];
     work_[k] = 0;
-    Real pivot = own;
+    Real pivot = diagonal;
     for (std::size_t q = row_start_[k]; q < row_start_[k + 1]; ++q) {
       const int j = column_of_[q];
       const Real y = work_[j];
@@ -167,27 +167,28 @@ int JointSystem<Real>::factor(std::span<const Row<Real>> rows) {
       assert(filled_[j] < column_start_[j + 1]);
       lower_[filled_[j]++] = l;
     }
-    dependent += take_pivot(pivot, own, k) ? 0 : 1;
+    dependent += set_pivot(pivot, diagonal, k) ? 0 : 1;
   }
   return dependent;
 }
 
 /// Sets D's entry at `place`. Returns true if its row is independent.
 template <class Real>
-bool JointSystem<Real>::take_pivot(Real pivot, Real own, std::size_t place) {
+bool JointSystem<Real>::set_pivot(Real pivot, Real diagonal, std::size_t place) {
   // A pivot that has lost all but a few digits is the rounding error of a dependent row.
   constexpr Real kDependent = (sizeof(Real) == 8 ? 4096 : 64) * std::numeric_limits<Real>::epsilon();
   const bool independent =
-      pivot > std::max(kDependent, pivot_threshold_) * own && (frozen_.empty() || frozen_[place] == 0);
+      pivot > std::max(kDependent, pivot_threshold_) * diagonal && (frozen_.empty() || frozen_[place] == 0);
   inverse_diagonal_[place] = independent ? 1 / pivot : 0;
-  if (independent && pivot < min_pivot_ratio_ * own) min_pivot_ratio_ = pivot / own, min_pivot_place_ = place;
+  if (independent && pivot < min_pivot_ratio_ * diagonal)
+    min_pivot_ratio_ = pivot / diagonal, min_pivot_place_ = place;
   return independent;
 }
 
 template <class Real>
-void JointSystem<Real>::set_pivot_threshold(Real share) {
-  assert(share >= 0 && share < 1);
-  pivot_threshold_ = share;
+void JointSystem<Real>::set_pivot_threshold(Real ratio) {
+  assert(ratio >= 0 && ratio < 1);
+  pivot_threshold_ = ratio;
 }
 
 template <class Real>

@@ -32,7 +32,7 @@ class JointSystem {
 
   /// Sets the independent fraction of a row below which it counts as dependent from now on. 0: only rounding
   /// counts.
-  void set_pivot_threshold(Real share);
+  void set_pivot_threshold(Real ratio);
   /// Keeps the dependent rows of the last factorisation dependent in all later ones, for any rounding of
   /// their pivots, until `release_dependent`.
   void freeze_dependent();
@@ -74,26 +74,25 @@ class JointSystem {
     int left = 0, right = 0;  // first index of the three numbers that each of the two rows has for that body
   };
 
-  /// Two rows of one hinge, eliminated together, and the next hinge in L: in a line of hinges there is at
-  /// most one.
+  /// Two rows of one hinge, eliminated together, and the next hinge in L: in a chain there is at most one.
   struct Hinge {
     int row = 0, place = 0;
     int next = -1;                // index among the hinges
     int side = 0, next_side = 0;  // of the shared body: 0 for a, 1 for b
   };
-  /// A 2 x 2 block of A minus the earlier hinges' part, and its original diagonal.
+  /// A 2 x 2 block of A after elimination of the earlier hinges, and its original diagonal.
   struct HingeBlock {
-    Real own[2]{}, rest[3]{};  // (1, 1), (2, 1), (2, 2)
+    Real diagonal[2]{}, reduced[3]{};  // (1, 1), (2, 1), (2, 2)
   };
 
   void find_hinges(std::span<const Row<Real>> rows, const std::vector<int>& place);
   HingeBlock hinge_block(const Row<Real>& first, const Row<Real>& second) const;
   int factor_hinges(std::span<const Row<Real>> rows);
   void solve_hinges() const;
-  bool take_pivot(Real pivot, Real own, std::size_t place);
+  bool set_pivot(Real pivot, Real diagonal, std::size_t place);
 
   void find_pattern(const std::vector<std::vector<int>>& below);
-  void take_jacobian(std::span<const Row<Real>> rows);
+  void set_jacobian(std::span<const Row<Real>> rows);
   void find_terms(std::span<const Row<Real>> rows, const std::vector<int>& place);
 
   std::vector<Real> inverse_mass_, inverse_inertia_;  // by body
@@ -118,7 +117,7 @@ class JointSystem {
   std::size_t min_pivot_place_ = 0;
   int frozen_count_ = 0;
   std::vector<char> frozen_;   // by place: dependent rows that stay so; empty: none
-  std::vector<Hinge> hinges_;  // in elimination order; empty unless all rows are of hinges in lines
+  std::vector<Hinge> hinges_;  // in elimination order; empty unless all rows are of hinges in chains
   std::vector<HingeBlock> hinge_blocks_;
   std::vector<std::size_t> filled_;  // while factorising: end of the known part of a column
   mutable std::vector<Real> work_;

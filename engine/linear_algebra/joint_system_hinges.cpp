@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "engine/linear_algebra/joint_system.h"
@@ -78,14 +78,14 @@ typename JointSystem<Real>::HingeBlock JointSystem<Real>::hinge_block(const Row<
     const Real mass = inverse_mass_[one.body], inertia = inverse_inertia_[one.body];
     const Vec2<Real> weighted_linear = mass * two.linear;
     const Real weighted_angular = inertia * two.angular;
-    block.rest[0] += mass * one.linear.x * one.linear.x + mass * one.linear.y * one.linear.y +
-                     inertia * one.angular * one.angular;
-    block.rest[1] +=
+    block.reduced[0] += mass * one.linear.x * one.linear.x + mass * one.linear.y * one.linear.y +
+                        inertia * one.angular * one.angular;
+    block.reduced[1] +=
         weighted_linear.x * one.linear.x + weighted_linear.y * one.linear.y + weighted_angular * one.angular;
-    block.rest[2] +=
+    block.reduced[2] +=
         weighted_linear.x * two.linear.x + weighted_linear.y * two.linear.y + weighted_angular * two.angular;
   }
-  block.own[0] = block.rest[0], block.own[1] = block.rest[2];
+  block.diagonal[0] = block.reduced[0], block.diagonal[1] = block.reduced[2];
   return block;
 }
 
@@ -99,9 +99,10 @@ int JointSystem<Real>::factor_hinges(std::span<const Row<Real>> rows) {
     const Hinge& hinge = hinges_[h];
     const HingeBlock& block = hinge_blocks_[h];
     const auto place = static_cast<std::size_t>(hinge.place);
-    dependent += take_pivot(block.rest[0], block.own[0], place) ? 0 : 1;
-    const Real inverse1 = inverse_diagonal_[place], within = block.rest[1] * inverse1;
-    dependent += take_pivot(block.rest[2] - within * block.rest[1], block.own[1], place + 1) ? 0 : 1;
+    dependent += set_pivot(block.reduced[0], block.diagonal[0], place) ? 0 : 1;
+    const Real inverse1 = inverse_diagonal_[place], within = block.reduced[1] * inverse1;
+    dependent +=
+        set_pivot(block.reduced[2] - within * block.reduced[1], block.diagonal[1], place + 1) ? 0 : 1;
     const Real inverse2 = inverse_diagonal_[place + 1];
     Real* first = lower_.data() + column_start_[place];
     first[0] = within;
@@ -124,9 +125,9 @@ int JointSystem<Real>::factor_hinges(std::span<const Row<Real>> rows) {
       l[i][1] = y[i][1] * inverse2;
     }
     for (int c = 0; c < 2; ++c) {
-      below.rest[0] -= l[0][c] * y[0][c];
-      below.rest[1] -= l[0][c] * y[1][c];
-      below.rest[2] -= l[1][c] * y[1][c];
+      below.reduced[0] -= l[0][c] * y[0][c];
+      below.reduced[1] -= l[0][c] * y[1][c];
+      below.reduced[2] -= l[1][c] * y[1][c];
     }
     first[1] = l[0][0], first[2] = l[1][0];
     Real* second = lower_.data() + column_start_[place + 1];

@@ -5,21 +5,21 @@
 
 namespace plumb {
 
-void MatrixComponents::find(std::size_t size, std::span<const double> matrix) {
+void MatrixComponents::compute(std::size_t size, std::span<const double> matrix) {
   assert(matrix.size() == size * size);
   size_ = size;
-  found_.assign(size, 0);
+  visited_.assign(size, 0);
   rows_.clear();
   starts_.assign(1, 0);
   for (std::size_t first = 0; first < size; ++first) {
-    if (found_[first]) continue;
-    found_[first] = 1;
+    if (visited_[first]) continue;
+    visited_[first] = 1;
     rows_.push_back(first);
     for (std::size_t next = starts_.back(); next < rows_.size(); ++next) {
       const std::size_t i = rows_[next];
       for (std::size_t j = 0; j < size; ++j) {
-        if (found_[j] || (matrix[i * size + j] == 0 && matrix[j * size + i] == 0)) continue;
-        found_[j] = 1;
+        if (visited_[j] || (matrix[i * size + j] == 0 && matrix[j * size + i] == 0)) continue;
+        visited_[j] = 1;
         rows_.push_back(j);
       }
     }
@@ -28,12 +28,13 @@ void MatrixComponents::find(std::size_t size, std::span<const double> matrix) {
   }
 }
 
-void MatrixComponents::take(std::size_t p, std::span<const double> matrix, std::vector<double>& out) const {
+void MatrixComponents::extract(std::size_t p, std::span<const double> matrix,
+                               std::vector<double>& out) const {
   assert(p < count() && matrix.size() == size_ * size_);
   if (count() == 1) return out.assign(matrix.begin(), matrix.end());
   out.clear();
-  for (const std::size_t i : part(p)) {
-    for (const std::size_t j : part(p)) out.push_back(matrix[i * size_ + j]);
+  for (const std::size_t i : component(p)) {
+    for (const std::size_t j : component(p)) out.push_back(matrix[i * size_ + j]);
   }
 }
 

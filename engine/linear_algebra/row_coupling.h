@@ -39,11 +39,11 @@ inline void couple(std::span<const BoundedBody> bodies, const BoundedRow& r, con
   const Vec2d linear = from_a ? r.linear_a : r.linear_b;
   const double angular = from_a ? r.angular_a : r.angular_b;
   const double x = body.inverse_mass.x * linear.x, y = body.inverse_mass.y * linear.y,
-               turn = body.inverse_inertia * angular;
+               angular_response = body.inverse_inertia * angular;
   const bool at_a = s->a == (from_a ? r.a : r.b);
   for (int k = 0; k < count; ++k)
-    out[k] = at_a ? x * s[k].linear_a.x + y * s[k].linear_a.y + turn * s[k].angular_a
-                  : x * s[k].linear_b.x + y * s[k].linear_b.y + turn * s[k].angular_b;
+    out[k] = at_a ? x * s[k].linear_a.x + y * s[k].linear_a.y + angular_response * s[k].angular_a
+                  : x * s[k].linear_b.x + y * s[k].linear_b.y + angular_response * s[k].angular_b;
 }
 
 /// Returns true if two rows act on a dynamic body in common.

@@ -9,7 +9,7 @@ namespace plumb {
 inline constexpr int kSmallRows = 16;
 // Smallest pivot, relative to its diagonal, of a system that needs no regularisation. With a thousandth of
 // this value, refinement would leave errors of 1e-9.
-inline constexpr double kLeastPivot = 1e-4;
+inline constexpr double kMinPivot = 1e-4;
 
 /// A symmetric matrix of few rows. Each row is stored from its first entry to the diagonal; all rows have the
 /// same width.
@@ -31,7 +31,7 @@ struct SmallMatrix {
         pivot -= l * row[j];
         row[j] = l;
       }
-      if (!(pivot > kLeastPivot * diagonal)) return false;
+      if (!(pivot > kMinPivot * diagonal)) return false;
       inverse_pivot[i] = 1 / pivot;
     }
     return true;

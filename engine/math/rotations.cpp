@@ -12,7 +12,7 @@ namespace {
 
 // pi as parts of 33 bits and a remainder. A part times a number of half turns below 2^20 is exact.
 constexpr double kPi1 = 0x1.921fb544p+1, kPi2 = 0x1.0b4611a6p-33, kPiRest = 0x1.3198a2e037073p-68;
-constexpr double kFarthest = 0x1p20;
+constexpr double kMaxPosition = 0x1p20;
 
 // Coefficients of sin r = r + r^3 (...) and cos r = 1 - r^2/2 + r^4 (...), from the highest power of r^2
 // down.
@@ -63,7 +63,7 @@ void four_rotations(const double* angle, double* cosine, double* sine) {
 void rotations_of(std::span<const double> angles, std::span<double> cosines, std::span<double> sines) {
   const std::size_t count = angles.size(), whole = count - count % kLanes;
   bool far = false;
-  for (const double angle : angles) far |= !(std::abs(angle) <= kFarthest);
+  for (const double angle : angles) far |= !(std::abs(angle) <= kMaxPosition);
   if (far) {
     for (std::size_t i = 0; i < count; ++i) {
       const Rotation<double> q = rotation_of(angles[i]);

@@ -31,9 +31,9 @@ namespace {
 
 // Changes the number or the source of a world's threads by calling `set`.
 template <class Real, class Set>
-void set_crew(WorldData<Real>& w, const Set& set) {
+void set_scheduler(WorldData<Real>& w, const Set& set) {
   try {
-    set(w.crew);
+    set(w.scheduler);
   } catch (const std::system_error& error) {
     throw Error(Error::Kind::Run, "world", "threads", "", std::string("cannot be started: ") + error.what());
   }
@@ -45,13 +45,13 @@ template <class Real>
 BasicWorld<Real>::BasicWorld(const WorldDefinition& definition) : data_(OwnedPointer(new WorldData<Real>)) {
   validate(definition);
   data_->settings = definition;
-  data_->settings.threads = 1;  // the crew stores the number
-  set_crew(*data_, [&](Crew& crew) { crew.set_threads(definition.threads); });
+  data_->settings.threads = 1;  // the scheduler stores the number
+  set_scheduler(*data_, [&](LoopScheduler& scheduler) { scheduler.set_threads(definition.threads); });
 }
 // If a callback destroys the world, the running call takes over its data and deletes them.
 template <class Real>
 BasicWorld<Real>::~BasicWorld() {
-  if (data_.moved_away() || (!data_->stepping && data_->callers == 0)) return;
+  if (data_.moved_away() || (!data_->stepping && data_->active_callbacks == 0)) return;
   data_->abandoned = true;
   (void)data_.release();
 }
@@ -199,11 +199,11 @@ template <class Real>
 void BasicWorld<Real>::set_threads(int threads) {
   unlocked(*this);
   require_threads(threads);
-  set_crew(*data_, [&](Crew& crew) { crew.set_threads(threads); });
+  set_scheduler(*data_, [&](LoopScheduler& scheduler) { scheduler.set_threads(threads); });
 }
 template <class Real>
 int BasicWorld<Real>::threads() const {
-  return data().crew.threads();
+  return data().scheduler.threads();
 }
 template <class Real>
 void BasicWorld<Real>::set_task_system(const TaskSystem& tasks) {
@@ -212,7 +212,7 @@ void BasicWorld<Real>::set_task_system(const TaskSystem& tasks) {
     throw Error(Error::Kind::Value, "task system", tasks.start == nullptr ? "start" : "finish", "null",
                 "must be given: both functions, or none for the world's own pool");
   }
-  set_crew(*data_, [&](Crew& crew) { crew.set_tasks(tasks); });
+  set_scheduler(*data_, [&](LoopScheduler& scheduler) { scheduler.set_tasks(tasks); });
 }
 
 template <class Real>
@@ -249,7 +249,7 @@ WorldCounts BasicWorld<Real>::counts() const {
           static_cast<int>(w.awake.size()),
           w.shapes.count(),
           w.contacts.count(),
-          static_cast<int>(w.graph.size() + w.parked.size()),
+          static_cast<int>(w.graph.size() + w.sleeping_contacts.size()),
           w.joints.count()};
 }
 
@@ -341,7 +341,7 @@ void BasicWorld<Real>::wake_all() {
 template <class Real>
 void BasicWorld<Real>::wake_pre_solve_contacts() {
   data_->contacts.for_each([&](int, const ContactRecord& contact) {
-    if (contact.pre_solve && contact.home == ContactHome::Parked)
+    if (contact.pre_solve && contact.home == ContactHome::Sleeping)
       wake_body(*data_, contact.body_a), wake_body(*data_, contact.body_b);
   });
 }

@@ -10,9 +10,9 @@
 #include "engine/collision/broad_phase/dynamic_tree.h"
 #include "engine/collision/broad_phase/pair_set.h"
 #include "engine/core/block_lists.h"
-#include "engine/core/crew.h"
 #include "engine/core/lazy_array.h"
 #include "engine/core/locked_pool.h"
+#include "engine/core/loop_scheduler.h"
 #include "engine/core/slot_map.h"
 #include "engine/linear_algebra/bounded_rows.h"
 #include "engine/world/contact_solver/contact_graph.h"
@@ -51,7 +51,7 @@ struct BodyRecord {
   int uncommon = kNone;        ///< index of its BodyExtras
   Real mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass; negative: unknown, for a static body
   Vec2<Real> centre{};         ///< m, centre of rotation in the body's frame: mass.h
-  Real half_width = 0;         ///< m, smallest half width of its shapes; negative if in `unsettled`
+  Real half_width = 0;         ///< m, smallest half width of its shapes; negative if in `mass_changed_bodies`
   Real sleep_time = 0;         ///< s, sleep timer
   double angle = 0;            ///< rad, whole turns counted
 
@@ -101,17 +101,17 @@ struct ShapeRecord {
 };
 
 enum class ContactHome : std::uint8_t {
-  Near,    ///< awake, fat AABBs overlap, no points
-  Graph,   ///< awake, with points: in the constraint graph
-  Parked,  ///< with points, all its bodies asleep
-  Idle,    ///< without points, all its bodies asleep
+  NonTouching,          ///< awake, fat AABBs overlap, no points
+  Graph,                ///< awake, with points: in the constraint graph
+  Sleeping,             ///< with points, all its bodies asleep
+  SleepingNonTouching,  ///< without points, all its bodies asleep
 };
 
 struct ContactRecord {
   int shape_a = 0, shape_b = 0;
   int body_a = 0, body_b = 0;
   int previous[2] = {kNone, kNone}, next[2] = {kNone, kNone};  ///< edges in the two bodies' lists
-  ContactHome home = ContactHome::Near;
+  ContactHome home = ContactHome::NonTouching;
   std::int8_t colour = 0;
   bool touching = false;  ///< as reported by events
   bool pre_solve = false, hit_events = false;
@@ -179,7 +179,7 @@ template <class Real>
 struct ExpectedImpact {
   ContactConstraint<Real> constraint;
   bool in_graph = false;  ///< it had points before; else it gets them if the solver takes it
-  bool left = false;      ///< left to the solver
+  bool left_to_solver = false;
 };
 
 /// A shape that has left its fat AABB, with its next fat AABB.
@@ -194,7 +194,7 @@ template <class Real>
 struct BegunContact {
   ContactConstraint<Real> constraint{};
   bool bounces = false;          ///< it is one of the `bouncing`
-  bool pressing = false;         ///< it will be under load in this step
+  bool loaded = false;           ///< it will be under load in this step
   bool needs_pre_solve = false;  ///< the user's pre-solve hook is to be called for it
   bool disabled = false;         ///< it was disabled
 };
@@ -323,15 +323,15 @@ struct Scratch {
   std::vector<std::pair<int, int>> found_pairs;
   BlockLists<std::pair<int, int>> found_pairs_of;  ///< by block of moved shapes
   std::vector<char> has_overlap;                   ///< by proxy of the dynamic tree
-  std::vector<int> lost_contacts, ended_contacts, touch_changes;
-  std::vector<int> parted_contacts;  ///< touched at an impact in flight, and have no points now
+  std::vector<int> separated_contacts, ended_contacts, touch_changes;
+  std::vector<int> bounced_contacts;  ///< touched at an impact in flight, and have no points now
   BlockLists<BegunContact<Real>> begun_contacts;
   BlockLists<ExpectedImpact<Real>> found_impacts;
-  BlockLists<std::pair<int, int>> found_pressed;      ///< bodies that will be loaded by a contact
-  std::vector<ContactConstraint<Real>> left_impacts;  ///< of contacts without points, left to the solver
+  BlockLists<std::pair<int, int>> found_loaded;         ///< bodies that will be loaded by a contact
+  std::vector<ContactConstraint<Real>> solver_impacts;  ///< of contacts without points, left to the solver
   std::vector<ContactRun<Real>> contact_runs;
   std::vector<char> has_contact_load;         ///< by body: a contact presses on it
-  std::vector<std::uint8_t> contact_changes;  ///< by contact that is updated: near ones, then the graph's
+  std::vector<std::uint8_t> contact_changes;  ///< by updated contact: nontouching ones, then the graph's
   std::vector<std::uint8_t>
       separating_faces;  ///< by contact without points: the face that separates its shapes
   std::vector<VelocityIncrement<Real>> velocity_increments;  ///< of the awake bodies that move by substeps
@@ -361,15 +361,16 @@ struct Scratch {
   std::vector<int> tree_root_of, link_index;    ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set
   std::vector<int> bounce_candidates;  ///< contacts with restitution, or possibly of discs that approach fast
-  std::vector<int> unparked;           ///< contacts that have come back from sleepers in the step
+  std::vector<int> woken_contacts;     ///< contacts of bodies that woke in the step
   std::vector<RestitutionContact<Real>> restitution_contacts;
   std::vector<char> is_scalar;          ///< by contact: not solved in SIMD lanes
   std::vector<char> joints_in_islands;  ///< by the joint's slot: solved with its island
   SoftContacts<Real> soft_contacts;
   std::vector<ExpectedImpact<Real>> expected_impacts;
-  std::vector<int> pressed_bodies;  ///< bodies that contacts or joints will hold in this step
-  std::vector<int> expecting_bodies;
-  std::vector<char> pressed, expecting;  ///< by body: true if it is in that list; all 0 if the list is empty
+  std::vector<int> loaded_bodies;  ///< bodies that contacts or joints will load in this step
+  std::vector<int> impact_bodies;
+  std::vector<char> is_loaded,
+      expects_impact;  ///< by body: true if it is in that list; all 0 if the list is empty
   ImpactScratch<Real> impacts{&memory};
   std::vector<char> cannot_sleep;
   BlockLists<ProxyUpdate<Real>> proxy_updates;  ///< by block of awake bodies, as are the next two
@@ -401,7 +402,7 @@ struct WorldData {
 
   // Bodies, by index.
   SlotMap<BodyRecord<Real>> bodies;
-  SlotMap<BodyExtras<Real>> uncommon;
+  SlotMap<BodyExtras<Real>> body_extras;
   LazyArray<Load<Real>> loads;
   LazyArray<std::uint64_t> body_data;  ///< user data
   std::vector<SolverBody<Real>> motion;
@@ -411,12 +412,12 @@ struct WorldData {
   std::vector<Real> extents;               ///< m, from the centre of mass to the farthest point
   std::vector<char> enlarged;              ///< a shape of it left its fat AABB in the last step
   std::vector<int> awake;
-  std::vector<int> unsettled;  ///< bodies with changed shapes: mass.h
+  std::vector<int> mass_changed_bodies;  ///< their masses must be updated: mass.h
 
   // Shapes, by index.
   SlotMap<ShapeRecord<Real>> shapes;
   std::vector<ShapeForm<Real>> forms;
-  std::vector<Aabb<Real>> boxes;  ///< tight AABBs
+  std::vector<Aabb<Real>> tight_aabbs;
   CornerPool<Real> corners;
   LazyArray<std::uint64_t> shape_data;  ///< user data
   SlotMap<ChainRecord> chains;
@@ -426,25 +427,26 @@ struct WorldData {
   // Contacts.
   SlotMap<ContactRecord> contacts;
   PairSet pairs;
-  std::vector<int> near;
+  std::vector<int> nontouching_contacts;
   ContactGraph<Real> graph;
-  std::vector<ContactConstraint<Real>> parked;
+  std::vector<ContactConstraint<Real>> sleeping_contacts;
 
   SlotMap<JointRecord> joints;
   JointSet<Real> joint_set;
 
   std::vector<SensorRecord> sensors;
-  std::vector<int> load_limits;  ///< joints that break, or report their load
+  std::vector<int> load_limited_joints;  ///< joints that break, or report their load
   std::vector<QuarantinedBody> quarantine;
   Events events;   ///< of the last step
   Events pending;  ///< since then; reported with the next step
   bool stepping = false;
   bool profiled = false;  ///< stages are timed
   WorldProfile profile{};
-  Crew crew;                            ///< the threads that share a step
-  mutable std::atomic<int> callers{0};  ///< number of the user's callbacks that read the world now: lock.h
-  bool abandoned = false;               ///< its owner is destroyed; the last callback deletes it
-  bool reports_hits = false;            ///< a shape has hit events
+  LoopScheduler scheduler;  ///< the threads that share a step
+  mutable std::atomic<int> active_callbacks{
+      0};                        ///< number of the user's callbacks that read the world now: lock.h
+  bool abandoned = false;        ///< its owner is destroyed; the last callback deletes it
+  bool reports_hits = false;     ///< a shape has hit events
   bool topology_changed = true;  ///< since islands were last found: a contact or joint was added or removed,
                                  ///< or a body woke or fell asleep
   Scratch<Real> scratch;
@@ -470,7 +472,7 @@ struct WorldData {
   const BodyExtras<Real>& extras_of(int body) const {
     static const BodyExtras<Real> common;
     const int place = bodies[body].uncommon;
-    return place == kNone ? common : uncommon[place];
+    return place == kNone ? common : body_extras[place];
   }
   Convex<Real> convex(int shape) const {
     const ShapeForm<Real>& form = forms[shape];

@@ -99,7 +99,7 @@ std::string Caller<Real, Target>::mass_is_wrong(const char* call, const Material
 template <class Real, class Target>
 std::vector<BodyHash> Caller<Real, Target>::single_hashes() const {
   std::vector<BodyHash> out;
-  if (world_.data().unsettled.empty()) hash_awake_bodies(world_.data(), out);
+  if (world_.data().mass_changed_bodies.empty()) hash_awake_bodies(world_.data(), out);
   return out;
 }
 

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/crew.h"
+#include "engine/core/loop_scheduler.h"
 #include "engine/scene/error.h"
 #include "engine/simulation/simulation.h"
 #include "engine/world/add_scene.h"
@@ -113,9 +113,9 @@ std::string damaged_world(const Case& one, std::string& flags) {
 // Checks that each block runs once, in the caller's floating-point environment, and that its exceptions are
 // passed on.
 std::string shared_loops(Random& random) {
-  Crew crew;
-  crew.set_threads(random.whole(2, 4)), crew.set_eager(true);
-  crew.set_order(random.pick({LoopOrder::Ascending, LoopOrder::Descending, LoopOrder::Shuffled}));
+  LoopScheduler scheduler;
+  scheduler.set_threads(random.whole(2, 4)), scheduler.set_eager(true);
+  scheduler.set_order(random.pick({LoopOrder::Ascending, LoopOrder::Descending, LoopOrder::Shuffled}));
   const int blocks = random.whole(2, 60), bad = random.chance(0.5) ? random.whole(0, blocks - 1) : -1;
   const int rounding = random.pick({FE_TONEAREST, FE_UPWARD, FE_DOWNWARD}), usual = std::fegetround();
   std::vector<std::atomic<int>> runs(static_cast<std::size_t>(blocks));
@@ -123,7 +123,7 @@ std::string shared_loops(Random& random) {
   std::fesetround(rounding);
   int caught = -1;
   try {
-    crew.blocks(blocks, [&](int block) {
+    scheduler.blocks(blocks, [&](int block) {
       // Long enough for other threads to arrive.
       volatile double sum = 0;
       for (int i = 0; i < 2000; ++i) sum = sum + i;

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/crew.h"
+#include "engine/core/loop_scheduler.h"
 #include "engine/math/vector_width.h"
 #include "engine/scene/error.h"
 #include "engine/world/add_scene.h"
@@ -138,7 +138,7 @@ template <class Real>
 std::string hooked(const BasicWorld<Real>& world, const Case& one) {
   BasicWorld<Real> other(definition_of(one));
   restore(other, save(world));
-  other.set_threads(2), other.data().crew.set_eager(true);
+  other.set_threads(2), other.data().scheduler.set_eager(true);
   for (const BodyId body : other.bodies())
     for (const ShapeId shape : other.shapes(body)) other.set_pre_solve(shape, true);
   bool asked = false, changed = false, throws = true;
@@ -186,7 +186,7 @@ std::string live_as_twins(const Case& one, const Otherwise& otherwise) {
   const auto ready = [&](BasicWorld<Real>& world) {
     if (!otherwise.threads) return;
     world.set_threads(2);
-    world.data().crew.set_eager(true);
+    world.data().scheduler.set_eager(true);
   };
   // Setting a hook wakes bodies, so both worlds get theirs at the same time.
   const auto hook = [](BasicWorld<Real>& world) {

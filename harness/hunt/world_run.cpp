@@ -226,7 +226,7 @@ class Run {
 
   // Applies the parts of a run mode that are there from the start.
   void prepare() {
-    if (options_.mode == RunMode::Threaded) world_.data().crew.set_eager(true);
+    if (options_.mode == RunMode::Threaded) world_.data().scheduler.set_eager(true);
     if (options_.mode == RunMode::Observed) monitor_.emplace(world_), world_.set_profiling(true);
     if (options_.mode == RunMode::RolledBack) states_.emplace(world_, 2);
     if (options_.mode == RunMode::Labelled) label(world_);

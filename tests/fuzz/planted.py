@@ -39,7 +39,7 @@ BUGS = [
              'if (!simulator_) throw Error(Error::Kind::Run, "request", "run", "", "no scene is loaded");', "",
              suite="worker"),
     Mutation("a body that goes leaves what is its own", "engine/world/state/bodies.cpp",
-             "if (w.bodies[body].uncommon != kNone) w.uncommon.remove(w.bodies[body].uncommon);", "", suite="world"),
+             "if (w.bodies[body].uncommon != kNone) w.body_extras.remove(w.bodies[body].uncommon);", "", suite="world"),
 ]
 
 

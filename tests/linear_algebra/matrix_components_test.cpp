@@ -15,7 +15,7 @@ namespace {
 using Matrix = std::vector<double>;
 
 std::vector<std::size_t> part(const MatrixComponents& parts, std::size_t p) {
-  return {parts.part(p).begin(), parts.part(p).end()};
+  return {parts.component(p).begin(), parts.component(p).end()};
 }
 
 TEST(MatrixComponents, FollowEntriesEitherWay) {
@@ -25,15 +25,15 @@ TEST(MatrixComponents, FollowEntriesEitherWay) {
   for (const std::size_t i : {0, 1, 3, 4, 5}) m[i * n + i] = 1;
   m[0 * n + 3] = m[5 * n + 3] = m[4 * n + 1] = 1e-300;
   MatrixComponents parts;
-  parts.find(n, m);
+  parts.compute(n, m);
   ASSERT_EQ(parts.count(), 3u);
   EXPECT_EQ(part(parts, 0), (std::vector<std::size_t>{0, 3, 5}));
   EXPECT_EQ(part(parts, 1), (std::vector<std::size_t>{1, 4}));
   EXPECT_EQ(part(parts, 2), (std::vector<std::size_t>{2}));
   Matrix own;
-  parts.take(0, m, own);
+  parts.extract(0, m, own);
   EXPECT_EQ(own, (Matrix{1, 1e-300, 0, 0, 1, 0, 0, 1e-300, 1}));
-  parts.find(0, {});
+  parts.compute(0, {});
   EXPECT_EQ(parts.count(), 0u);
 }
 

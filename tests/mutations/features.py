@@ -23,7 +23,7 @@ FEATURES = [
             "convex_hull(polygon.points), 0", "world/shapes"),
     feature("Segment", WORLD + "state/shapes.cpp", "capsule_corners(segment.start, segment.end), 0",
             "capsule_corners(segment.start, segment.start), 0", "world/shapes"),
-    feature("Chain with smooth seams", WORLD + "state/seams.h",
+    feature("Chain with smooth seams", WORLD + "state/internal_edges.h",
             "collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, margin, pivot)",
             "collide_convex(shape_a, shape_b, b_in_a, margin, pivot)", "world/shapes"),
     feature("Compound", WORLD + "state/mass.cpp", "inertia += part.inertia + part.mass *", "inertia += part.inertia + 0 *",
@@ -36,7 +36,7 @@ FEATURES = [
     feature("Density, sensor, hit events, hook changed later", WORLD + "state/shapes.cpp",
             "record_mass_change(w, body); wake_body(w, body); }", "wake_body(w, body); }", "world/changes"),
     feature("Boxes; rays and points at one shape", WORLD + "world_bodies.h", "all = merged(all, current_aabb(*data_, shape));",
-            "all = data_->boxes[shape];", "world/changes"),
+            "all = data_->tight_aabbs[shape];", "world/changes"),
 
     # Bodies.
     feature("Static, kinematic, dynamic", WORLD + "integration/free_motion.cpp",
@@ -57,9 +57,9 @@ FEATURES = [
             "if (valid(body) && !w.bodies[static_cast<int>(body.index)].awake) add(body);", "", "world/changes"),
 
     # Materials.
-    feature("Friction", WORLD + "contact_solver/contact_passes.h", "most = c.friction * normal_sum(c);", "most = normal_sum(c) / 2;",
+    feature("Friction", WORLD + "contact_solver/contact_passes.h", "max_friction = c.friction * normal_sum(c);", "max_friction = normal_sum(c) / 2;",
             "world/contacts"),
-    feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = c.restitution * strike;", "rebound = strike;",
+    feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = c.restitution * impact_speed;", "rebound = impact_speed;",
             "world/restitution"),
     feature("Rolling resistance", WORLD + "state/contact_setup.cpp",
             "std::max(a.rolling_resistance, b.rolling_resistance)", "std::min(a.rolling_resistance, b.rolling_resistance)",
@@ -155,7 +155,7 @@ FEATURES = [
     feature("Filters of queries", WORLD + "queries/queries.cpp", "if (w.forms[shape].sensor && !filter.sensors) return false;",
             "", "world/queries", "world/queries_use"),
     feature("Continuous collision", WORLD + "step/step.cpp",
-            "w.crew.session([&] { solve_continuous(w, static_cast<Real>(dt)); });", "", "world/resting"),
+            "w.scheduler.session([&] { solve_continuous(w, static_cast<Real>(dt)); });", "", "world/resting"),
     feature("Islands, sleeping, waking", WORLD + "state/sleeping.cpp",
             "for_each_constraint_edge(w, body, [&](int other) { wake_body(w, other); });", "", "world/resting"),
     feature("Character mover", WORLD + "character/mover.cpp", "if (step_up(speed)) return true;", "", "world/mover"),
@@ -175,7 +175,7 @@ FEATURES = [
     feature("Debug drawing", WORLD + "drawing/debug_draw.cpp", "out.segment(ground_a, ground_b, role);", "", "world/debug_draw"),
 
     # Solvers.
-    feature("Threads", WORLD + "world.cpp", "crew.set_threads(threads); });", "crew.set_threads(1); });", "world/threads"),
+    feature("Threads", WORLD + "world.cpp", "scheduler.set_threads(threads); });", "scheduler.set_threads(1); });", "world/threads"),
     feature("Soft steps", WORLD + "solvers/soft_step.cpp", "soft_contacts.relax(bodies.motion, contacts);", "",
             "world/resting", "world/restitution"),
     feature("Direct solution of small islands (heavy on light)", WORLD + "solvers/soft_step.cpp",

@@ -312,7 +312,7 @@ TYPED_TEST(Histories, EventsBetweenStepsDoNotGrowWithoutBound) {
   }
   const WorldData<TypeParam>& w = std::as_const(world).data();
   EXPECT_LT(w.move_buffer.size(), 200u);
-  EXPECT_LT(w.unsettled.size(), 10u);
+  EXPECT_LT(w.mass_changed_bodies.size(), 10u);
   world.step();
   EXPECT_LT(world.events().woke.size() + world.events().fell_asleep.size(), 500u);
   EXPECT_LE(world.events().quarantined.size(), 1u);

@@ -70,8 +70,8 @@ class OddTasks {
 template <class Real>
 void share_all(BasicWorld<Real>& world, int threads, LoopOrder order = LoopOrder::Ascending) {
   world.set_threads(threads);
-  world.data().crew.set_eager(true);
-  world.data().crew.set_order(order);
+  world.data().scheduler.set_eager(true);
+  world.data().scheduler.set_order(order);
 }
 
 /// Calls `act(thread)` for numbers of threads, orders of blocks and job systems of all kinds; `thread(world)`

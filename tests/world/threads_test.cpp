@@ -372,16 +372,16 @@ TEST(ThreadErrors, MemoryThatRunsOutReachesTheCaller) {
   EXPECT_GT(thrown, 10);
 }
 
-TEST(Crews, RethrowWhatTheFirstBlockThrewAndRunTheOthers) {
+TEST(LoopSchedulers, RethrowWhatTheFirstBlockThrewAndRunTheOthers) {
   for (const LoopOrder order : {LoopOrder::Ascending, LoopOrder::Descending}) {
-    Crew crew;
-    crew.set_threads(3);
-    crew.set_eager(true), crew.set_order(order);
+    LoopScheduler scheduler;
+    scheduler.set_threads(3);
+    scheduler.set_eager(true), scheduler.set_order(order);
     std::atomic<int> run = 0;
     for (int round = 0; round < 200; ++round) {
       run = 0;
       try {
-        crew.blocks(100, [&](int block) {
+        scheduler.blocks(100, [&](int block) {
           ++run;
           if (block % 7 == 3) throw block;
         });
@@ -394,17 +394,17 @@ TEST(Crews, RethrowWhatTheFirstBlockThrewAndRunTheOthers) {
   }
 }
 
-TEST(Crews, RunEachBlockOnceForAllCountsAndOrders) {
+TEST(LoopSchedulers, RunEachBlockOnceForAllCountsAndOrders) {
   for (const LoopOrder order : {LoopOrder::Ascending, LoopOrder::Descending, LoopOrder::Shuffled}) {
     for (const int threads : {1, 2, 3, 8}) {
-      Crew crew;
-      crew.set_threads(threads);
-      crew.set_eager(true), crew.set_order(order);
+      LoopScheduler scheduler;
+      scheduler.set_threads(threads);
+      scheduler.set_eager(true), scheduler.set_order(order);
       for (int count = 0; count < 70; ++count) {
         std::vector<std::atomic<int>> times(70);
-        crew.session([&] {
-          crew.blocks(count, [&](int block) { ++times[block]; });
-          crew.ranges(count, 4, [&](int first, int last) {
+        scheduler.session([&] {
+          scheduler.blocks(count, [&](int block) { ++times[block]; });
+          scheduler.ranges(count, 4, [&](int first, int last) {
             for (int i = first; i < last; ++i) ++times[i];
           });
         });

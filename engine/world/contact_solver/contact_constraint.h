@@ -13,10 +13,10 @@ enum class ContactHardness : std::uint8_t {
   Rigid,  ///< solved by the direct solver
 };
 
-/// Reasons to record a contact's approach and largest impulses.
-enum class Watch : std::uint8_t {
+/// Reasons to record a contact's approach velocity and largest impulses.
+enum class ImpactTracking : std::uint8_t {
   Off,      ///< nothing is recorded
-  Reports,  ///< hit events or the user's hook ask for it
+  Reports,  ///< hit events or the user's hook need it
   Motion,   ///< it may bounce, or does not touch yet
 };
 
@@ -33,45 +33,45 @@ struct ContactConstraint {
   Vec2<Real> normal{};                    ///< unit, from a to b
   Real arm_a[2] = {}, arm_tangent_a = 0;  ///< m, r x n of each point, r x t half-way between them
   Real arm_b[2] = {}, arm_tangent_b = 0;
-  Real separation[2] = {};      ///< m, at the start of the step
-  Real now[2] = {};             ///< m, current separation, updated in each substep
-  Real normal_impulse[2] = {};  ///< N s, of the last substep
-  Real load_estimate[2] = {};   ///< N s, low-pass filtered normal impulse
-  Real tangent_impulse = 0;     ///< N s
+  Real separation[2] = {};          ///< m, at the start of the step
+  Real current_separation[2] = {};  ///< m, updated in each substep
+  Real normal_impulse[2] = {};      ///< N s, of the last substep
+  Real load_estimate[2] = {};       ///< N s, low-pass filtered normal impulse
+  Real tangent_impulse = 0;         ///< N s
   /// kg: effective mass of each point alone, and the inverse of the 2 x 2 matrix K = J M^-1 J^T of both
   /// points. With one point the inverse is that point's mass, and the rest is 0.
   Real mass[2] = {}, inverse_pp = 0, inverse_pq = 0, inverse_qq = 0;
-  Real between = 0;        ///< 1/kg, K's entry between the points
-  Real tangent_mass = 0;   ///< kg
-  Real friction = 0;       ///< Coulomb's coefficient
-  Real push_speed = 0;     ///< m/s, depenetration speed
-  Real surface_speed = 0;  ///< m/s, target relative velocity along t, by friction
+  Real k_pq = 0;                 ///< 1/kg, K's entry between the points
+  Real tangent_mass = 0;         ///< kg
+  Real friction = 0;             ///< Coulomb's coefficient
+  Real depenetration_speed = 0;  ///< m/s, maximum at which overlaps are removed
+  Real surface_speed = 0;        ///< m/s, target relative velocity along t, by friction
   ContactHardness hardness = ContactHardness::Soft;
   std::uint8_t count = 0;  ///< points in use
   bool touching = false;   ///< as found at the start of a step; events may have reported it earlier
-  /// Reasons for which approach, peaks and the step's sum are recorded. The motion uses them only if it is
-  /// itself a reason: asking for reports changes no motion.
-  Watch watched = Watch::Off;
+  /// Reason to record `approach`, `max_normal_impulse` and `step_impulse`. The motion uses them only if it is
+  /// itself the reason, so that reports do not change it.
+  ImpactTracking tracking = ImpactTracking::Off;
 
   // Data that the solver's passes do not need.
-  Real restitution = 0;       ///< Newton's coefficient
-  Real rolling_arm = 0;       ///< m: the rolling resistance torque is this times the normal force
-  Real rolling_impulse = 0;   ///< N m s, of the last substep
-  Real peak_impulse[2] = {};  ///< N s, largest normal impulse of the substeps
-  Real step_impulse = 0;      ///< N s, sum of the normal impulses of the step, if it is watched
-  Real approach[2] = {};      ///< m/s, velocity along n at the start of the step, or at impact
-  Real recycle_budget = 0;    ///< m, relative motion left until the manifold is rebuilt
-  int contact = 0;            ///< index of its record
+  Real restitution = 0;             ///< Newton's coefficient
+  Real rolling_arm = 0;             ///< m: the rolling resistance torque is this times the normal force
+  Real rolling_impulse = 0;         ///< N m s, of the last substep
+  Real max_normal_impulse[2] = {};  ///< N s, largest normal impulse of the substeps
+  Real step_impulse = 0;            ///< N s, sum of the normal impulses of the step, if tracked
+  Real approach[2] = {};            ///< m/s, velocity along n at the start of the step, or at impact
+  Real recycle_budget = 0;          ///< m, relative motion left until the manifold is rebuilt
+  int contact = 0;                  ///< index of its record
   std::uint16_t features[2] = {};
   std::uint8_t locks = 0;  ///< locked axes of the bodies (locked_axes.h); 0 if a body has both locked
 };
 
-/// Returns true if a contact has pressed in the step, as far as the motion depends on it. A contact that does
-/// not bounce and was touching at the start presses at the end of the step too if it has pressed at all.
+/// Returns true if a contact has had a normal impulse in the step, as far as the motion depends on it. A
+/// contact without restitution that touched at the start has one at the end of the step if it has had any.
 template <class Real>
 bool has_pressed(const ContactConstraint<Real>& c) {
   if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) return true;
-  return c.watched == Watch::Motion && (c.peak_impulse[0] > 0 || c.peak_impulse[1] > 0);
+  return c.tracking == ImpactTracking::Motion && (c.max_normal_impulse[0] > 0 || c.max_normal_impulse[1] > 0);
 }
 
 }  // namespace plumb

@@ -8,11 +8,11 @@
 namespace plumb {
 
 /// Constraint graph: the contact constraints of awake bodies, grouped by graph colouring. No two of a colour
-/// share a dynamic body, so they may be solved in any order, or at the same time. Contacts with a static or
-/// kinematic body have colours of their own at the end: the constraints solved last hold best, and the ground
-/// should. The colouring is greedy and persistent: a constraint keeps its colour. Constraints without a
-/// colour (of a body with many contacts, as a drum or a wrecking ball) go to the overflow. It is solved in
-/// order, right before the contacts with the ground.
+/// share a dynamic body, so they may be solved in any order, or in parallel. Contacts with a static or
+/// kinematic body have their own colours at the end, because the constraints solved last are satisfied best.
+/// The colouring is greedy and persistent: a constraint keeps its colour. Constraints without a colour (of a
+/// body with many contacts, such as a drum or a wrecking ball) go to the overflow. It is solved in order,
+/// right before the contacts with static and kinematic bodies.
 template <class Real>
 class ContactGraph {
  public:
@@ -22,12 +22,12 @@ class ContactGraph {
     int colour = -1, index = -1;
   };
 
-  /// Adds `constraint`. `gives_way_a/b`: that body is dynamic.
-  Place add(const ContactConstraint<Real>& constraint, bool gives_way_a, bool gives_way_b);
+  /// Adds `constraint`. `is_dynamic_a/b`: that body is dynamic.
+  Place add(const ContactConstraint<Real>& constraint, bool is_dynamic_a, bool is_dynamic_b);
 
   /// Removes the constraint and moves the last of its colour to `place`, if there is one. Returns the record
   /// of the moved constraint, else -1.
-  int remove(Place place, bool gives_way_a, bool gives_way_b);
+  int remove(Place place, bool is_dynamic_a, bool is_dynamic_b);
 
   ContactConstraint<Real>& at(Place place) { return colours_[place.colour][place.index]; }
   const ContactConstraint<Real>& at(Place place) const { return colours_[place.colour][place.index]; }
@@ -59,8 +59,8 @@ class ContactGraph {
   /// Rebuilds each colour's set of bodies and the list of used colours, after constraints were written to the
   /// colours' lists directly. `is_dynamic(body)`: true if it is dynamic. Returns false if two constraints of
   /// a colour share a dynamic body.
-  template <class GivesWay>
-  bool find_bodies(GivesWay&& is_dynamic) {
+  template <class IsDynamic>
+  bool rebuild_bodies(IsDynamic&& is_dynamic) {
     bool sound = true;
     for (int c = 0; c < kColours; ++c) {
       bodies_[c].clear();
@@ -72,12 +72,12 @@ class ContactGraph {
         }
       }
     }
-    find_used();
+    update_used();
     return sound;
   }
 
  private:
-  void find_used();
+  void update_used();
 
   int used_[kColours + 1] = {};  // colours that are not empty, ascending
   int used_count_ = 0;

@@ -8,9 +8,9 @@
 
 namespace plumb {
 
-/// A contact and its two bodies, for solving one row at a time: for sequential impulses, position-based
-/// solvers and impacts in flight. The soft steps have their own passes, for SIMD lanes too (contact_passes.h
-/// and contact_pair.h).
+/// A contact and its two bodies, for solving one row at a time: used by sequential impulses, position-based
+/// solvers and impacts at their time of impact. The soft steps have their own passes, also for SIMD lanes
+/// (contact_passes.h and contact_pair.h).
 template <class Real>
 struct ContactPair {
   ContactPair(SolverBody<Real>* motion, ContactConstraint<Real>& contact)
@@ -22,79 +22,80 @@ struct ContactPair {
            c.arm_a[i] * a.delta_angle;
   }
   /// Returns the velocity of a point along the normal, m/s; negative: closing.
-  Real normal_rate(int i) const {
+  Real normal_velocity(int i) const {
     return dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
            c.arm_a[i] * a.angular_velocity;
   }
-  /// Returns the tangential velocity between the points minus the target surface speed, m/s.
-  Real sliding_rate() const {
+  /// Returns the relative tangential velocity minus the target surface speed, m/s.
+  Real slip_velocity() const {
     return dot(tangent(), b.velocity - a.velocity) + c.arm_tangent_b * b.angular_velocity -
            c.arm_tangent_a * a.angular_velocity - c.surface_speed;
   }
-  Real spin_mass() const {
+  Real rolling_mass() const {
     const Real inverse = a.inverse_inertia + b.inverse_inertia;
     return inverse > 0 ? 1 / inverse : Real(0);
   }
 
-  /// Applies impulses that bring the chosen points' velocities along n to `wanted`, such that their sums stay
+  /// Applies impulses that bring the chosen points' velocities along n to `target`, such that their sums stay
   /// >= 0. The points are coupled by the bodies' rotation and solved together (Catto, 2007). A point that
   /// would have to pull gets no impulse, and the other one is solved alone.
-  void press(const Real (&wanted)[2], bool first, bool second) {
+  void solve_normal_block(const Real (&target)[2], bool first, bool second) {
     const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
     Real dp = 0, dq = 0;
     if (first && second) {
-      const Real rate_p = normal_rate(0) - wanted[0], rate_q = normal_rate(1) - wanted[1];
+      const Real rate_p = normal_velocity(0) - target[0], rate_q = normal_velocity(1) - target[1];
       dp = -(c.inverse_pp * rate_p + c.inverse_pq * rate_q);
       dq = -(c.inverse_pq * rate_p + c.inverse_qq * rate_q);
       if (p + dp < 0 || q + dq < 0) {
         if (p + dp < q + dq) {
           dp = -p;
-          dq = std::max(-c.mass[1] * (rate_q + c.between * dp), -q);
+          dq = std::max(-c.mass[1] * (rate_q + c.k_pq * dp), -q);
         } else {
           dq = -q;
-          dp = std::max(-c.mass[0] * (rate_p + c.between * dq), -p);
+          dp = std::max(-c.mass[0] * (rate_p + c.k_pq * dq), -p);
         }
       }
     } else if (first) {
-      dp = std::max(-c.mass[0] * (normal_rate(0) - wanted[0]), -p);
+      dp = std::max(-c.mass[0] * (normal_velocity(0) - target[0]), -p);
     } else if (second) {
-      dq = std::max(-c.mass[1] * (normal_rate(1) - wanted[1]), -q);
+      dq = std::max(-c.mass[1] * (normal_velocity(1) - target[1]), -q);
     }
-    push(dp, dq);
+    apply_normal(dp, dq);
   }
-  void push(Real first, Real second) {
+  void apply_normal(Real first, Real second) {
     c.normal_impulse[0] += first, c.normal_impulse[1] += second;
     apply((first + second) * c.normal, first * c.arm_a[0] + second * c.arm_a[1],
           first * c.arm_b[0] + second * c.arm_b[1]);
   }
-  /// Returns the total friction impulse that would stop the sliding.
-  Real holding_impulse() const { return c.tangent_impulse - c.tangent_mass * sliding_rate(); }
-  Real holding_torque() const {
-    return c.rolling_impulse - spin_mass() * (b.angular_velocity - a.angular_velocity);
+  /// Returns the total friction impulse with which the contact would stick.
+  Real sticking_impulse() const { return c.tangent_impulse - c.tangent_mass * slip_velocity(); }
+  Real sticking_torque() const {
+    return c.rolling_impulse - rolling_mass() * (b.angular_velocity - a.angular_velocity);
   }
-  void rub(Real impulse) {
+  void set_friction(Real impulse) {
     const Real d = impulse - c.tangent_impulse;
     c.tangent_impulse = impulse;
     apply(d * tangent(), d * c.arm_tangent_a, d * c.arm_tangent_b);
   }
-  void roll(Real impulse) {
+  void set_rolling(Real impulse) {
     const Real d = impulse - c.rolling_impulse;
     c.rolling_impulse = impulse;
     apply({}, d, d);
   }
-  /// Applies Coulomb friction, |friction| <= mu pressure, and likewise the rolling resistance torque.
-  void rub_and_roll() {
-    const Real pressure = c.normal_impulse[0] + c.normal_impulse[1];
-    rub(std::clamp(holding_impulse(), -c.friction * pressure, c.friction * pressure));
-    resist_rolling();
+  /// Applies Coulomb friction, |friction| <= mu normal impulse, and likewise the rolling resistance torque.
+  void solve_friction_and_rolling() {
+    const Real total_normal = c.normal_impulse[0] + c.normal_impulse[1];
+    set_friction(std::clamp(sticking_impulse(), -c.friction * total_normal, c.friction * total_normal));
+    solve_rolling();
   }
-  void resist_rolling() {
-    const Real most = c.rolling_arm * (c.normal_impulse[0] + c.normal_impulse[1]);
-    if (c.rolling_arm > 0) roll(std::clamp(holding_torque(), -most, most));
+  void solve_rolling() {
+    const Real max_torque = c.rolling_arm * (c.normal_impulse[0] + c.normal_impulse[1]);
+    if (c.rolling_arm > 0) set_rolling(std::clamp(sticking_torque(), -max_torque, max_torque));
   }
-  void note_peaks() {
-    if (c.watched == Watch::Off) return;
-    for (int i = 0; i < 2; ++i) c.peak_impulse[i] = std::max(c.peak_impulse[i], c.normal_impulse[i]);
+  void record_max_impulse() {
+    if (c.tracking == ImpactTracking::Off) return;
+    for (int i = 0; i < 2; ++i)
+      c.max_normal_impulse[i] = std::max(c.max_normal_impulse[i], c.normal_impulse[i]);
   }
 
   ContactConstraint<Real>& c;

@@ -12,62 +12,63 @@ namespace {
 
 // The iterations of a round end when no velocity changes by more than this fraction of the fastest.
 constexpr double kConverged = 1e-6;
-constexpr int kSweeps = 40;
+constexpr int kMaxIterations = 40;
 
 // Maximum cost of factorising the rows of a round's joints, in multiplications: some 0.1 ms. Beyond it joints
 // react to impacts only in the solver's next iterations, which lose energy.
 constexpr double kJointsCost = 2e5;
 
 template <class Real>
-void push(SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
+void apply_normal(SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
   motion[c.body_a].apply(-impulse * free_of_a(c.normal, c.locks), -impulse * c.arm_a[i]);
   motion[c.body_b].apply(impulse * free_of_b(c.normal, c.locks), impulse * c.arm_b[i]);
 }
 
-// Sorts the struck points by groups that share no dynamic body; within a group their order is kept.
+// Sorts the impact points by groups that share no dynamic body, and keeps their order within a group.
 template <class Real>
-void group_struck(const SolverBody<Real>* motion, ImpactScratch<Real>& room) {
-  std::vector<StruckPoint<Real>>& struck = room.struck;
-  const int count = static_cast<int>(struck.size());
-  std::vector<int>&following = room.following, &latest = room.latest;
-  following.assign(struck.size(), -1), latest.assign(struck.size(), -1);
-  const auto first_of = [&](int i) {
-    while (struck[i].group != i) i = struck[i].group = struck[struck[i].group].group;
+void group_points(const SolverBody<Real>* motion, ImpactScratch<Real>& scratch) {
+  std::vector<ImpactPoint<Real>>& points = scratch.points;
+  const int count = static_cast<int>(points.size());
+  std::vector<int>&next_in_group = scratch.next_in_group, &last_in_group = scratch.last_in_group;
+  next_in_group.assign(points.size(), -1), last_in_group.assign(points.size(), -1);
+  const auto find_root = [&](int i) {
+    while (points[i].group != i) i = points[i].group = points[points[i].group].group;
     return i;
   };
   for (int i = 0; i < count; ++i) {
-    struck[i].group = i;
-    for (const int body : {struck[i].bounce->contact->body_a, struck[i].bounce->contact->body_b}) {
+    points[i].group = i;
+    for (const int body : {points[i].bounce->contact->body_a, points[i].bounce->contact->body_b}) {
       if (!is_dynamic(motion[body])) continue;
-      int& at = room.struck_at[group_of(room, body)];
+      int& at = scratch.point_at[group_of(scratch, body)];
       if (at == -1) at = i;
-      const int one = first_of(i), other = first_of(at);
-      struck[std::max(one, other)].group = std::min(one, other);
+      const int one = find_root(i), other = find_root(at);
+      points[std::max(one, other)].group = std::min(one, other);
     }
   }
   for (int i = 0; i < count; ++i) {
-    const int group = struck[i].group = first_of(i);
-    if (group != i) following[latest[group]] = i;
-    latest[group] = i;
-    for (const int body : {struck[i].bounce->contact->body_a, struck[i].bounce->contact->body_b})
-      room.struck_at[group_of(room, body)] = -1;
+    const int group = points[i].group = find_root(i);
+    if (group != i) next_in_group[last_in_group[group]] = i;
+    last_in_group[group] = i;
+    for (const int body : {points[i].bounce->contact->body_a, points[i].bounce->contact->body_b})
+      scratch.point_at[group_of(scratch, body)] = -1;
   }
-  room.grouped.clear();
+  scratch.sorted_points.clear();
   for (int i = 0; i < count; ++i)
-    for (int k = struck[i].group == i ? i : -1; k != -1; k = following[k]) append(room.grouped, struck[k]);
-  struck.swap(room.grouped);
+    for (int k = points[i].group == i ? i : -1; k != -1; k = next_in_group[k])
+      append(scratch.sorted_points, points[k]);
+  points.swap(scratch.sorted_points);
 }
 
-// Returns the relative sliding speed of a contact's bodies minus the surface speed, m/s.
+// Returns the relative tangential velocity of a contact's bodies minus the surface speed, m/s.
 template <class Real>
-Real sliding_of(const SolverBody<Real>* motion, const ContactConstraint<Real>& c) {
+Real slip_velocity(const SolverBody<Real>* motion, const ContactConstraint<Real>& c) {
   const SolverBody<Real>&a = motion[c.body_a], &b = motion[c.body_b];
   return dot(Vec2<Real>{c.normal.y, -c.normal.x}, b.velocity - a.velocity) +
          c.arm_tangent_b * b.angular_velocity - c.arm_tangent_a * a.angular_velocity - c.surface_speed;
 }
 
 template <class Real>
-void push_along(SolverBody<Real>* motion, const ContactConstraint<Real>& c, Real friction) {
+void apply_friction(SolverBody<Real>* motion, const ContactConstraint<Real>& c, Real friction) {
   const Vec2<Real> t{c.normal.y, -c.normal.x};
   motion[c.body_a].apply(-friction * free_of_a(t, c.locks), -friction * c.arm_tangent_a);
   motion[c.body_b].apply(friction * free_of_b(t, c.locks), friction * c.arm_tangent_b);
@@ -75,207 +76,214 @@ void push_along(SolverBody<Real>* motion, const ContactConstraint<Real>& c, Real
 
 // Returns the work that a round's impulses would do at the velocities before the round, J.
 template <class Real>
-Real work_before(std::span<const StruckPoint<Real>> struck) {
+Real work_before(std::span<const ImpactPoint<Real>> points) {
   Real work = 0;
-  for (const StruckPoint<Real>& at : struck) work += at.impulse * at.before + at.friction * at.sliding;
+  for (const ImpactPoint<Real>& at : points)
+    work += at.impulse * at.velocity_before + at.friction * at.slip_before;
   return work;
 }
 
 // Returns the same work at the current velocities, J.
 template <class Real>
-Real work_of(const SolverBody<Real>* motion, std::span<const StruckPoint<Real>> struck) {
+Real work_after(const SolverBody<Real>* motion, std::span<const ImpactPoint<Real>> points) {
   Real work = 0;
-  for (const StruckPoint<Real>& at : struck) {
+  for (const ImpactPoint<Real>& at : points) {
     const ContactConstraint<Real>& c = *at.bounce->contact;
     work += at.impulse * velocity_along_normal(motion, c, at.point);
-    if (at.friction != 0) work += at.friction * sliding_of(motion, c);
+    if (at.friction != 0) work += at.friction * slip_velocity(motion, c);
   }
   return work;
 }
 
-// Returns the largest factor, at most 1, by which a round's impulses can be scaled without gaining energy,
-// from their work at the velocities before and after the round. Scaled by k they change the energy by k
-// (before + k (after - before) / 2).
+// Returns the largest factor, at most 1, by which a round's impulses can be scaled without gaining energy.
+// `before`, `after`: their work at the velocities before and after the round, J. Scaled by k they change the
+// energy by k (before + k (after - before) / 2).
 template <class Real>
 Real energy_scale(Real before, Real after) {
   return before + after > 0 ? -2 * before / (after - before) : Real(1);
 }
 
-// Solves lambda >= 0 with n.v >= wanted by sequential impulses, and Coulomb's friction with it, such that no
+// Solves lambda >= 0 with n.v >= target by sequential impulses, and Coulomb's friction with it, such that no
 // energy is gained. Friction is solved after the normals; where it rotates bodies, the normals are solved
 // again: a box that lands flat then leaves with the same speed at both ends.
 template <class Real>
-void exchange(SolverBody<Real>* motion, std::span<StruckPoint<Real>> struck, Real fastest, int& looks) {
+void solve_impacts(SolverBody<Real>* motion, std::span<ImpactPoint<Real>> points, Real max_approach,
+                   int& work_left) {
   // Returns true if a normal impulse changes.
-  const auto press = [&] {
+  const auto solve_normals = [&] {
     bool changes = false;
-    for (StruckPoint<Real>& at : struck) {
+    for (ImpactPoint<Real>& at : points) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
-      const Real missing = at.wanted - velocity_along_normal(motion, c, at.point);
-      const Real impulse = std::max(at.impulse + c.mass[at.point] * missing, Real(0));
+      const Real velocity_error = at.target - velocity_along_normal(motion, c, at.point);
+      const Real impulse = std::max(at.impulse + c.mass[at.point] * velocity_error, Real(0));
       const Real change = impulse - at.impulse;
-      if (std::abs(change) > Real(kConverged) * fastest * c.mass[at.point]) changes = true;
-      push(motion, c, at.point, change);
+      if (std::abs(change) > Real(kConverged) * max_approach * c.mass[at.point]) changes = true;
+      apply_normal(motion, c, at.point, change);
       at.impulse = impulse;
     }
     return changes;
   };
-  const auto rub = [&] {
-    for (StruckPoint<Real>& at : struck) {
+  const auto solve_friction = [&] {
+    for (ImpactPoint<Real>& at : points) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
-      const Real most = c.friction * at.impulse;
-      if (!(most > 0) && at.friction == 0) continue;
-      const Real friction = std::clamp(at.friction - c.tangent_mass * sliding_of(motion, c), -most, most);
-      push_along(motion, c, friction - at.friction);
+      const Real max_friction = c.friction * at.impulse;
+      if (!(max_friction > 0) && at.friction == 0) continue;
+      const Real friction =
+          std::clamp(at.friction - c.tangent_mass * slip_velocity(motion, c), -max_friction, max_friction);
+      apply_friction(motion, c, friction - at.friction);
       at.friction = friction;
     }
   };
-  bool changes = true, rubs = false;
-  for (int sweep = 0; changes && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
-    looks -= static_cast<int>(struck.size());
-    changes = press() && struck.size() > 1;  // a single point needs no iteration
+  bool changes = true, repeat = false;
+  for (int iteration = 0; changes && iteration < kMaxIterations && (iteration == 0 || work_left > 0);
+       ++iteration) {
+    work_left -= static_cast<int>(points.size());
+    changes = solve_normals() && points.size() > 1;  // a single point needs no iteration
   }
-  for (StruckPoint<Real>& at : struck) rubs = rubs || at.bounce->contact->friction * at.impulse > 0;
-  if (rubs) rub();
-  for (int sweep = 0; rubs && sweep < kSweeps && (sweep == 0 || looks > 0); ++sweep) {
-    looks -= static_cast<int>(struck.size());
-    rubs = press() && struck.size() > 1;
+  for (ImpactPoint<Real>& at : points) repeat = repeat || at.bounce->contact->friction * at.impulse > 0;
+  if (repeat) solve_friction();
+  for (int iteration = 0; repeat && iteration < kMaxIterations && (iteration == 0 || work_left > 0);
+       ++iteration) {
+    work_left -= static_cast<int>(points.size());
+    repeat = solve_normals() && points.size() > 1;
   }
-  const Real scale = energy_scale(work_before<Real>(struck), work_of<Real>(motion, struck));
+  const Real scale = energy_scale(work_before<Real>(points), work_after<Real>(motion, points));
   if (scale == 1) return;
-  for (StruckPoint<Real>& at : struck) {
-    push(motion, *at.bounce->contact, at.point, (scale - 1) * at.impulse);
-    push_along(motion, *at.bounce->contact, (scale - 1) * at.friction);
+  for (ImpactPoint<Real>& at : points) {
+    apply_normal(motion, *at.bounce->contact, at.point, (scale - 1) * at.impulse);
+    apply_friction(motion, *at.bounce->contact, (scale - 1) * at.friction);
     at.impulse *= scale, at.friction *= scale;
   }
 }
 
 template <class Real>
-void note_impact(const StruckPoint<Real>& at) {
+void record_impact(const ImpactPoint<Real>& at) {
   ContactConstraint<Real>& c = *at.bounce->contact;
-  if (c.watched != Watch::Off) {
-    note_approach(c, at.point, at.before);
-    c.peak_impulse[at.point] = std::max(c.peak_impulse[at.point], at.impulse);
+  if (c.tracking != ImpactTracking::Off) {
+    record_approach(c, at.point, at.velocity_before);
+    c.max_normal_impulse[at.point] = std::max(c.max_normal_impulse[at.point], at.impulse);
     c.step_impulse += at.impulse;
   }
-  at.bounce->strikes[at.point] = false;
+  at.bounce->has_impact[at.point] = false;
 }
 
-// Corrects the displacement: impulses act only from the time of impact on, not over the whole substep.
+// Records an impact and corrects the displacement: impulses act only from the time of impact on, not over the
+// whole substep.
 template <class Real>
-void finish_impact(SolverBody<Real>* motion, Rotation<Real>* rotation, const StruckPoint<Real>& at,
-                   ImpactScratch<Real>& room) {
+void finish_impact(SolverBody<Real>* motion, Rotation<Real>* rotation, const ImpactPoint<Real>& at,
+                   ImpactScratch<Real>& scratch) {
   const ContactConstraint<Real>& c = *at.bounce->contact;
   const Vec2<Real> t{c.normal.y, -c.normal.x};
   const Real friction = at.friction;
-  note_impact(at);
-  const Vec2<Real> way = -at.time * (at.impulse * c.normal + friction * t);
+  record_impact(at);
+  const Vec2<Real> displacement = -at.time * (at.impulse * c.normal + friction * t);
   const auto move_back = [&](int body, Real sign, Vec2<Real> back, Real angular) {
     SolverBody<Real>& moving = motion[body];
-    displace(room, moving, rotation[body], body, (sign * moving.inverse_mass) * back,
+    displace(scratch, moving, rotation[body], body, (sign * moving.inverse_mass) * back,
              -sign * at.time * moving.inverse_inertia * angular);
-    Real& last = room.last[group_of(room, body)];
+    Real& last = scratch.last[group_of(scratch, body)];
     if (is_dynamic(moving)) last = std::max(last, at.time);
   };
-  move_back(c.body_a, -1, free_of_a(way, c.locks),
+  move_back(c.body_a, -1, free_of_a(displacement, c.locks),
             at.impulse * c.arm_a[at.point] + friction * c.arm_tangent_a);
-  move_back(c.body_b, 1, free_of_b(way, c.locks),
+  move_back(c.body_b, 1, free_of_b(displacement, c.locks),
             at.impulse * c.arm_b[at.point] + friction * c.arm_tangent_b);
 }
 
-// The impacts of a group of struck points in a round, with the joints of their bodies.
+// Solves the impacts of a group of points in a round, with the joints of their bodies.
 template <class Real>
 class JointedRound {
  public:
-  JointedRound(SolverBody<Real>* motion, Rotation<Real>* rotation, std::span<StruckPoint<Real>> struck,
-               ImpactScratch<Real>& room)
-      : motion_(motion), rotation_(rotation), struck_(struck), room_(room), system_(room.system) {}
+  JointedRound(SolverBody<Real>* motion, Rotation<Real>* rotation, std::span<ImpactPoint<Real>> points,
+               ImpactScratch<Real>& scratch)
+      : motion_(motion), rotation_(rotation), points_(points), scratch_(scratch), system_(scratch.system) {}
 
   // Collects the bodies and rows. Returns false if no joint takes part, or if there are too many rows.
   bool collect() {
-    if (room_.joints.empty()) return false;
-    room_.links.clear(), room_.blocks.clear(), room_.sizes.clear(), room_.taking_part.clear();
+    if (scratch_.joints.empty()) return false;
+    scratch_.links.clear(), scratch_.blocks.clear(), scratch_.sizes.clear(), scratch_.active_joints.clear();
     system_.bodies.clear();
-    for (const StruckPoint<Real>& at : struck_) add_joints(at);
-    for (const StruckPoint<Real>& at : struck_) forget(at);
-    if (room_.taking_part.empty()) return false;
+    for (const ImpactPoint<Real>& at : points_) add_joints(at);
+    for (const ImpactPoint<Real>& at : points_) unmark(at);
+    if (scratch_.active_joints.empty()) return false;
     const ContactConstraint<Real>* last = nullptr;
-    for (const StruckPoint<Real>& at : struck_) {
+    for (const ImpactPoint<Real>& at : points_) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
       if (&c != last) add_block(c.body_a, c.body_b, 0);
-      room_.sizes.back() += c.friction > 0 ? 2 : 1;
+      scratch_.sizes.back() += c.friction > 0 ? 2 : 1;
       last = &c;
     }
-    return system_.order(room_.blocks, room_.sizes) <= kJointsCost;
+    return system_.order(scratch_.blocks, scratch_.sizes) <= kJointsCost;
   }
 
   void resolve() {
-    exchange();
-    for (const typename ImpactScratch<Real>::Link& link : room_.links) {
+    solve_impacts();
+    for (const typename ImpactScratch<Real>::Link& link : scratch_.links) {
       SolverBody<Real>& moving = motion_[link.body];
       if (!is_dynamic(moving)) continue;
-      const int group = group_of(room_, link.body);
-      const Real time = room_.earliest[group];
-      displace(room_, moving, rotation_[link.body], link.body, -time * (moving.velocity - link.velocity),
+      const int group = group_of(scratch_, link.body);
+      const Real time = scratch_.earliest[group];
+      displace(scratch_, moving, rotation_[link.body], link.body, -time * (moving.velocity - link.velocity),
                -time * (moving.angular_velocity - link.spin));
-      room_.last[group] = std::max(room_.last[group], time);
+      scratch_.last[group] = std::max(scratch_.last[group], time);
     }
-    for (const StruckPoint<Real>& at : struck_) note_impact(at);
+    for (const ImpactPoint<Real>& at : points_) record_impact(at);
   }
 
  private:
   // Adds the joints of a point's bodies, those of each group once.
-  void add_joints(const StruckPoint<Real>& at) {
+  void add_joints(const ImpactPoint<Real>& at) {
     for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b}) {
-      const int group = group_of(room_, body);
-      if (!is_dynamic(motion_[body]) || room_.struck_now[group]) continue;
-      room_.struck_now[group] = 1;
-      for (int i = room_.first_joint[group]; i != -1; i = room_.joints[i].next) {
-        ImpactJoint& joint = room_.joints[i];
-        if (!joint.known) room_.fill_rows(room_.world, joint), joint.known = true;
+      const int group = group_of(scratch_, body);
+      if (!is_dynamic(motion_[body]) || scratch_.visited[group]) continue;
+      scratch_.visited[group] = 1;
+      for (int i = scratch_.first_joint[group]; i != -1; i = scratch_.joints[i].next) {
+        ImpactJoint& joint = scratch_.joints[i];
+        if (!joint.rows_ready) scratch_.append_rows(scratch_.world, joint), joint.rows_ready = true;
         if (joint.rows == 0) continue;
-        room_.taking_part.push_back(i);
+        scratch_.active_joints.push_back(i);
         add_block(joint.a, joint.b, joint.rows);
       }
     }
   }
 
-  void forget(const StruckPoint<Real>& at) {
+  void unmark(const ImpactPoint<Real>& at) {
     for (const int body : {at.bounce->contact->body_a, at.bounce->contact->body_b})
-      room_.struck_now[group_of(room_, body)] = 0;
+      scratch_.visited[group_of(scratch_, body)] = 0;
   }
 
-  int link_at(int body) {
-    if (static_cast<int>(room_.link_of.size()) <= body) room_.link_of.resize(body + 1);
-    int& place = room_.link_of[body];
-    if (place < static_cast<int>(room_.links.size()) && room_.links[place].body == body) return place;
-    place = static_cast<int>(room_.links.size());
+  // Returns the index of a body's link, and adds the link if there is none.
+  int link_for(int body) {
+    if (static_cast<int>(scratch_.link_index.size()) <= body) scratch_.link_index.resize(body + 1);
+    int& index = scratch_.link_index[body];
+    if (index < static_cast<int>(scratch_.links.size()) && scratch_.links[index].body == body) return index;
+    index = static_cast<int>(scratch_.links.size());
     const SolverBody<Real>& from = motion_[body];
-    room_.links.push_back({body, from.velocity, from.angular_velocity});
+    scratch_.links.push_back({body, from.velocity, from.angular_velocity});
     const double inverse_mass = from.inverse_mass;
     system_.bodies.push_back(
         {.inverse_mass = {inverse_mass, inverse_mass}, .inverse_inertia = from.inverse_inertia});
-    return place;
+    return index;
   }
 
   void add_block(int a, int b, int rows) {
-    const int link_a = link_at(a);
-    room_.blocks.emplace_back(link_a, link_at(b));
-    room_.sizes.push_back(rows);
+    const int link_a = link_for(a);
+    scratch_.blocks.emplace_back(link_a, link_for(b));
+    scratch_.sizes.push_back(rows);
   }
 
   // Adds the joints' rows, which must keep their rates from before the round. A limit only stops motion
-  // beyond it: if it kept its rate while it opens, it would do work, and two contacts that press it in turn
+  // beyond it. If it kept its rate while it opens, it would do work, and two contacts that press it in turn
   // would open it ever faster.
   void add_joint_rows() {
     system_.rows.clear();
     int block = 0;
-    for (const int part : room_.taking_part) {
-      const ImpactJoint& joint = room_.joints[part];
-      const auto [link_a, link_b] = room_.blocks[block];
-      const auto &a = room_.links[link_a], &b = room_.links[link_b];
+    for (const int part : scratch_.active_joints) {
+      const ImpactJoint& joint = scratch_.joints[part];
+      const auto [link_a, link_b] = scratch_.blocks[block];
+      const auto &a = scratch_.links[link_a], &b = scratch_.links[link_b];
       for (int i = joint.first_row; i < joint.first_row + joint.rows; ++i) {
-        BoundedRow row = room_.rows[i];
+        BoundedRow row = scratch_.rows[i];
         row.a = link_a, row.b = link_b, row.block = block;
         row.target = dot(row.linear_a, a.velocity.template as<double>()) + row.angular_a * a.spin +
                      dot(row.linear_b, b.velocity.template as<double>()) + row.angular_b * b.spin;
@@ -287,17 +295,17 @@ class JointedRound {
   }
 
   void add_contact_rows() {
-    int block = static_cast<int>(room_.taking_part.size()) - 1;
+    int block = static_cast<int>(scratch_.active_joints.size()) - 1;
     const ContactConstraint<Real>* last = nullptr;
-    for (const StruckPoint<Real>& at : struck_) {
+    for (const ImpactPoint<Real>& at : points_) {
       const ContactConstraint<Real>& c = *at.bounce->contact;
       if (&c != last) ++block;
       last = &c;
-      BoundedRow row{.a = room_.blocks[block].first, .b = room_.blocks[block].second};
+      BoundedRow row{.a = scratch_.blocks[block].first, .b = scratch_.blocks[block].second};
       const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x};
       row.linear_a = free_of_a(-n, c.locks), row.linear_b = free_of_b(n, c.locks);
       row.angular_a = -double(c.arm_a[at.point]), row.angular_b = c.arm_b[at.point];
-      row.target = at.wanted, row.upper = std::numeric_limits<double>::infinity();
+      row.target = at.target, row.upper = std::numeric_limits<double>::infinity();
       row.block = block;
       system_.rows.push_back(row);
       if (!(c.friction > 0)) continue;
@@ -312,7 +320,7 @@ class JointedRound {
 
   // Reads the impulses of the contacts' rows, the first of which has the index `row`.
   void read_impulses(std::size_t row) {
-    for (StruckPoint<Real>& at : struck_) {
+    for (ImpactPoint<Real>& at : points_) {
       at.impulse = static_cast<Real>(system_.rows[row++].impulse);
       if (at.bounce->contact->friction > 0) at.friction = static_cast<Real>(system_.rows[row++].impulse);
     }
@@ -320,36 +328,36 @@ class JointedRound {
 
   // Solves the rows from the velocities before the round.
   void solve() {
-    for (std::size_t i = 0; i < room_.links.size(); ++i) {
-      system_.bodies[i].velocity = room_.links[i].velocity.template as<double>();
-      system_.bodies[i].spin = room_.links[i].spin;
+    for (std::size_t i = 0; i < scratch_.links.size(); ++i) {
+      system_.bodies[i].velocity = scratch_.links[i].velocity.template as<double>();
+      system_.bodies[i].spin = scratch_.links[i].spin;
     }
     system_.solve();
-    for (std::size_t i = 0; i < room_.links.size(); ++i) {
-      SolverBody<Real>& to = motion_[room_.links[i].body];
+    for (std::size_t i = 0; i < scratch_.links.size(); ++i) {
+      SolverBody<Real>& to = motion_[scratch_.links[i].body];
       if (!is_dynamic(to)) continue;
       to.velocity = system_.bodies[i].velocity.template as<Real>();
       to.angular_velocity = static_cast<Real>(system_.bodies[i].spin);
     }
   }
 
-  // Solves normals without friction first, and then with the bounds of friction that follow from them.
-  void exchange() {
-    constexpr int kRenewals = 1;  // updates of the bounds on friction; each costs a solution
-    const bool rubs = std::any_of(struck_.begin(), struck_.end(), [](const StruckPoint<Real>& at) {
+  // Solves the normals without friction first, and then with the bounds on friction that follow from them.
+  void solve_impacts() {
+    constexpr int kFrictionUpdates = 1;  // of the bounds on friction; each costs a solve
+    const bool has_friction = std::any_of(points_.begin(), points_.end(), [](const ImpactPoint<Real>& at) {
       return at.bounce->contact->friction > 0;
     });
-    for (int renewal = 0; renewal <= (rubs ? kRenewals : 0); ++renewal) {
+    for (int update = 0; update <= (has_friction ? kFrictionUpdates : 0); ++update) {
       add_joint_rows();
       const std::size_t first = system_.rows.size();
       add_contact_rows();
       solve();
       read_impulses(first);
     }
-    const Real scale = energy_scale(work_before<Real>(struck_), work_of<Real>(motion_, struck_));
+    const Real scale = energy_scale(work_before<Real>(points_), work_after<Real>(motion_, points_));
     if (scale == 1) return;
-    for (StruckPoint<Real>& at : struck_) at.impulse *= scale, at.friction *= scale;
-    for (const auto& link : room_.links) {
+    for (ImpactPoint<Real>& at : points_) at.impulse *= scale, at.friction *= scale;
+    for (const auto& link : scratch_.links) {
       SolverBody<Real>& body = motion_[link.body];
       body.velocity = link.velocity + scale * (body.velocity - link.velocity);
       body.angular_velocity = link.spin + scale * (body.angular_velocity - link.spin);
@@ -358,29 +366,29 @@ class JointedRound {
 
   SolverBody<Real>* motion_;
   Rotation<Real>* rotation_;
-  std::span<StruckPoint<Real>> struck_;
-  ImpactScratch<Real>& room_;
+  std::span<ImpactPoint<Real>> points_;
+  ImpactScratch<Real>& scratch_;
   BoundedRows& system_;
 };
 
 }  // namespace
 
 template <class Real>
-void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real fastest, int& looks,
-                   ImpactScratch<Real>& room) {
-  group_struck(motion, room);
-  for (StruckPoint<Real>& at : room.struck)
-    if (at.bounce->contact->friction > 0) at.sliding = sliding_of(motion, *at.bounce->contact);
-  const std::span<StruckPoint<Real>> all(room.struck);
+void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real max_approach, int& work_left,
+                   ImpactScratch<Real>& scratch) {
+  group_points(motion, scratch);
+  for (ImpactPoint<Real>& at : scratch.points)
+    if (at.bounce->contact->friction > 0) at.slip_before = slip_velocity(motion, *at.bounce->contact);
+  const std::span<ImpactPoint<Real>> all(scratch.points);
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
     while (end < all.size() && all[end].group == all[first].group) ++end;
-    const std::span<StruckPoint<Real>> struck = all.subspan(first, end - first);
-    if (JointedRound<Real> jointed(motion, rotation, struck, room); jointed.collect()) {
+    const std::span<ImpactPoint<Real>> points = all.subspan(first, end - first);
+    if (JointedRound<Real> jointed(motion, rotation, points, scratch); jointed.collect()) {
       jointed.resolve();
-      looks -= static_cast<int>(struck.size());
+      work_left -= static_cast<int>(points.size());
     } else {
-      exchange(motion, struck, fastest, looks);
-      for (const StruckPoint<Real>& at : struck) finish_impact(motion, rotation, at, room);
+      solve_impacts(motion, points, max_approach, work_left);
+      for (const ImpactPoint<Real>& at : points) finish_impact(motion, rotation, at, scratch);
     }
   }
 }

@@ -3,8 +3,8 @@
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/solver_body.h"
 
-/// Contacts of bodies of which one axis is locked. Along it such a body has no velocity, and no impulse gives
-/// it one: in its rows of the Jacobian the component is 0. Bodies with both axes locked have no inverse mass,
+/// Contacts of bodies with one locked axis. Such a body has no velocity along it, and impulses do not change
+/// that: the component is 0 in its rows of the Jacobian. Bodies with both axes locked have no inverse mass,
 /// and need none of this.
 namespace plumb {
 

@@ -3,9 +3,9 @@
 #include "engine/world/contact_solver/contact_graph.h"
 #include "engine/world/contact_solver/solver_body.h"
 
-/// Position-based contacts: overlaps are projected away by displacing bodies. Within a substep a body's
-/// velocity is its displacement since the substep's start over h. A displacement by dx changes the velocity
-/// by dx / h, and the multiplier over h is an impulse.
+/// Position-based contacts: overlaps are removed by displacing bodies. Within a substep a body's velocity is
+/// its displacement since the start over h. A displacement by dx changes the velocity by dx / h, and the
+/// multiplier over h is an impulse.
 namespace plumb {
 
 template <class Real>
@@ -17,13 +17,13 @@ struct PositionStep {
 /// Friction law of the position solver.
 enum class PositionFriction {
   Coulomb,  ///< removes sliding up to mu times the normal multiplier (Jakobsen, 2001)
-  Static,   ///< removes it completely or not at all; velocities handle the rest (Mueller et al., 2020)
+  Static,   ///< removes it completely or not at all; the velocity pass does the rest (Mueller et al., 2020)
 };
 
-/// Clears impulses at the start of a substep, before forces act. Updates the approach of points that have not
-/// been pressed in this step.
+/// Clears impulses at the start of a substep, before forces act. Updates the approach of points that have had
+/// no impulse in this step.
 template <class Real>
-void begin_position_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph);
+void prepare_position_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph);
 
 /// Makes one iteration over predicted positions: removes overlaps, no faster than the depenetration speed,
 /// then sliding. Updates positions, rotations and velocities.
@@ -32,12 +32,12 @@ void project_contacts(SolverBody<Real>* motion, Rotation<Real>* rotation, Contac
                       const PositionStep<Real>& step, PositionFriction friction);
 
 /// Corrects velocities after the projection. Points with a fast impact separate with restitution times their
-/// approach, and no pressed point continues to close.
+/// approach, and no point with an impulse continues to close.
 template <class Real>
-void restore_bounces(SolverBody<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step);
+void apply_restitution(SolverBody<Real>* motion, ContactGraph<Real>& graph, const PositionStep<Real>& step);
 
-/// Does the same as `restore_bounces`, and removes the separating velocity of other pressed points (Mueller
-/// et al., 2020, section 3.6). Then applies dynamic friction, |dv| <= mu lambda_n / m.
+/// Does the same as `apply_restitution`, and removes the separating velocity of other points with an impulse
+/// (Mueller et al., 2020, section 3.6). Then applies dynamic friction, |dv| <= mu lambda_n / m.
 template <class Real>
 void correct_contact_velocities(SolverBody<Real>* motion, ContactGraph<Real>& graph,
                                 const PositionStep<Real>& step);

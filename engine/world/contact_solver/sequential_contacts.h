@@ -22,11 +22,11 @@ void warm_start_sequentially(SolverBody<Real>* motion, ContactGraph<Real>& graph
 /// Makes one iteration before bodies move: friction and rolling resistance within the bounds of the normal
 /// impulses, then each point's normal impulse.
 template <class Real>
-void sweep_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
+void iterate_contacts(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
 
-/// Stops points that have closed their gap in this substep, after bodies have moved and if the gap limited
-/// them. Records the step's largest impulses, for hit events.
+/// Stops points that have closed their gap in this substep and still approach, because the solver let the gap
+/// close. Runs after the bodies have moved. Records the step's largest impulses, for hit events.
 template <class Real>
-void stop_arrivals(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
+void stop_closed_gaps(SolverBody<Real>* motion, ContactGraph<Real>& graph, const SequentialStep<Real>& step);
 
 }  // namespace plumb

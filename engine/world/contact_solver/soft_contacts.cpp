@@ -12,21 +12,21 @@ namespace plumb {
 namespace {
 
 // Minimum number of contacts in a world for which blocks are built: gathering fewer costs more than it saves.
-// A narrow register holds only two doubles, which saves little.
+// A narrow register holds only two doubles, which saves less.
 template <class Real>
-constexpr std::size_t least_contacts(VectorWidth width) {
+constexpr std::size_t min_contacts(VectorWidth width) {
   return sizeof(Real) == 8 && width == VectorWidth::Bytes16 ? 64 : 16;
 }
 
-// Minimum number of contacts in a block: a single one costs less alone.
-constexpr int kLeastLanes = 2;
+// Minimum number of contacts in a block: a single contact costs less without one.
+constexpr int kMinLanes = 2;
 
 // Number of blocks, and of single contacts, in a thread's task: 1 to 2 us of work. Joining a loop, or waiting
 // for the last thread, takes about 0.3 us. So a colour that fits into one task is solved by one thread.
-constexpr int kBlocksOfTask = 16, kAloneOfTask = 48;
+constexpr int kBlocksPerTask = 16, kSinglesPerTask = 48;
 
 struct WarmStart {
-  static constexpr bool kMoves = false;
+  static constexpr bool kReadsDisplacement = false;
   template <class Number, class Pair, class Contact, class Real>
   [[gnu::always_inline]] static void run(Pair& pair, Contact& c, const ContactStep<Real>& step) {
     if (step.warm_start != 1) scale_impulses(c, step.warm_start);
@@ -34,14 +34,14 @@ struct WarmStart {
   }
 };
 struct Solve {
-  static constexpr bool kMoves = false;
+  static constexpr bool kReadsDisplacement = false;
   template <class Number, class Pair, class Contact, class Real>
   [[gnu::always_inline]] static void run(Pair& pair, Contact& c, const ContactStep<Real>& step) {
     solve_contact<Number>(pair, c, step);
   }
 };
 struct Relax {
-  static constexpr bool kMoves = true;  ///< reads the bodies' displacements
+  static constexpr bool kReadsDisplacement = true;
   template <class Number, class Pair, class Contact, class Real>
   [[gnu::always_inline]] static void run(Pair& pair, Contact& c, const ContactStep<Real>& step) {
     relax_contact<Number>(pair, c, step);
@@ -58,11 +58,11 @@ template <class Narrow, class Wide, class Act>
     if (width == VectorWidth::Bytes16) act(blocks16);
 }
 
-// Non-dynamic bodies are only read: several contacts of a colour may share one.
+// Non-dynamic bodies are only read, because several contacts of a colour may share one.
 template <class Pass, class Axes, class Real>
-[[gnu::always_inline]] inline void run_alone(SolverBody<Real>* motion, ContactConstraint<Real>& c,
-                                             const ContactStep<Real>& step, Axes free) {
-  Pair<Real, SolverBody<Real>&, Axes> pair{motion[c.body_a], motion[c.body_b], c.normal, free};
+[[gnu::always_inline]] inline void run_single(SolverBody<Real>* motion, ContactConstraint<Real>& c,
+                                              const ContactStep<Real>& step, Axes free) {
+  BodyPair<Real, SolverBody<Real>&, Axes> pair{motion[c.body_a], motion[c.body_b], c.normal, free};
   Pass::template run<Real>(pair, c, step);
   const bool both = c.hardness == ContactHardness::Soft;
   if (both || is_dynamic(pair.a)) pair.a.velocity = pair.va, pair.a.angular_velocity = pair.wa;
@@ -72,15 +72,15 @@ template <class Pass, class Axes, class Real>
 template <class Pass, class Real>
 [[gnu::noinline]] void run_locked(SolverBody<Real>* motion, ContactConstraint<Real>& c,
                                   const ContactStep<Real>& step) {
-  run_alone<Pass>(motion, c, step, FreeAxes{c.locks});
+  run_single<Pass>(motion, c, step, FreeAxes{c.locks});
 }
 
 template <class Pass, class Real>
-[[gnu::always_inline]] inline void run_alone(SolverBody<Real>* motion, ContactConstraint<Real>& c,
-                                             const ContactStep<Real>& step) {
+[[gnu::always_inline]] inline void run_single(SolverBody<Real>* motion, ContactConstraint<Real>& c,
+                                              const ContactStep<Real>& step) {
   if (c.locks != 0) [[unlikely]]
     return run_locked<Pass>(motion, c, step);
-  run_alone<Pass>(motion, c, step, AllAxes{});
+  run_single<Pass>(motion, c, step, AllAxes{});
 }
 
 template <class Pass, class Number, class Real>
@@ -89,14 +89,14 @@ template <class Pass, class Number, class Real>
                                               const ContactStep<Real>& settings) {
   const ContactStep<Real> step = settings;  // a local copy: no pointer can change it
   for (; block != end; ++block) {
-    const LaneBodies<Number> a(motion, block->place_a, block->inverse_mass_a, block->inverse_inertia_a,
-                               Pass::kMoves);
-    const LaneBodies<Number> b(motion, block->place_b, block->inverse_mass_b, block->inverse_inertia_b,
-                               Pass::kMoves);
-    Pair<Number, const LaneBodies<Number>&> pair{a, b, block->normal};
+    const LaneBodies<Number> a(motion, block->offset_a, block->inverse_mass_a, block->inverse_inertia_a,
+                               Pass::kReadsDisplacement);
+    const LaneBodies<Number> b(motion, block->offset_b, block->inverse_mass_b, block->inverse_inertia_b,
+                               Pass::kReadsDisplacement);
+    BodyPair<Number, const LaneBodies<Number>&> pair{a, b, block->normal};
     Pass::template run<Number>(pair, *block, step);
-    if (block->gives_way_a) a.store(pair.va, pair.wa);
-    if (block->gives_way_b) b.store(pair.vb, pair.wb);
+    if (block->is_dynamic_a) a.store(pair.va, pair.wa);
+    if (block->is_dynamic_b) b.store(pair.vb, pair.wb);
   }
 }
 
@@ -105,7 +105,7 @@ template <class Number, class Real>
 struct Loops {
   using Block = ContactBlock<Number>;
   static void gather(Block& block, const SolverBody<Real>* motion) { plumb::gather(block, motion); }
-  static void gather_again(Block& block) { plumb::gather_again(block); }
+  static void regather(Block& block) { plumb::regather(block); }
   static void scatter(Block* block, const Block* end) {
     for (; block != end; ++block) plumb::scatter(*block);
   }
@@ -120,7 +120,7 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
   PLUMB_AVX2 static void gather(Block& block, const SolverBody<Real>* motion) {
     plumb::gather(block, motion);
   }
-  PLUMB_AVX2 static void gather_again(Block& block) { plumb::gather_again(block); }
+  PLUMB_AVX2 static void regather(Block& block) { plumb::regather(block); }
   PLUMB_AVX2 static void scatter(Block* block, const Block* end) {
     for (; block != end; ++block) plumb::scatter(*block);
   }
@@ -136,43 +136,43 @@ struct Loops<Lanes<Real, kLanes, 32>, Real> {
 template <class Real>
 [[gnu::always_inline]] inline int SoftContacts<Real>::kind_of(const ContactConstraint<Real>& c,
                                                               const SolverBody<Real>* motion,
-                                                              const std::vector<char>& apart) {
+                                                              const std::vector<char>& excluded) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
-  const bool stays_alone = c.hardness == ContactHardness::Rigid || stopped_rolling || c.locks != 0 ||
-                           (!apart.empty() && apart[c.contact]);
-  if (stays_alone) return kAlone;
+  const bool is_single = c.hardness == ContactHardness::Rigid || stopped_rolling || c.locks != 0 ||
+                         (!excluded.empty() && excluded[c.contact]);
+  if (is_single) return kSingle;
   const int kind = (c.count == 2) + 2 * rolls(c);
   if (c.hardness == ContactHardness::Soft) return kind;
   return kind + (is_dynamic(motion[c.body_a]) ? 4 : is_dynamic(motion[c.body_b]) ? 8 : 12);
 }
 
-// Calls `add_block(contacts, count)` and `add_alone(contact)`.
+// Calls `add_block(contacts, count)` and `add_single(contact)`.
 template <class Real>
-template <int kBytes, class AddBlock, class AddAlone>
+template <int kBytes, class AddBlock, class AddSingle>
 [[gnu::always_inline]] inline void SoftContacts<Real>::sort(const Segment& segment,
                                                             const SolverBody<Real>* motion,
-                                                            const std::vector<char>& apart,
+                                                            const std::vector<char>& excluded,
                                                             const AddBlock& add_block,
-                                                            const AddAlone& add_alone) {
+                                                            const AddSingle& add_single) {
   constexpr int kLanes = Block<kBytes>::kLanes;
-  // Contacts of one kind: they may share a block.
+  // Contacts that wait for a full block, by kind.
   ContactConstraint<Real>* waiting[kKinds][kLanes];
   int counts[kKinds] = {};
   for (int i = 0; i < segment.count; ++i) {
     ContactConstraint<Real>& c = segment.first[i];
-    const int kind = segment.has_colour ? kind_of(c, motion, apart) : kAlone;
-    if (kind == kAlone) {
-      add_alone(&c);
+    const int kind = segment.has_colour ? kind_of(c, motion, excluded) : kSingle;
+    if (kind == kSingle) {
+      add_single(&c);
       continue;
     }
     waiting[kind][counts[kind]++] = &c;
     if (counts[kind] == kLanes) add_block(waiting[kind], kLanes), counts[kind] = 0;
   }
   for (int kind = 0; kind < kKinds; ++kind) {
-    if (counts[kind] >= kLeastLanes) {
+    if (counts[kind] >= kMinLanes) {
       add_block(waiting[kind], counts[kind]);
     } else {
-      for (int i = 0; i < counts[kind]; ++i) add_alone(waiting[kind][i]);
+      for (int i = 0; i < counts[kind]; ++i) add_single(waiting[kind][i]);
     }
   }
 }
@@ -180,23 +180,23 @@ template <int kBytes, class AddBlock, class AddAlone>
 template <class Real>
 template <int kBytes>
 bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const SolverBody<Real>* motion,
-                                const std::vector<char>& apart) {
+                                const std::vector<char>& excluded) {
   using Constraint = ContactConstraint<Real>;
   constexpr int kLanes = Block<kBytes>::kLanes;
-  blocks.count = 0, alone_.clear(), runs_.clear();
-  runs_.reserve(ContactGraph<Real>::kColours + 1);
-  ensure_capacity(alone_, graph_->size());
+  blocks.count = 0, singles_.clear(), colour_ends_.clear();
+  colour_ends_.reserve(ContactGraph<Real>::kColours + 1);
+  ensure_capacity(singles_, graph_->size());
   const auto fill = [&](Block<kBytes>& block, Constraint* const* contacts, int count) {
     for (int i = 0; i < kLanes; ++i) block.contact[i] = contacts[std::min(i, count - 1)];
     Loops<Number<kBytes>, Real>::gather(block, motion);
   };
-  if (crew_->shares()) {
-    gather_shared(blocks, motion, apart, fill);
+  if (scheduler_->shares()) {
+    gather_shared(blocks, motion, excluded, fill);
   } else {
     graph_->for_each_colour([&](std::vector<Constraint>& colour, bool has_colour) {
       const Segment whole{colour.data(), static_cast<int>(colour.size()), has_colour};
       sort<kBytes>(
-          whole, motion, apart,
+          whole, motion, excluded,
           [&](Constraint* const* contacts, int count) {
             if (blocks.count == static_cast<int>(blocks.list.size())) {
               ensure_capacity(blocks.list, blocks.list.size() + 1);
@@ -204,8 +204,8 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const SolverBody<Real>* 
             }
             fill(blocks.list[blocks.count++], contacts, count);
           },
-          [&](Constraint* c) { alone_.push_back(c); });
-      runs_.push_back({blocks.count, static_cast<int>(alone_.size()), has_colour});
+          [&](Constraint* c) { singles_.push_back(c); });
+      colour_ends_.push_back({blocks.count, static_cast<int>(singles_.size()), has_colour});
     });
   }
   return blocks.count > 0;
@@ -215,7 +215,7 @@ bool SoftContacts<Real>::gather(Blocks<kBytes>& blocks, const SolverBody<Real>* 
 template <class Real>
 template <int kBytes, class Fill>
 void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const SolverBody<Real>* motion,
-                                       const std::vector<char>& apart, const Fill& fill) {
+                                       const std::vector<char>& excluded, const Fill& fill) {
   using Constraint = ContactConstraint<Real>;
   segments_.clear();
   graph_->for_each_colour([&](std::vector<Constraint>& colour, bool has_colour) {
@@ -226,76 +226,78 @@ void SoftContacts<Real>::gather_shared(Blocks<kBytes>& blocks, const SolverBody<
                                 first + kSegment >= count});
   });
   const int count = static_cast<int>(segments_.size());
-  crew_->blocks(count, [&](int i) {
+  scheduler_->blocks(count, [&](int i) {
     Segment& segment = segments_[i];
-    int of_kind[kKinds + 1] = {};
+    int kind_counts[kKinds + 1] = {};
     for (int k = 0; k < segment.count; ++k)
-      ++of_kind[segment.has_colour ? kind_of(segment.first[k], motion, apart) : kAlone];
-    segment.place = {0, of_kind[kAlone]};
+      ++kind_counts[segment.has_colour ? kind_of(segment.first[k], motion, excluded) : kSingle];
+    segment.start = {0, kind_counts[kSingle]};
     for (int kind = 0; kind < kKinds; ++kind) {
-      const int rest = of_kind[kind] % Block<kBytes>::kLanes, full = of_kind[kind] / Block<kBytes>::kLanes;
-      segment.place.blocks += full + (rest >= kLeastLanes ? 1 : 0);
-      segment.place.alone += rest >= kLeastLanes ? 0 : rest;
+      const int rest = kind_counts[kind] % Block<kBytes>::kLanes,
+                full = kind_counts[kind] / Block<kBytes>::kLanes;
+      segment.start.blocks += full + (rest >= kMinLanes ? 1 : 0);
+      segment.start.singles += rest >= kMinLanes ? 0 : rest;
     }
   });
-  Run next;
+  ColourEnd next;
   for (Segment& segment : segments_) {
-    const Run size = segment.place;
-    segment.place = next;
-    next.blocks += size.blocks, next.alone += size.alone;
-    if (segment.ends_colour) runs_.push_back({next.blocks, next.alone, segment.has_colour});
+    const ColourEnd size = segment.start;
+    segment.start = next;
+    next.blocks += size.blocks, next.singles += size.singles;
+    if (segment.ends_colour) colour_ends_.push_back({next.blocks, next.singles, segment.has_colour});
   }
   blocks.count = next.blocks;
   ensure_capacity(blocks.list, static_cast<std::size_t>(next.blocks));
   if (static_cast<int>(blocks.list.size()) < next.blocks) blocks.list.resize(next.blocks);
-  alone_.resize(next.alone);
-  crew_->blocks(count, [&](int i) {
-    Run at = segments_[i].place;
+  singles_.resize(next.singles);
+  scheduler_->blocks(count, [&](int i) {
+    ColourEnd at = segments_[i].start;
     sort<kBytes>(
-        segments_[i], motion, apart,
+        segments_[i], motion, excluded,
         [&](Constraint* const* contacts, int lanes) { fill(blocks.list[at.blocks++], contacts, lanes); },
-        [&](Constraint* c) { alone_[at.alone++] = c; });
+        [&](Constraint* c) { singles_[at.singles++] = c; });
   });
 }
 
 template <class Real>
-void SoftContacts<Real>::begin(ContactGraph<Real>& graph, const SolverBody<Real>* motion,
-                               const std::vector<char>& apart, Crew& crew) {
-  graph_ = &graph, crew_ = &crew;
+void SoftContacts<Real>::prepare(ContactGraph<Real>& graph, const SolverBody<Real>* motion,
+                                 const std::vector<char>& excluded, LoopScheduler& scheduler) {
+  graph_ = &graph, scheduler_ = &scheduler;
   width_ = graph.empty() ? VectorWidth::None : vector_width();
-  if (width_ != VectorWidth::None && graph.size() < least_contacts<Real>(width_)) width_ = VectorWidth::None;
+  if (width_ != VectorWidth::None && graph.size() < min_contacts<Real>(width_)) width_ = VectorWidth::None;
   with_blocks(width_, blocks16_, blocks32_, [&](auto& blocks) {
-    if (!gather(blocks, motion, apart)) width_ = VectorWidth::None;
+    if (!gather(blocks, motion, excluded)) width_ = VectorWidth::None;
   });
 }
 
 template <class Real>
 template <class Pass, int kBytes>
-[[gnu::always_inline]] inline void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, Run from, Run to,
-                                                                  SolverBody<Real>* motion,
+[[gnu::always_inline]] inline void SoftContacts<Real>::run_colour(Blocks<kBytes>& blocks, ColourEnd from,
+                                                                  ColourEnd to, SolverBody<Real>* motion,
                                                                   const ContactStep<Real>& step) {
   Block<kBytes>* const list = blocks.list.data();
   if (from.blocks < to.blocks)
     Loops<Number<kBytes>, Real>::template run<Pass>(motion, list + from.blocks, list + to.blocks, step);
-  for (int i = from.alone; i < to.alone; ++i) run_alone<Pass>(motion, *alone_[i], step);
+  for (int i = from.singles; i < to.singles; ++i) run_single<Pass>(motion, *singles_[i], step);
 }
 
 template <class Real>
 template <class Pass, int kBytes>
-[[gnu::noinline]] void SoftContacts<Real>::share_colour(Blocks<kBytes>& blocks, Run from, Run to,
-                                                        SolverBody<Real>* motion,
-                                                        const ContactStep<Real>& step) {
-  const int of_blocks = (to.blocks - from.blocks + kBlocksOfTask - 1) / kBlocksOfTask,
-            of_alone = (to.alone - from.alone + kAloneOfTask - 1) / kAloneOfTask;
-  if (!to.has_colour || of_blocks + of_alone < 2) return run_colour<Pass>(blocks, from, to, motion, step);
-  crew_->blocks(of_blocks + of_alone, [&](int task) {
-    Run first = from, last = from;
-    if (task < of_blocks) {
-      first.blocks += task * kBlocksOfTask;
-      last.blocks = std::min(first.blocks + kBlocksOfTask, to.blocks);
+[[gnu::noinline]] void SoftContacts<Real>::run_colour_shared(Blocks<kBytes>& blocks, ColourEnd from,
+                                                             ColourEnd to, SolverBody<Real>* motion,
+                                                             const ContactStep<Real>& step) {
+  const int block_tasks = (to.blocks - from.blocks + kBlocksPerTask - 1) / kBlocksPerTask,
+            single_tasks = (to.singles - from.singles + kSinglesPerTask - 1) / kSinglesPerTask;
+  if (!to.has_colour || block_tasks + single_tasks < 2)
+    return run_colour<Pass>(blocks, from, to, motion, step);
+  scheduler_->blocks(block_tasks + single_tasks, [&](int task) {
+    ColourEnd first = from, last = from;
+    if (task < block_tasks) {
+      first.blocks += task * kBlocksPerTask;
+      last.blocks = std::min(first.blocks + kBlocksPerTask, to.blocks);
     } else {
-      first.alone += (task - of_blocks) * kAloneOfTask;
-      last.alone = std::min(first.alone + kAloneOfTask, to.alone);
+      first.singles += (task - block_tasks) * kSinglesPerTask;
+      last.singles = std::min(first.singles + kSinglesPerTask, to.singles);
     }
     run_colour<Pass>(blocks, first, last, motion, step);
   });
@@ -303,23 +305,23 @@ template <class Pass, int kBytes>
 
 template <class Real>
 template <class Pass>
-[[gnu::noinline]] void SoftContacts<Real>::sweep(SolverBody<Real>* motion, const ContactStep<Real>& step) {
+[[gnu::noinline]] void SoftContacts<Real>::run_pass(SolverBody<Real>* motion, const ContactStep<Real>& step) {
   if (width_ == VectorWidth::None) {
     graph_->for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool has_colour) {
       const int count = static_cast<int>(colour.size());
-      crew_->ranges(count, has_colour ? kAloneOfTask : count, [&](int first, int last) {
-        for (int i = first; i < last; ++i) run_alone<Pass>(motion, colour[i], step);
+      scheduler_->ranges(count, has_colour ? kSinglesPerTask : count, [&](int first, int last) {
+        for (int i = first; i < last; ++i) run_single<Pass>(motion, colour[i], step);
       });
     });
     return;
   }
-  const bool shares = crew_->shares();
+  const bool shares = scheduler_->shares();
   with_blocks(
       width_, blocks16_, blocks32_, [&](auto& blocks) __attribute__((always_inline)) {
-        Run done;
-        for (const Run& to : runs_) {
+        ColourEnd done;
+        for (const ColourEnd& to : colour_ends_) {
           if (shares) {
-            share_colour<Pass>(blocks, done, to, motion, step);
+            run_colour_shared<Pass>(blocks, done, to, motion, step);
           } else {
             run_colour<Pass>(blocks, done, to, motion, step);
           }
@@ -330,45 +332,45 @@ template <class Pass>
 
 template <class Real>
 void SoftContacts<Real>::warm_start(SolverBody<Real>* motion, const ContactStep<Real>& step) {
-  if (!graph_->empty()) sweep<WarmStart>(motion, step);
+  if (!graph_->empty()) run_pass<WarmStart>(motion, step);
 }
 
 template <class Real>
 void SoftContacts<Real>::solve(SolverBody<Real>* motion, const ContactStep<Real>& step) {
-  if (!graph_->empty()) sweep<Solve>(motion, step);
+  if (!graph_->empty()) run_pass<Solve>(motion, step);
 }
 
 template <class Real>
 void SoftContacts<Real>::relax(SolverBody<Real>* motion, const ContactStep<Real>& step) {
-  if (!graph_->empty()) sweep<Relax>(motion, step);
+  if (!graph_->empty()) run_pass<Relax>(motion, step);
 }
 
 template <class Real>
 template <int kBytes>
-void SoftContacts<Real>::show_bounces(Blocks<kBytes>& blocks) {
-  crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+void SoftContacts<Real>::scatter_restitution(Blocks<kBytes>& blocks) {
+  scheduler_->ranges(blocks.count, kBlocksPerTask, [&](int first, int last) {
     for (Block<kBytes>* block = blocks.list.data() + first; block != blocks.list.data() + last; ++block)
       if (block->bounces) Loops<Number<kBytes>, Real>::scatter(block, block + 1);
   });
 }
 
 template <class Real>
-void SoftContacts<Real>::show_bounces() {
-  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { this->show_bounces(blocks); });
+void SoftContacts<Real>::scatter_restitution() {
+  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { this->scatter_restitution(blocks); });
 }
 
 template <class Real>
 template <int kBytes>
-void SoftContacts<Real>::take_bounces(Blocks<kBytes>& blocks) {
-  crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+void SoftContacts<Real>::gather_restitution(Blocks<kBytes>& blocks) {
+  scheduler_->ranges(blocks.count, kBlocksPerTask, [&](int first, int last) {
     for (Block<kBytes>* block = blocks.list.data() + first; block != blocks.list.data() + last; ++block)
-      if (block->bounces) Loops<Number<kBytes>, Real>::gather_again(*block);
+      if (block->bounces) Loops<Number<kBytes>, Real>::regather(*block);
   });
 }
 
 template <class Real>
-void SoftContacts<Real>::take_bounces() {
-  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { this->take_bounces(blocks); });
+void SoftContacts<Real>::gather_restitution() {
+  with_blocks(width_, blocks16_, blocks32_, [this](auto& blocks) { this->gather_restitution(blocks); });
 }
 
 template <class Real>
@@ -377,7 +379,7 @@ void SoftContacts<Real>::finish() {
     Loops<Lane, Real>::scatter(first, last);
   };
   with_blocks(width_, blocks16_, blocks32_, [&](auto& blocks) {
-    crew_->ranges(blocks.count, kBlocksOfTask, [&](int first, int last) {
+    scheduler_->ranges(blocks.count, kBlocksPerTask, [&](int first, int last) {
       scatter(blocks.list.data() + first, blocks.list.data() + last);
     });
   });

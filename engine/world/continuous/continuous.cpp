@@ -295,7 +295,8 @@ void find_loaded_bodies(WorldData<Real>& w) {
   w.scratch.has_contact_load.assign(w.bodies.size(), 0);
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
     if (has_pressed(c)) return mark_contact_load(w, c);
-    const Real near_gap = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+    const Real near_gap =
+        c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
     if (c.separation[0] > near_gap && (c.count < 2 || c.separation[1] > near_gap)) return;
     for (const int body : {c.body_a, c.body_b})
       if (w.scratch.has_contact_load[body] == 0) w.scratch.has_contact_load[body] = kMayHold;
@@ -306,15 +307,16 @@ void find_loaded_bodies(WorldData<Real>& w) {
 template <class Real>
 void find_deep_contacts(WorldData<Real>& w) {
   const auto is_deep = [&](const ContactConstraint<Real>& c) {
-    const Real depth = -std::min(c.now[0], c.now[1]);
-    if (!(depth > Real(tuning::kCoreCheckOverlap / tuning::kPushSpeed) * c.push_speed)) return false;
+    const Real depth = -std::min(c.current_separation[0], c.current_separation[1]);
+    if (!(depth > Real(tuning::kCoreCheckOverlap / tuning::kDepenetrationSpeed) * c.depenetration_speed))
+      return false;
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
     const bool a_dynamic = w.is_dynamic(c.body_a), b_dynamic = w.is_dynamic(c.body_b);
     const Real limit =
         (a_dynamic ? half_width(c.body_a) : Real(0)) + (b_dynamic ? half_width(c.body_b) : Real(0));
     return depth > Real(0.5 * tuning::kCoreDepth) * limit;
   };
-  if (!w.crew.shares()) {
+  if (!w.scheduler.shares()) {
     w.graph.for_each([&](const ContactConstraint<Real>& c) {
       if (is_deep(c)) w.scratch.deep_contacts.push_back(c.contact);
     });
@@ -328,7 +330,7 @@ void find_deep_contacts(WorldData<Real>& w) {
       append(runs, ContactRun<Real>{colour.data() + first, std::min(kContactsOfBlock, count - first), 0});
   });
   w.scratch.found_deep.begin(static_cast<int>(runs.size()));
-  w.crew.blocks(static_cast<int>(runs.size()), [&](int block) {
+  w.scheduler.blocks(static_cast<int>(runs.size()), [&](int block) {
     const ContactRun<Real>& run = runs[block];
     for (int i = 0; i < run.count; ++i)
       if (is_deep(run.first[i])) w.scratch.found_deep.add(block, run.first[i].contact);
@@ -343,7 +345,7 @@ bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
   const int blocks = (count + kSweptOfBlock - 1) / kSweptOfBlock;
   std::atomic<std::int64_t> used_iterations{0};
   w.scratch.found_toi_events.begin(blocks);
-  w.crew.blocks(blocks, [&](int block) {
+  w.scheduler.blocks(blocks, [&](int block) {
     PrefetchContacts ahead;
     for (int i = block * kSweptOfBlock; i < std::min(count, (block + 1) * kSweptOfBlock); ++i) {
       ahead.advance(w, static_cast<std::size_t>(i));
@@ -396,7 +398,7 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
   for (const FastBody& fast : w.scratch.fast_bodies) {
     if (!(w.settings.continuous && w.extras_of(fast.body).continuous) && !fast.expected) continue;
     all_covered = all_covered && fast.covered;
-    if (!w.crew.shares()) {
+    if (!w.scheduler.shares()) {
       SweptBody& swept = swept_bodies[swept_body_index(w, fast.body, dt)];
       swept.covered = fast.covered, swept.expected = fast.expected;
       continue;
@@ -406,8 +408,8 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
     swept.body = fast.body, swept.covered = fast.covered, swept.expected = fast.expected;
     append(swept_bodies, swept);
   }
-  if (!w.crew.shares()) return all_covered;
-  w.crew.ranges(static_cast<int>(swept_bodies.size()), kSweptOfBlock, [&](int first, int last) {
+  if (!w.scheduler.shares()) return all_covered;
+  w.scheduler.ranges(static_cast<int>(swept_bodies.size()), kSweptOfBlock, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       const SweptBody fast = swept_bodies[i];
       swept_bodies[i] = swept_body_of(w, fast.body, dt);
@@ -437,7 +439,7 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
   ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
   const int fast_count = static_cast<int>(swept_bodies.size());
-  if (!w.crew.shares() || !find_first_impacts(w, fast_count, search)) {
+  if (!w.scheduler.shares() || !find_first_impacts(w, fast_count, search)) {
     // Each search gets the part of the budget that earlier searches have left.
     PrefetchContacts ahead;
     for (int i = 0; i < fast_count; ++i) {

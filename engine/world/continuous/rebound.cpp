@@ -31,7 +31,7 @@ bool is_free(const WorldData<Real>& w, int body, double dt) {
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    return has_held(w, c, static_cast<Real>(dt));
+    return was_load_bearing(w, c, static_cast<Real>(dt));
   });
 }
 
@@ -115,8 +115,8 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   // A touching point that does not approach may still be pushed by the impulse at the other one.
   bool closed[2] = {}, approaches = false, fast = false;
   for (int i = 0; i < c.count; ++i) {
-    c.normal_impulse[i] = c.peak_impulse[i] = 0;
-    c.approach[i] = pair.normal_rate(i);
+    c.normal_impulse[i] = c.max_normal_impulse[i] = 0;
+    c.approach[i] = pair.normal_velocity(i);
     closed[i] = c.separation[i] <= nearest + rounding;
     approaches = approaches || (closed[i] && c.approach[i] < 0);
     fast = fast || (closed[i] && c.approach[i] < -threshold);
@@ -132,17 +132,17 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
     target_rate[i] = -double(c.separation[i]) / double(remaining_time);
     closed[i] = true;
   }
-  const ImpactImpulses impulses = impact_of(pair.a, pair.b, c, closed, target_rate);
+  const ImpactImpulses impulses = solve_impact(pair.a, pair.b, c, closed, target_rate);
   const Real first = static_cast<Real>(impulses.normal[0]), second = static_cast<Real>(impulses.normal[1]),
              friction = static_cast<Real>(impulses.friction);
   if (!std::isfinite(first) || !std::isfinite(second) || !std::isfinite(friction))
     return ImpactResponse::None;
   c.tangent_impulse = c.rolling_impulse = 0;
-  pair.push(first, second);
-  pair.rub(friction);
-  pair.resist_rolling();
-  c.watched = Watch::Motion;
-  pair.note_peaks();
+  pair.apply_normal(first, second);
+  pair.set_friction(friction);
+  pair.solve_rolling();
+  c.tracking = ImpactTracking::Motion;
+  pair.record_max_impulse();
   return fast ? ImpactResponse::Bounce : ImpactResponse::Slide;
 }
 
@@ -185,14 +185,14 @@ void report_touch(WorldData<Real>& w, const ContactRecord& contact, const Contac
     set_touching(w, id, true);
     if (w.contacts[id].home == ContactHome::Graph) {
       ContactConstraint<Real>& held = constraint_of(w, w.contacts[id]);
-      held.touching = true, held.watched = watch_of(w.contacts[id], held);
+      held.touching = true, held.tracking = tracking_of(w.contacts[id], held);
     }
   } else if (id == kNone || !w.contacts[id].touching) {
     w.event_buffer().begin.push_back({reading.shape_a, reading.shape_b});
     w.event_buffer().end.push_back({reading.shape_a, reading.shape_b});
   }
   const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
-  if (!contact.hit_events || c.approach[hardest] > -least_hit_speed(w, c)) return;
+  if (!contact.hit_events || c.approach[hardest] > -min_hit_speed(w, c)) return;
   w.event_buffer().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest], reading.normal,
                                    -static_cast<double>(c.approach[hardest]),
                                    static_cast<double>(c.normal_impulse[0] + c.normal_impulse[1])});

@@ -39,7 +39,7 @@ class SweptAabbTest {
   bool stay_separated(int shape, int other, Real distance) const {
     const int body = w_.shapes[other].body;
     const Vec2<Real> relative = w_.motion[body].delta_position - moved_;
-    const Aabb<Real>&box_a = w_.boxes[shape], &box_b = w_.boxes[other];
+    const Aabb<Real>&box_a = w_.tight_aabbs[shape], &box_b = w_.tight_aabbs[other];
     // Far from the origin, AABBs are rounded as coarsely as positions.
     const Real size = std::max(std::abs(box_a.lower.x), std::abs(box_a.upper.x)) +
                       std::max(std::abs(box_a.lower.y), std::abs(box_a.upper.y));

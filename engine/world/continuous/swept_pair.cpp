@@ -194,8 +194,8 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const PairImpactSearch<
     if (found.state != State::Overlapped) return found;
   }
   if (are_dynamic_in_contact(w, pair)) {
-    const Core<Real> core(at.whole(), Real(tuning::kInnerDepth) * half_width),
-        other_core(at.obstacle(), Real(tuning::kInnerDepth) * other_half_width);
+    const Core<Real> core(at.whole(), Real(tuning::kInnerCoreDepth) * half_width),
+        other_core(at.obstacle(), Real(tuning::kInnerCoreDepth) * other_half_width);
     const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), other_core.convex());
     return found.state == State::Overlapped ? ImpactResult<Real>{} : found;
   }
@@ -210,7 +210,7 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const PairImpactSearch<
     if (found.state != State::Overlapped) return found;
   }
   for (const double depth_fraction :
-       {tuning::kCoreDepth, 0.5 * (tuning::kCoreDepth + tuning::kInnerDepth), tuning::kInnerDepth}) {
+       {tuning::kCoreDepth, 0.5 * (tuning::kCoreDepth + tuning::kInnerCoreDepth), tuning::kInnerCoreDepth}) {
     const Core<Real> core(at.whole(), Real(depth_fraction) * half_width),
         other_core(at.obstacle(), Real(depth_fraction) * other_half_width);
     const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), other_core.convex());
@@ -231,8 +231,8 @@ bool is_clear(const WorldData<Real>& w, const SweptPath& path, const SweptPair<R
   const bool discs = form.count == 1 && other_form.count == 1;
   const Real depth = form.chain ? half_width_of(w, pair.other) : half_width_of(w, pair.shape);
   const Real both = half_width_of(w, pair.shape) + half_width_of(w, pair.other);
-  const Real allowed_depth =
-      are_dynamic_in_contact(w, pair) ? Real(tuning::kInnerDepth) * both : Real(tuning::kCoreDepth) * depth;
+  const Real allowed_depth = are_dynamic_in_contact(w, pair) ? Real(tuning::kInnerCoreDepth) * both
+                                                             : Real(tuning::kCoreDepth) * depth;
   const Real enough = pair.contact == nullptr && discs ? apart : apart - allowed_depth;
   // Shapes in contact may overlap by almost the depth of a core, so their AABBs may too.
   if (enough < apart && aabb_test.stay_separated(pair.shape, pair.other, enough) &&
@@ -277,7 +277,7 @@ bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<R
   if (pair.contact == nullptr || path.swept.lifts >= kMaxLifts || path.swept.pushed_by != kNone) return false;
   // The normal of a deep contact may point to the wrong side.
   const ContactConstraint<Real>& c = *pair.contact;
-  const Real touching = Real(tuning::kTouchSeparation / tuning::kPushSpeed) * c.push_speed;
+  const Real touching = Real(tuning::kTouchSeparation / tuning::kDepenetrationSpeed) * c.depenetration_speed;
   if (std::min(c.separation[0], c.separation[1]) < -touching) return false;
   if (w.bodies[body].first_joint != kNone || w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
   return !w.is_dynamic(other) && w.motion[other].delta_angle == 0;
@@ -305,7 +305,7 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
   const double offset = apart > 0 ? apart - separation(0) : 0;
   // If the separation along the normal does not decrease, the core enters through another side: stop it, up
   // to two tolerances earlier, which is much for a needle.
-  const double smaller = static_cast<double>(pair.contact->push_speed) / tuning::kPushSpeed;
+  const double smaller = static_cast<double>(pair.contact->depenetration_speed) / tuning::kDepenetrationSpeed;
   const double stop_distance = 2 * tuning::kImpactTolerance * smaller;
   if (entry_fraction < 1 && separation(entry_fraction) + offset > stop_distance - 0.5 * core)
     return std::nullopt;
@@ -316,7 +316,7 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
   const double arc_height =
       static_cast<double>(w.extents[body]) * path.sweep.delta_angle * path.sweep.delta_angle +
       2 * (std::abs(path.sweep.curve.x) + std::abs(path.sweep.curve.y));
-  const double allowed_depth = (tuning::kInnerDepth - tuning::kCoreDepth) * half_width;
+  const double allowed_depth = (tuning::kInnerCoreDepth - tuning::kCoreDepth) * half_width;
   const double pieces =
       std::ceil(std::sqrt(0.25 * arc_height / allowed_depth));  // arcs may use half of the depth
   if (!(pieces <= kMaxPieces)) return std::nullopt;

@@ -110,7 +110,7 @@ class Drawing {
   void draw_boxes() const {
     for_each_used(w_.shapes, [&](int shape) {
       if (w_.shapes[shape].proxy == kNone || !is_shape_visible(shape)) return;
-      const Aabb<Real>& box = w_.boxes[shape];
+      const Aabb<Real>& box = w_.tight_aabbs[shape];
       const Vec2d a = box.lower.template as<double>(), b = box.upper.template as<double>();
       const Vec2d corners[] = {a, {b.x, a.y}, b, {a.x, b.y}};
       out_.polygon(corners, 0, DrawRole::Box);
@@ -118,11 +118,11 @@ class Drawing {
   }
 
   void draw_contact(const ContactRecord& contact) const {
-    const bool parked = contact.home == ContactHome::Parked;
-    if (!parked && contact.home != ContactHome::Graph) return;
+    const bool sleeping = contact.home == ContactHome::Sleeping;
+    if (!sleeping && contact.home != ContactHome::Graph) return;
     if (!is_shape_visible(contact.shape_a) && !is_shape_visible(contact.shape_b)) return;
     const ContactConstraint<Real>& constraint =
-        parked ? w_.parked[contact.index] : w_.graph.at({contact.colour, contact.index});
+        sleeping ? w_.sleeping_contacts[contact.index] : w_.graph.at({contact.colour, contact.index});
     const ContactReading reading = reading_of(w_, contact, constraint);
     const int body = contact.body_a;
     const Vec2d offset = centre(body) - w_.position[body];

@@ -131,7 +131,7 @@ constexpr int kBodiesPerBlock = 256;
 template <class Real, class Visit>
 void for_each_increment(WorldData<Real>& w, const Visit& visit) {
   std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
-  w.crew.ranges(static_cast<int>(increments.size()), kBodiesPerBlock, [&](int first, int last) {
+  w.scheduler.ranges(static_cast<int>(increments.size()), kBodiesPerBlock, [&](int first, int last) {
     const Visit own = visit;  // a local copy, which no pointer can change
     VelocityIncrement<Real>* const list = increments.data();
     for (int i = first; i < last; ++i) own(list[i]);
@@ -152,7 +152,7 @@ const int* reserve_increments(WorldData<Real>& w, int blocks, Integrator integra
   resize_with_growth(firsts, blocks + 1);
   firsts[0] = 0;
   const int count = static_cast<int>(w.awake.size());
-  w.crew.blocks(blocks, [&](int block) {
+  w.scheduler.blocks(blocks, [&](int block) {
     int found = 0;
     for (int i = block * kBodiesPerBlock; i < std::min(count, (block + 1) * kBodiesPerBlock); ++i)
       found += static_cast<int>(moves_by_substeps(w.bodies[w.awake[i]], integrator));
@@ -195,7 +195,7 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
     increment.in_tree = articulated && w.scratch.trees.is_link[body];
     add(increment, BodyVelocity<Real>{motion.velocity, motion.angular_velocity});
   };
-  if (!w.crew.shares()) {
+  if (!w.scheduler.shares()) {
     for (int index = 0; index < count; ++index) {
       prepare(index, [&](const VelocityIncrement<Real>& increment, const BodyVelocity<Real>& start) {
         increments.push_back(increment), w.scratch.start_velocities.push_back(start);
@@ -205,7 +205,7 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
   }
   const int blocks = (count + kBodiesPerBlock - 1) / kBodiesPerBlock;
   const int* const firsts = reserve_increments(w, blocks, integrator);
-  w.crew.blocks(blocks, [&](int block) {
+  w.scheduler.blocks(blocks, [&](int block) {
     int next = firsts[block];
     for (int index = block * kBodiesPerBlock; index < std::min(count, (block + 1) * kBodiesPerBlock);
          ++index) {

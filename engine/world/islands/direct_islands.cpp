@@ -33,11 +33,11 @@ int joints_outside_trees(const WorldData<Real>& w) {
 }
 
 // Returns true if an island with this number of rows is solved directly.
-constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kDirectRows; }
+constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kMaxDirectRows; }
 
 // Values of island_size that mark an island with joints. It is solved by iterations (kIterated), as one
 // system (kJointed), or as one system if that costs little (kJointedIfCheap).
-constexpr int kIterated = tuning::kSlenderRows + 1, kJointed = -1, kJointedIfCheap = -2;
+constexpr int kIterated = tuning::kMaxSlenderRows + 1, kJointed = -1, kJointedIfCheap = -2;
 
 constexpr bool is_jointed(int size) { return size == kJointed || size == kJointedIfCheap; }
 
@@ -100,8 +100,8 @@ void choose_jointed(WorldData<Real>& w) {
   for (const int body : w.awake) {
     if (!w.is_dynamic(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
     // Each contact counts two rows in island_size.
-    const bool small = s.island_joints[body] <= tuning::kJointedJoints &&
-                       s.island_size[body] <= 2 * tuning::kJointedContacts;
+    const bool small = s.island_joints[body] <= tuning::kMaxJointedJoints &&
+                       s.island_size[body] <= 2 * tuning::kMaxJointedContacts;
     const bool similar_masses = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     const bool few = w.settings.integrator == Integrator::VelocityVerlet &&
                      s.island_bounded_rows[body] <= tuning::kFewBoundedRows &&
@@ -119,21 +119,21 @@ void choose_jointed(WorldData<Real>& w) {
 template <class Real>
 void choose_slender(WorldData<Real>& w) {
   std::vector<int>& limits = w.scratch.max_island_rows;
-  limits.assign(w.bodies.size(), 2 * tuning::kSlenderLoops);
+  limits.assign(w.bodies.size(), 2 * tuning::kMaxSlenderLoops);
   for (const int body : w.awake) {
     if (!w.is_dynamic(body)) continue;
     int& limit = limits[w.scratch.island_of[body]];
-    limit = w.bodies[body].constraints > tuning::kSlenderContacts ? -tuning::kSlenderRows : limit + 2;
+    limit = w.bodies[body].constraints > tuning::kMaxSlenderContacts ? -tuning::kMaxSlenderRows : limit + 2;
   }
   for (const int body : w.awake) {
     int& size = w.scratch.island_size[body];
-    if (size > tuning::kDirectRows && size <= tuning::kSlenderRows && size <= limits[body])
-      size = tuning::kDirectRows;
+    if (size > tuning::kMaxDirectRows && size <= tuning::kMaxSlenderRows && size <= limits[body])
+      size = tuning::kMaxDirectRows;
   }
 }
 
 // Finds the islands, by their root body, and stores an upper bound of the rows of each in
-// `w.scratch.island_size`. Islands with more than tuning::kDirectRows are solved by iterations alone.
+// `w.scratch.island_size`. Islands with more than tuning::kMaxDirectRows are solved by iterations alone.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
   UnionFind islands(w.scratch.island_of, w.bodies.size());
@@ -185,7 +185,7 @@ void add_rows(DirectIsland<Real>& island) {
       row.linear_a = -free_of_a(c->normal, c->locks), row.linear_b = free_of_b(c->normal, c->locks);
       row.angular_a = -c->arm_a[i], row.angular_b = c->arm_b[i];
       row.impulse = &c->normal_impulse[i];
-      row.one_sided = true;
+      row.unilateral = true;
       row.block = block;
       rows.push_back(row);
     }
@@ -226,9 +226,9 @@ void order_jointed(WorldData<Real>& w) {
   for (int i = 0; i < s.jointed_count; ++i) {
     JointedIsland<Real>& island = s.jointed_islands[i];
     int& size = s.island_size[island.root];
-    const double max_cost = size == kJointed ? tuning::kJointedCost
+    const double max_cost = size == kJointed ? tuning::kMaxJointedCost
                                              : tuning::kFewCost * static_cast<double>(island.joints.size());
-    if (order_jointed_island(w, island) <= std::min(max_cost, tuning::kJointedCost)) {
+    if (order_jointed_island(w, island) <= std::min(max_cost, tuning::kMaxJointedCost)) {
       if (kept != i) {
         std::swap(s.jointed_islands[kept], island);
         s.island_index[s.jointed_islands[kept].root] = kept;
@@ -269,7 +269,7 @@ Real current_separation(const SolverBody<Real>* motion, const DirectRow<Real>& r
 template <class Real, class Act>
 void for_each_direct(WorldData<Real>& w, const Act& act) {
   constexpr int kIslandsPerTask = 2;
-  w.crew.ranges(w.scratch.direct_count, kIslandsPerTask, [&](int first, int last) {
+  w.scheduler.ranges(w.scratch.direct_count, kIslandsPerTask, [&](int first, int last) {
     for (int i = first; i < last; ++i) act(w.scratch.direct_islands[i]);
   });
 }
@@ -293,7 +293,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
   if (!w.scratch.has_direct_islands) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     add_rows(island);
-    if (island.system.order(w.motion.data()) > tuning::kDirectCost) return solve_by_iterations(w, island);
+    if (island.system.order(w.motion.data()) > tuning::kMaxDirectCost) return solve_by_iterations(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.assemble(w.motion.data());
   });
@@ -313,12 +313,14 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
         DirectRow<Real>& row = island.system.rows[next++];
         const Real s = current_separation(w.motion.data(), row, c->separation[k]);
         const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)][0].bias_rate;
-        row.bias = s > 0 ? s * step.inverse_h : use_bias ? std::max(rate * s, -c->push_speed) : Real(0);
+        row.bias = s > 0      ? s * step.inverse_h
+                   : use_bias ? std::max(rate * s, -c->depenetration_speed)
+                              : Real(0);
       }
     }
-    if (island.system.find(w.motion.data(), use_bias)) {
+    if (island.system.solve_impulses(w.motion.data(), use_bias)) {
       island.system.apply(w.motion.data());
-    } else if (island.system.contradicted()) {
+    } else if (island.system.is_infeasible()) {
       solve_by_iterations(w, island);
     }
   });

@@ -179,7 +179,7 @@ class RowBuilder {
                          double(c.arm_a[i]) * a.delta_angle;
       const double start = midpoint_ ? gap - 0.5 * h_ * mean_rate(row) : gap;
       row.target = target_rate(start, row);
-      row.gap = std::max(gap, -double(c.push_speed) * h_ / tuning::kDirectPushFraction);
+      row.gap = std::max(gap, -double(c.depenetration_speed) * h_ / tuning::kDirectPushFraction);
       // A contact that bounces is disabled until its time of impact. After the motion, a gap without an
       // impulse does not slow bodies down.
       const std::size_t index = island_.row_sources.size();

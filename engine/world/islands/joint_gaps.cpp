@@ -86,7 +86,7 @@ class Mechanism {
   void close() {
     make_joint_rows(Level::Position);
     collect_contacts();
-    if (order() > tuning::kJointedCost) return;
+    if (order() > tuning::kMaxJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
       if (round > 0) make_joint_rows(Level::Position);
       if (round > 0 && !is_open()) break;
@@ -194,7 +194,7 @@ class Mechanism {
   }
 
   void push_row(BoundedRow& row, Level level) {
-    if (level == Level::Position) row.softening = tuning::kCloseSoftness;
+    if (level == Level::Position) row.softening = tuning::kCorrectionSoftness;
     island_.system.rows.push_back(row);
   }
 
@@ -246,7 +246,7 @@ class Mechanism {
     system.solve();
     system.displacements.clear();
     for (const BoundedBody& body : system.bodies) system.displacements.push_back({body.velocity, body.spin});
-    displace_links(w_, island_, tuning::kMaxCloseRotation);
+    displace_links(w_, island_, tuning::kMaxCorrectionRotation);
   }
 
   // Removes the part of the velocities that opens the joints. It is a projection in the metric of the masses
@@ -303,7 +303,7 @@ void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   std::vector<char>& marks = w.scratch.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kNotOpen);
   const double max_gap = kMaxGap * std::max(kReferenceSubsteps / static_cast<double>(substeps), 1.0);
-  if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(max_gap), marks, &w.crew)) return;
+  if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(max_gap), marks, &w.scheduler)) return;
   Mechanism<Real> mechanism(w, w.scratch.open_mechanism, h, max_gap);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
     if (marks[joint] != kOpen || has_many_loops(w, joint)) continue;

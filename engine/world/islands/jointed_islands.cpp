@@ -158,8 +158,8 @@ struct GapCorrection {
 template <class Real>
 GapCorrection gap_correction_of(const WorldData<Real>& w) {
   if (w.settings.solver == Solver::Direct)
-    return {tuning::kDirectJointCloseFraction, tuning::kDirectCloseSoftness};
-  return {tuning::kJointCloseFraction, tuning::kCloseSoftness};
+    return {tuning::kDirectCorrectionFraction, tuning::kDirectCorrectionSoftness};
+  return {tuning::kJointCorrectionFraction, tuning::kCorrectionSoftness};
 }
 
 // Makes the rows of a correction that closes gaps of joints (`joints`) or of contacts. Returns false if none
@@ -195,7 +195,7 @@ void close_joints(WorldData<Real>& w, JointedIsland<Real>& island, const Contact
   limit_mass_ratio(island);
   system.correct(closing.softness);
   std::copy(saved.begin(), saved.end(), system.bodies.begin());
-  compensate_shift_work(island, displace_links(w, island, tuning::kMaxCloseRotation), 1 / h);
+  compensate_shift_work(island, displace_links(w, island, tuning::kMaxCorrectionRotation), 1 / h);
 }
 
 // Pushes overlapping bodies apart by a fraction of their overlaps, with their real masses, and with joints as
@@ -205,7 +205,7 @@ template <class Real>
 void correct_penetrations(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
   if (!make_correction_rows(w, island, step, false, 4 * tuning::kDirectPushFraction)) return;
   island.system.correct(gap_correction_of(w).softness);
-  displace_links(w, island, tuning::kMaxCloseRotation);
+  displace_links(w, island, tuning::kMaxCorrectionRotation);
 }
 
 // ---- Motion
@@ -333,7 +333,7 @@ void step_in_parts(WorldData<Real>& w, JointedIsland<Real>& island, const Contac
     advance_links(w, island, part.h);
     // Closing whole gaps at once would open joints again by ten times as much, because taut links rotate far
     // to close a small gap.
-    close_joints(w, island, part, step.h, {tuning::kJointCloseFraction, tuning::kCloseSoftness});
+    close_joints(w, island, part, step.h, {tuning::kJointCorrectionFraction, tuning::kCorrectionSoftness});
     relax(w, island, part);
     for (std::size_t k = 0; k < island.links.size(); ++k) {
       const JointedLink& link = island.links[k];
@@ -468,7 +468,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
     JointedIsland<Real>& island = w.scratch.jointed_islands[i];
     // These impulses replace those of the pass over all contacts.
     for (ContactConstraint<Real>* c : island.contacts)
-      if (c->watched != Watch::Off) c->step_impulse -= normal_sum(*c);
+      if (c->tracking != ImpactTracking::Off) c->step_impulse -= normal_sum(*c);
     if (close) {
       close_joints(w, island, step, step.h, gap_correction_of(w));
       if (!island.contacts.empty()) correct_penetrations(w, island, step);
@@ -477,7 +477,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
     for (const JointedLink& link : island.links)
       store_velocity(w.motion[link.body], link.velocity, link.spin);
     for (ContactConstraint<Real>* c : island.contacts)
-      if (c->watched != Watch::Off) note_peaks(*c), c->step_impulse += normal_sum(*c);
+      if (c->tracking != ImpactTracking::Off) record_max_impulse(*c), c->step_impulse += normal_sum(*c);
     if (last || !island.contacts.empty()) update_warm_start_fraction(w, island);
   }
 }

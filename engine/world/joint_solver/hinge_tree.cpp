@@ -13,7 +13,7 @@ namespace {
 // Maximum rotation of a body in a substep, rad, by its spin or as a pendulum. The energy error is about an
 // eighth of its square.
 constexpr double kMaxRotation = 0.125;
-constexpr int kMaxParts = 64;
+constexpr int kMaxSubdivisions = 64;
 // Tolerance of closing hinges, as a fraction of the arms, and the maximum number of Newton steps for it.
 constexpr double kGapTolerance = 1e-11;
 constexpr int kMaxNewtonSteps = 16;
@@ -24,16 +24,16 @@ constexpr double kFailedGap = 1e-6;
 // open is pulled together without a burst.
 constexpr double kGapSpeed = 4;
 // Ratio of required to current inertia above which a link's inertia is raised within a substep.
-constexpr double kHeavier = 1.01;
+constexpr double kMinInertiaRatio = 1.01;
 // Growth of the gap in a Newton step above which the iteration diverges.
 constexpr double kDivergence = 2;
 
 // ---- Motion
 
 // Returns a damping factor to the power of `fraction`, a power of two up to 1.
-double damping_over(double keep, double fraction) {
-  for (; fraction < 1 && keep != 1; fraction *= 2) keep = std::sqrt(keep);
-  return keep;
+double damping_power(double factor, double fraction) {
+  for (; fraction < 1 && factor != 1; fraction *= 2) factor = std::sqrt(factor);
+  return factor;
 }
 
 // Applies a fraction of the forces and the damping of a substep.
@@ -43,16 +43,16 @@ void apply_forces(std::span<ArticulatedLink> tree, double fraction) {
     if (!link.is_dynamic) continue;
     link.velocity += fraction * link.velocity_increment;
     link.spin += fraction * link.spin_increment;
-    link.velocity *= damping_over(link.damping_factor, fraction);
-    link.spin *= damping_over(link.spin_damping_factor, fraction);
+    link.velocity *= damping_power(link.damping_factor, fraction);
+    link.spin *= damping_power(link.spin_damping_factor, fraction);
   }
 }
 
 // Computes sine and cosine - 1 of a rotation.
 void set_rotation(ArticulatedLink& link, double x) {
   if (std::abs(x) > kMaxRotation) {
-    const Rotation<double> turn = rotation_of(x);
-    link.sine = turn.s, link.cosine_minus_one = turn.c - 1;
+    const Rotation<double> rotation = rotation_of(x);
+    link.sine = rotation.s, link.cosine_minus_one = rotation.c - 1;
     return;
   }
   const double y = x * x;
@@ -67,7 +67,7 @@ Vec2d arm_displacement(const ArticulatedLink& link, Vec2d arm) {
 // Predicts the hinges' gaps after h. Returns the square of the largest deviation from the target gap, as a
 // fraction of the arms.
 double predict_gaps(std::span<ArticulatedLink> tree, double h) {
-  double widest = 0;
+  double max_gap = 0;
   set_rotation(tree[0], h * tree[0].spin);
   for (std::size_t i = 1; i < tree.size(); ++i) {
     ArticulatedLink& link = tree[i];
@@ -77,9 +77,9 @@ double predict_gaps(std::span<ArticulatedLink> tree, double h) {
                          (arm_displacement(link, link.arm) - arm_displacement(parent, link.parent_arm));
     const double error = length_squared(link.target_gap - link.predicted_gap) / link.arm_scale_squared;
     // Also true for NaN, for which no gap counts as closed.
-    if (!(error <= widest)) widest = error;
+    if (!(error <= max_gap)) max_gap = error;
   }
-  return widest;
+  return max_gap;
 }
 
 void update_arms(std::span<ArticulatedLink> tree) {
@@ -97,8 +97,8 @@ void update_arms(std::span<ArticulatedLink> tree) {
 
 void integrate_positions(std::span<ArticulatedLink> tree, double h) {
   for (ArticulatedLink& link : tree) {
-    link.moved += h * link.velocity;
-    link.turned += h * link.spin;
+    link.delta_position += h * link.velocity;
+    link.delta_angle += h * link.spin;
     const Rotation<double> q = link.rotation;
     link.rotation = {q.c + (link.cosine_minus_one * q.c - link.sine * q.s),
                      q.s + (link.cosine_minus_one * q.s + link.sine * q.c)};
@@ -147,10 +147,10 @@ bool compute_articulated_inertia(std::span<ArticulatedLink> tree) {
 }
 
 // Returns the velocity change of a free root.
-Vec2d free_root_change(const ArticulatedLink& root, Vec2d pull) {
+Vec2d free_root_change(const ArticulatedLink& root, Vec2d impulse) {
   const ArticulatedMass& m = root.mass;
   const double inverse = 1 / (m.xx * m.yy - m.xy * m.xy);
-  return -inverse * Vec2d{m.yy * pull.x - m.xy * pull.y, m.xx * pull.y - m.xy * pull.x};
+  return -inverse * Vec2d{m.yy * impulse.x - m.xy * impulse.y, m.xx * impulse.y - m.xy * impulse.x};
 }
 
 // Solves for the impulses that change the hinge velocities by `target_rate`, and applies them.
@@ -159,10 +159,10 @@ void solve(std::span<ArticulatedLink> tree) {
   for (std::size_t i = tree.size(); i-- > 1;) {
     ArticulatedLink& link = tree[i];
     link.bias_impulse -= (link.angular_bias_impulse * link.hinge_inertia) * link.coupling;
-    const Vec2d pull = link.mass.times(link.target_rate) + link.bias_impulse;
+    const Vec2d impulse = link.mass.times(link.target_rate) + link.bias_impulse;
     ArticulatedLink& parent = tree[link.parent];
-    parent.bias_impulse += pull;
-    parent.angular_bias_impulse += dot(perpendicular(link.from_parent), pull);
+    parent.bias_impulse += impulse;
+    parent.angular_bias_impulse += dot(perpendicular(link.from_parent), impulse);
   }
   ArticulatedLink& root = tree[0];
   root.hinge_change = {}, root.spin_change = 0;
@@ -204,7 +204,7 @@ bool find_required_inertias(std::span<ArticulatedLink> tree, double h, double fr
                             Vec2d ArticulatedLink::*impulse) {
   for (ArticulatedLink& link : tree) link.required_inertia = 0;
   const double scale = h / fraction;
-  bool heavier = false;
+  bool inertia_raised = false;
   for (std::size_t i = tree.size(); i-- > 0;) {
     ArticulatedLink& link = tree[i];
     if (i > 0) {
@@ -212,9 +212,10 @@ bool find_required_inertias(std::span<ArticulatedLink> tree, double h, double fr
       tree[link.parent].required_inertia -= dot(link.parent_lever, by);
       link.required_inertia += dot(link.lever, by);
     }
-    heavier = heavier || (link.is_dynamic && link.required_inertia > kHeavier * link.inertia);
+    inertia_raised =
+        inertia_raised || (link.is_dynamic && link.required_inertia > kMinInertiaRatio * link.inertia);
   }
-  return heavier;
+  return inertia_raised;
 }
 
 // Damps relative rotation of two bodies, by the fraction of their inertia that loads added.
@@ -233,7 +234,7 @@ void damp(std::span<ArticulatedLink> tree) {
 // ---- A substep
 
 struct PositionResult {
-  bool heavier = false;  // the impulses raised the inertia of links
+  bool inertia_raised = false;  // the impulses raised the inertia of links
   bool closed = false;
 };
 
@@ -241,28 +242,28 @@ struct PositionResult {
 // of the motion's forces act before.
 PositionResult solve_positions(std::span<ArticulatedLink> tree, double h, double fraction) {
   constexpr double kTolerance = kGapTolerance * kGapTolerance, kFailed = kFailedGap * kFailedGap;
-  bool heavier = false;
+  bool inertia_raised = false;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kMaxNewtonSteps; ++i) {
     const double gap = predict_gaps(tree, h);
-    if (gap <= kTolerance || i == kMaxNewtonSteps) return {heavier, gap <= kFailed};
+    if (gap <= kTolerance || i == kMaxNewtonSteps) return {inertia_raised, gap <= kFailed};
     if (i > 0 && !(gap < before)) {
-      if (gap <= kDivergence * before) return {heavier, gap <= kFailed};
+      if (gap <= kDivergence * before) return {inertia_raised, gap <= kFailed};
       undo(tree);
       predict_gaps(tree, h);
-      return {heavier, before <= kFailed};
+      return {inertia_raised, before <= kFailed};
     }
     for (ArticulatedLink& link : tree) link.target_rate = (1 / h) * (link.target_gap - link.predicted_gap);
     solve(tree);
     if (i == 0 && find_required_inertias(tree, h, fraction, &ArticulatedLink::accumulated_impulse)) {
-      heavier = true;
+      inertia_raised = true;
       undo(tree);
       compute_articulated_inertia(tree);
       solve(tree);
     }
     before = gap;
   }
-  return {heavier, false};
+  return {inertia_raised, false};
 }
 
 // Solves for velocities that keep the hinges closed (RATTLE's velocity stage).
@@ -289,18 +290,18 @@ void set_target_gaps(std::span<ArticulatedLink> tree, double h) {
 }
 
 // Returns the number of parts that a substep is divided into: a power of two.
-int substep_parts(std::span<const ArticulatedLink> tree, double h) {
-  double fastest = 0;  // rad/s, squared
+int subdivisions_of(std::span<const ArticulatedLink> tree, double h) {
+  double max_rate_squared = 0;  // rad/s, squared
   for (const ArticulatedLink& link : tree) {
     if (!link.is_dynamic || link.radius_squared == 0) continue;
     const double swing = std::sqrt(link.radius_squared * length_squared(link.velocity_increment)) /
                          (h * (link.radius_squared + link.inverse_mass / link.inverse_inertia));
-    fastest = std::max({fastest, link.spin * link.spin, swing});
+    max_rate_squared = std::max({max_rate_squared, link.spin * link.spin, swing});
   }
-  const double turn = h * std::sqrt(fastest);
-  int parts = 1;
-  while (parts < kMaxParts && turn > parts * kMaxRotation) parts *= 2;
-  return parts;
+  const double rotation = h * std::sqrt(max_rate_squared);
+  int subdivisions = 1;
+  while (subdivisions < kMaxSubdivisions && rotation > subdivisions * kMaxRotation) subdivisions *= 2;
+  return subdivisions;
 }
 
 // Integrates a tree through a step.
@@ -312,15 +313,15 @@ class TreeIntegrator {
         frame_(base_velocity(tree)),
         energy_limit_(kinetic_energy(tree, frame_)),
         driven_(!tree[0].is_dynamic && (tree[0].velocity != Vec2d{} || tree[0].spin != 0)) {
-    double widest = 0, momentum = 0;
+    double max_gap = 0, momentum = 0;
     for (const ArticulatedLink& link : tree) {
-      widest = std::max(widest, length_squared(link.gap));
+      max_gap = std::max(max_gap, length_squared(link.gap));
       momentum += mass_of(link) * std::sqrt(length_squared(link.velocity_increment));
       energy_tolerance_ += 0.5 * (mass_of(link) * length_squared(link.velocity_increment) +
                                   inertia_of(link) * link.spin_increment * link.spin_increment);
     }
     // Closing an open hinge may lift bodies.
-    energy_tolerance_ += momentum / h * std::sqrt(widest);
+    energy_tolerance_ += momentum / h * std::sqrt(max_gap);
   }
 
   // Integrates a fraction of a substep, a power of two. Integrates its halves instead if the hinges cannot be
@@ -328,27 +329,27 @@ class TreeIntegrator {
   // than the tree has. Skips the smallest part if it would need more energy.
   void advance(double fraction) {
     for (ArticulatedLink& link : tree_) link.velocity_before = link.velocity, link.spin_before = link.spin;
-    const double acts = velocity_lag_ + 0.5 * fraction, t = fraction * h_;
+    const double force_fraction = velocity_lag_ + 0.5 * fraction, t = fraction * h_;
     find_required_inertias(tree_, t, 1 / fraction, &ArticulatedLink::impulse);
     bool loaded = compute_articulated_inertia(tree_);
     velocity_lag_ == 0.5 * fraction
         ? apply_forces(tree_, fraction)
         : (apply_forces(tree_, velocity_lag_), apply_forces(tree_, 0.5 * fraction));
     set_target_gaps(tree_, t);
-    const PositionResult result = solve_positions(tree_, t, acts / fraction);
+    const PositionResult result = solve_positions(tree_, t, force_fraction / fraction);
     const double work = fraction * work_of(tree_, frame_);
     const bool lacks_energy = !driven_ && energy_limit_ + work < -energy_tolerance_,
-               last = fraction * kMaxParts <= 1;
+               last = fraction * kMaxSubdivisions <= 1;
     if (lacks_energy || (!result.closed && !last)) {
       for (ArticulatedLink& link : tree_) link.velocity = link.velocity_before, link.spin = link.spin_before;
       synchronise_velocities();
       if (!last) advance(0.5 * fraction), advance(0.5 * fraction);
       return;
     }
-    loaded = loaded || result.heavier;
+    loaded = loaded || result.inertia_raised;
     integrate_positions(tree_, t);
     energy_unchecked_ = energy_unchecked_ || loaded, inertia_raised_ = loaded;
-    for (ArticulatedLink& link : tree_) link.impulse = (1 / acts) * link.accumulated_impulse;
+    for (ArticulatedLink& link : tree_) link.impulse = (1 / force_fraction) * link.accumulated_impulse;
     // A rotating base does work on the tree.
     energy_limit_ += work + fraction * dot(tree_[1].impulse, base_velocity(tree_) - frame_);
     velocity_lag_ = 0.5 * fraction;
@@ -387,12 +388,12 @@ class TreeIntegrator {
 }  // namespace
 
 void integrate_tree(std::span<ArticulatedLink> tree, double h, int substeps) {
-  const int parts = substep_parts(tree, h);
-  const double fraction = 1.0 / parts;
-  for (ArticulatedLink& link : tree) link.moved = {}, link.turned = 0;
+  const int subdivisions = subdivisions_of(tree, h);
+  const double fraction = 1.0 / subdivisions;
+  for (ArticulatedLink& link : tree) link.delta_position = {}, link.delta_angle = 0;
   update_arms(tree);
   TreeIntegrator integrator(tree, h);
-  for (int left = parts * substeps; left > 0; --left) integrator.advance(fraction);
+  for (int left = subdivisions * substeps; left > 0; --left) integrator.advance(fraction);
   integrator.synchronise_velocities();
 }
 

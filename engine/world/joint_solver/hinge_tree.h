@@ -41,8 +41,8 @@ struct ArticulatedLink {
   Vec2d impulse{};   ///< N s, on the body by its hinge, in a substep
 
   // Results.
-  Vec2d moved{};      ///< m
-  double turned = 0;  ///< rad
+  Vec2d delta_position{};  ///< m
+  double delta_angle = 0;  ///< rad
 
   // Intermediate values.
   Vec2d velocity_before{};                ///< m/s, to undo a motion that failed

@@ -75,10 +75,10 @@ inline RigidMotion rigid_motion(std::span<ArticulatedLink> tree) {
   return out;
 }
 
-/// Reduces the bodies' relative motion until the energy is at most `most`, J. Hinges stay closed, and a free
-/// tree keeps its momentum and angular momentum.
-inline void limit_energy(std::span<ArticulatedLink> tree, Vec2d frame, double most) {
-  if (!(kinetic_energy(tree, frame) > most)) return;
+/// Reduces the bodies' relative motion until the energy is at most `max_energy`, J. Hinges stay closed, and a
+/// free tree keeps its momentum and angular momentum.
+inline void limit_energy(std::span<ArticulatedLink> tree, Vec2d frame, double max_energy) {
+  if (!(kinetic_energy(tree, frame) > max_energy)) return;
   const RigidMotion rigid = rigid_motion(tree);
   double common = 0, relative = 0;
   const auto velocity_at = [&](const ArticulatedLink& link) {
@@ -90,7 +90,7 @@ inline void limit_energy(std::span<ArticulatedLink> tree, Vec2d frame, double mo
     common += mass_of(link) * length_squared(v - frame) + inertia_of(link) * rigid.spin * rigid.spin;
     relative += mass_of(link) * length_squared(link.velocity - v) + inertia_of(link) * spin * spin;
   }
-  const double scale = relative > 0 ? std::sqrt(std::max(2 * most - common, 0.0) / relative) : 0;
+  const double scale = relative > 0 ? std::sqrt(std::max(2 * max_energy - common, 0.0) / relative) : 0;
   if (!(scale < 1)) return;
   for (ArticulatedLink& link : tree) {
     if (!link.is_dynamic) continue;

@@ -17,7 +17,7 @@ struct JointBlock {
 
   /// Factorises for the present rows.
   [[gnu::always_inline]] void factorise(const JointVelocities<Real>& v) {
-    constexpr Scalar<Real> kNothing = 32 * std::numeric_limits<Scalar<Real>>::epsilon();
+    constexpr Scalar<Real> kPivotTolerance = 32 * std::numeric_limits<Scalar<Real>>::epsilon();
     Real pivot[N];
     for (int i = 0; i < N; ++i) {
       const Real diagonal = v.inverse_mass(row[i], row[i]);
@@ -28,7 +28,7 @@ struct JointBlock {
         lower[i][j] = sum * inverse_pivot[j];
         rest -= lower[i][j] * lower[i][j] * pivot[j];
       }
-      const auto free = rest > kNothing * diagonal;
+      const auto free = rest > kPivotTolerance * diagonal;
       pivot[i] = select(free, rest, Real(0));
       inverse_pivot[i] = select(free, Real(Real(1) / rest), Real(0));
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <type_traits>
 
 #include "engine/joints/joint_angle.h"
@@ -29,7 +28,7 @@ struct LaneAngles {
 
 /// A joint of kind `Kind`, prepared for solving. With Lanes for `Real` it holds several joints side by side,
 /// whose rules have the same roles. Only the parts that the kind has take memory. They are solved in the
-/// order turn, axial, block, point, so that rigid rows are satisfied best.
+/// order angular, axial, block, point, so that rigid rows are satisfied best.
 template <class Real, template <class> class Kind>
 struct JointConstraint {
   using Rows = Kind<Real>;
@@ -55,7 +54,7 @@ struct JointConstraint {
 
   int joint = 0, a = 0, b = 0;
   Real under_relaxation = 1;  ///< under-relaxation factor of its impulses
-  bool alone = false;         ///< no other joint moves its bodies
+  bool isolated = false;      ///< no other joint moves its bodies
   bool with_island = false;   ///< solved with its island: here it is only evaluated
   Scalar<Real> known_h = 0;   ///< s, substep length that the rules are set for
   [[no_unique_address]] If<kHasSprings && !kIsLanes<Real>, JointSprings<Scalar<Real>>, 8> springs{};
@@ -67,7 +66,7 @@ struct JointConstraint {
   using Angle = std::conditional_t<kIsLanes<Real>, LaneAngles<Real>, JointAngle>;
   [[no_unique_address]] If<kAngle != AngleUse::None, Angle, 0> angle{};
   [[no_unique_address]] If<kRatchet || kPulley, JointMemory, 1> memory{};
-  [[no_unique_address]] If<Rows::kAngular, JointCoordinate<Real, true>, 2> turn{};
+  [[no_unique_address]] If<Rows::kAngular, JointCoordinate<Real, true>, 2> angular{};
   std::array<JointCoordinate<Real, false>, kAxial> axial{};
   [[no_unique_address]] If<(kBlock > 0), JointBlock<Real, kBlock>, 3> block{};
   using Point = std::conditional_t<kSoftPoint, SoftPoint<Real>, RigidPoint<Real>>;
@@ -80,7 +79,7 @@ struct JointConstraint {
     const Range last_limits = limits();
     kind = Rows(definition, centre_a, centre_b);
     const JointRules rules = rules_of(definition);
-    if constexpr (Rows::kAngular) turn.load(rules.angular);
+    if constexpr (Rows::kAngular) angular.load(rules.angular);
     if constexpr (kAngle != AngleUse::None) {
       if (kind.reference != last.reference) {
         angle.count = TurnCount::New;
@@ -105,7 +104,7 @@ struct JointConstraint {
   /// Sets the rule that follows from the stored state. A sleeping joint may be read before a step sets it.
   void restore_rule() {
     if constexpr (kRatchet)
-      if (memory.known != 0) turn.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
+      if (memory.known != 0) angular.rule[0].origin = static_cast<Real>(memory.value * kind.tooth);
     if constexpr (kPulley)
       if (memory.known != 0) axial[0].rule[0].origin = static_cast<Real>(memory.value);
   }
@@ -115,7 +114,7 @@ struct JointConstraint {
     const JointRules rules = rules_of(definition);
     SpringMobility mobility;
     if constexpr (kHasSprings) mobility = springs.mobility;
-    if constexpr (Rows::kAngular) turn.set_substep(rules.angular, mobility.angular, h);
+    if constexpr (Rows::kAngular) angular.set_substep(rules.angular, mobility.angular, h);
     for (int i = 0; i < kAxial; ++i) axial[i].set_substep(rules.axial[i], mobility.axial, h);
     if constexpr (kSoftPoint) point.set_substep(rules.point, mobility.point, h);
     known_h = h;
@@ -146,9 +145,9 @@ struct JointConstraint {
     if constexpr (kHasRows) arm_b = rows.arm_b;
     if (time != JointTime::Between) update_drift(now, rows, time == JointTime::StepStarts, step.h);
     if constexpr (kIsLanes<Real>) {
-      evaluate_coordinates(at, rows, v, step, {under_relaxation, alone});
+      evaluate_coordinates(at, rows, v, step, {under_relaxation, isolated});
     } else {
-      evaluate_single(at, rows, v, step, {under_relaxation, alone});
+      evaluate_single(at, rows, v, step, {under_relaxation, isolated});
     }
     if constexpr (kBlock > 0) {
       for (int i = 0; i < kBlock; ++i) block.row[i] = rows.block[i];
@@ -163,41 +162,41 @@ struct JointConstraint {
       starts ? coordinate.start_drift(q) : coordinate.update_drift(q, h);
     };
     // Rotation since the step began (0 at that time), because the angle may have many turns.
-    if constexpr (Rows::kAngular) update(turn, now.turned_b - now.turned_a);
+    if constexpr (Rows::kAngular) update(angular, now.delta_angle_b - now.delta_angle_a);
     for (int i = 0; i < kAxial; ++i) update(axial[i], rows.axial[i].residual);
     if constexpr (kSoftPoint)
       if (!starts) point.update_drift(rows.point.gap);
   }
 
-  /// Evaluates turn, axial and point rows at a pose; `at.angle` and the residuals are the coordinates.
+  /// Evaluates angular, axial and point rows at a pose; `at.angle` and the residuals are the coordinates.
   [[gnu::always_inline]] void evaluate_coordinates(const JointPose<Real>& at, const JointRows<Real>& rows,
                                                    const JointVelocities<Real>& v, const Step& step,
                                                    UnderRelaxation<Real> relaxation) {
     if constexpr (Rows::kAngular) {
-      if (turn_beside_rigid()) {
-        const Real turns = angular_mobility(masses_of(v), rows.point.arm_a, rows.point.arm_b);
-        turn.evaluate_beside_rigid(at.angle, v, turns, step, relaxation);
+      if (angular_beside_rigid()) {
+        const Real constrained = angular_mobility(masses_of(v), rows.point.arm_a, rows.point.arm_b);
+        angular.evaluate_beside_rigid(at.angle, v, constrained, step, relaxation);
       } else {
-        turn.evaluate(at.angle, v, step, relaxation);
+        angular.evaluate(at.angle, v, step, relaxation);
       }
     }
     for (int i = 0; i < kAxial; ++i) axial[i].row = rows.axial[i];
     for (int i = 0; i < kAxial; ++i) {
       if (i == 0 && axial_beside_rigid()) {
-        axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, held_axial_mobility(v, at, rows), step,
-                                       relaxation);
+        axial[i].evaluate_beside_rigid(rows.axial[i].residual, v, constrained_axial_mobility(v, at, rows),
+                                       step, relaxation);
       } else {
         axial[i].evaluate(rows.axial[i].residual, v, step, relaxation);
       }
     }
     if constexpr (kSoftPoint)
       if (point_beside_rigid())
-        return point.evaluate_beside_rigid(rows.point, v, held_response(masses_of(v), rows.point), step,
-                                           relaxation);
+        return point.evaluate_beside_rigid(rows.point, v, constrained_response(masses_of(v), rows.point),
+                                           step, relaxation);
     if constexpr (Rows::kPoint) point.evaluate(rows.point, v, step, relaxation);
   }
 
-  /// Does the same for a joint that is alone. Not inlined: it is the larger part of a joint's code.
+  /// Does the same for a single joint. Not inlined: it is the larger part of a joint's code.
   [[gnu::noinline]] void evaluate_single(const JointPose<Real>& at, const JointRows<Real>& rows,
                                          const JointVelocities<Real>& v, const Step& step,
                                          UnderRelaxation<Real> relaxation) {
@@ -207,8 +206,8 @@ struct JointConstraint {
   // Springs beside rigid rows of the joint respond with their effective mass given these: see
   // engine/joints/spring_mobility.h.
   /// Returns true if the angle has a spring beside a rigid point.
-  [[gnu::always_inline]] bool turn_beside_rigid() const {
-    if constexpr (Rows::kAngular && Rows::kPoint) return point.rigid() && turn.has(RowRole::Spring);
+  [[gnu::always_inline]] bool angular_beside_rigid() const {
+    if constexpr (Rows::kAngular && Rows::kPoint) return point.rigid() && angular.has(RowRole::Spring);
     return false;
   }
   /// Returns true if the first axial coordinate has a spring beside a rigid block or second coordinate.
@@ -219,11 +218,12 @@ struct JointConstraint {
   /// Returns true if the point has a spring beside a rigid angle.
   [[gnu::always_inline]] bool point_beside_rigid() const {
     if constexpr (Rows::kAngular && kSoftPoint)
-      return !point.rigid() && point.rule.role == RowRole::Spring && turn.has(RowRole::Rigid);
+      return !point.rigid() && point.rule.role == RowRole::Spring && angular.has(RowRole::Rigid);
     return false;
   }
-  [[gnu::always_inline]] Real held_axial_mobility(const JointVelocities<Real>& v, const JointPose<Real>& at,
-                                                  const JointRows<Real>& rows) const {
+  [[gnu::always_inline]] Real constrained_axial_mobility(const JointVelocities<Real>& v,
+                                                         const JointPose<Real>& at,
+                                                         const JointRows<Real>& rows) const {
     const JointRow<Real>& first = rows.axial[0];
     if constexpr (kAxial > 1) {
       const JointRow<Real>& second = rows.axial[1];
@@ -239,31 +239,31 @@ struct JointConstraint {
     using std::min;
     const Real now = static_cast<Real>(angle.start) + turned;
     Real least = slack;
-    for (int i = 0; i < turn.count; ++i)
-      if (turn.rule[i].role == RowRole::Limit)
-        least = min(least, Real(turn.rule[i].sign * (now - turn.rule[i].origin) + slack));
+    for (int i = 0; i < angular.count; ++i)
+      if (angular.rule[i].role == RowRole::Limit)
+        least = min(least, Real(angular.rule[i].sign * (now - angular.rule[i].origin) + slack));
     return least;
   }
 
-  /// Returns the load of the present rows.
-  JointLoad<Real> load(const JointVelocities<Real>& v) const {
-    if constexpr (kPlainHinge) return point_load(v, point.point.arm_a, point.point.arm_b);
+  /// Returns the fractions of the present rows' mobility that are the bodies'.
+  MobilityFraction<Real> mobility_fractions(const JointVelocities<Real>& v) const {
+    if constexpr (kPlainHinge) return point_mobility_fraction(v, point.point.arm_a, point.point.arm_b);
     constexpr int kRows = kAxial + kBlock + (Rows::kPoint ? 2 : 0) + (Rows::kAngular ? 1 : 0);
     JointRow<Real> rows[kRows];
     int count = 0;
     if constexpr (Rows::kAngular)
-      rows[count++] = {{}, {}, turn.count > 0 ? Real(-1) : 0, turn.count > 0 ? Real(1) : 0};
+      rows[count++] = {{}, {}, angular.count > 0 ? Real(-1) : 0, angular.count > 0 ? Real(1) : 0};
     for (int i = 0; i < kAxial; ++i) rows[count++] = axial[i].count > 0 ? axial[i].row : JointRow<Real>{};
     if constexpr (kBlock > 0)
       for (const JointRow<Real>& row : block.row) rows[count++] = row;
     if constexpr (Rows::kPoint)
       for (const Vec2<Real> n : {Vec2<Real>{1, 0}, Vec2<Real>{0, 1}})
         rows[count++] = point.point.plain_row(n);
-    return joint_load(rows, v);
+    return mobility_fraction(rows, v);
   }
 
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
-    if constexpr (Rows::kAngular) turn.warm_start(v);
+    if constexpr (Rows::kAngular) angular.warm_start(v);
     for (int i = 0; i < kAxial; ++i) axial[i].warm_start(v);
     if constexpr (kBlock > 0) block.warm_start(v);
     if constexpr (Rows::kPoint) point.warm_start(v);
@@ -278,15 +278,15 @@ struct JointConstraint {
   [[gnu::always_inline]] void solve_coordinates(JointVelocities<Real>& v, const Step& step, JointPass which,
                                                 Real relaxation) {
     Softness<Scalar<Real>> soft = step.softness;
-    if (turn_beside_rigid()) solve_point(v, soft, kRelax, relaxation);
-    if (point_beside_rigid()) solve_turn(v, kRelax), solve_point(v, soft, which, relaxation);
+    if (angular_beside_rigid()) solve_point(v, soft, kRelax, relaxation);
+    if (point_beside_rigid()) solve_angular(v, kRelax), solve_point(v, soft, which, relaxation);
     if (axial_beside_rigid()) {
       for (int i = 1; i < kAxial; ++i) axial[i].solve(v, kRelax);
       solve_block(v, soft, kRelax, relaxation);
     }
-    if (alone && (turn_beside_rigid() || axial_beside_rigid()))
+    if (isolated && (angular_beside_rigid() || axial_beside_rigid()))
       soft = {.bias_rate = soft.bias_rate, .mass_scale = 1, .impulse_scale = 0};
-    solve_turn(v, which);
+    solve_angular(v, which);
     for (int i = 0; i < kAxial; ++i) axial[i].solve(v, which);
     solve_block(v, soft, which, relaxation);
     if (!point_beside_rigid()) solve_point(v, soft, which, relaxation);
@@ -304,15 +304,15 @@ struct JointConstraint {
   [[gnu::always_inline]] JointPose<Real> pose(const JointMotion<Real>& now) const {
     JointPose<Real> at{.rotation_a = now.rotation_a, .rotation_b = now.rotation_b};
     if constexpr (Rows::kGrounded) {
-      at.offset = offset + now.moved_b;
-      if constexpr (kPulley) at.offset_a = offset_a + now.moved_a;
+      at.offset = offset + now.delta_position_b;
+      if constexpr (kPulley) at.offset_a = offset_a + now.delta_position_a;
     } else {
-      at.offset = offset + (now.moved_b - now.moved_a);
+      at.offset = offset + (now.delta_position_b - now.delta_position_a);
     }
     if constexpr (kAngle == AngleUse::Geared) {
-      at.angle = static_cast<Real>(angle.start) + (now.turned_b - kind.ratio * now.turned_a);
+      at.angle = static_cast<Real>(angle.start) + (now.delta_angle_b - kind.ratio * now.delta_angle_a);
     } else if constexpr (kAngle != AngleUse::None) {
-      at.angle = static_cast<Real>(angle.start) + (now.turned_b - now.turned_a);
+      at.angle = static_cast<Real>(angle.start) + (now.delta_angle_b - now.delta_angle_a);
     }
     return at;
   }
@@ -323,20 +323,22 @@ struct JointConstraint {
     if constexpr (kIsLanes<Real>) {
       return;  // done at the end of the step, by `end_step`
     } else if constexpr (kAngle == AngleUse::Geared) {
-      angle.a = angle.start_a + now.turned_a;
-      angle.b = angle.start_b + now.turned_b;
+      angle.a = angle.start_a + now.delta_angle_a;
+      angle.b = angle.start_b + now.delta_angle_b;
     } else if constexpr (kAngle != AngleUse::None) {
-      angle.b = angle.start_b + (now.turned_b - now.turned_a);
+      angle.b = angle.start_b + (now.delta_angle_b - now.delta_angle_a);
     }
   }
 
   /// Returns the current pose and rows, at any time; counts turns since the last evaluation.
   std::pair<JointPose<Real>, JointRows<Real>> current(const SolverBodies<Real>& bodies) const {
     JointConstraint now = *this;
-    const Vec2<Real> moved_a = bodies.motion[a].delta_position, moved_b = bodies.motion[b].delta_position;
+    const Vec2<Real> delta_position_a = bodies.motion[a].delta_position,
+                     delta_position_b = bodies.motion[b].delta_position;
     JointPose<Real> at{.rotation_a = bodies.rotation[a], .rotation_b = bodies.rotation[b]};
-    at.offset = find_offset(bodies, b) + (Rows::kGrounded ? moved_b : moved_b - moved_a);
-    if constexpr (kPulley) at.offset_a = find_offset_a(bodies) + moved_a;
+    at.offset =
+        find_offset(bodies, b) + (Rows::kGrounded ? delta_position_b : delta_position_b - delta_position_a);
+    if constexpr (kPulley) at.offset_a = find_offset_a(bodies) + delta_position_a;
     if constexpr (kAngle != AngleUse::None) {
       now.count_turns(bodies, 0);
       at.angle = static_cast<Real>(now.angle.start);
@@ -349,24 +351,24 @@ struct JointConstraint {
   /// Returns the linear impulse on b, and the angular one about the end of `arm_b`.
   std::pair<Vec2<Real>, Real> reaction() const {
     Vec2<Real> linear{};
-    Real angular = 0;
-    if constexpr (Rows::kAngular) angular += turn.impulse();
+    Real angular_impulse = 0;
+    if constexpr (Rows::kAngular) angular_impulse += angular.impulse();
     if constexpr (kHasRows) {
       const auto count = [&](const JointRow<Real>& row, Real impulse) {
         linear += impulse * row.linear_b;
-        angular += impulse * (row.angular_b - cross(arm_b, row.linear_b));
+        angular_impulse += impulse * (row.angular_b - cross(arm_b, row.linear_b));
       };
       for (const auto& coordinate : axial) count(coordinate.row, coordinate.impulse());
       if constexpr (kBlock > 0)
         for (int i = 0; i < kBlock; ++i) count(block.row[i], block.impulse[i]);
     }
     if constexpr (Rows::kPoint) linear += point.impulse;
-    return {linear, angular};
+    return {linear, angular_impulse};
   }
 
   /// Scales all impulses.
   void scale(Real factor) {
-    if constexpr (Rows::kAngular) turn.scale(factor);
+    if constexpr (Rows::kAngular) angular.scale(factor);
     for (auto& coordinate : axial) coordinate.scale(factor);
     if constexpr (kBlock > 0)
       for (Real& impulse : block.impulse) impulse *= factor;
@@ -377,7 +379,7 @@ struct JointConstraint {
   /// 0, and whose sign depends on how many joints were solved side by side.
   void reset() {
     if constexpr (kHasRows) arm_b = {};
-    if constexpr (Rows::kAngular) turn.reset();
+    if constexpr (Rows::kAngular) angular.reset();
     for (auto& coordinate : axial) coordinate.reset();
     if constexpr (kBlock > 0) {
       for (auto& row : block.row) row = {};
@@ -415,7 +417,7 @@ struct JointConstraint {
         visit(x.rule[i].impulse, y.rule[i].impulse), visit(x.rule[i].drift, y.rule[i].drift);
     };
     if constexpr (kHasRows) pair(arm_b, one.arm_b);
-    if constexpr (Rows::kAngular) coordinate(turn, one.turn);
+    if constexpr (Rows::kAngular) coordinate(angular, one.angular);
     for (int i = 0; i < kAxial; ++i) coordinate(axial[i], one.axial[i]), row(axial[i].row, one.axial[i].row);
     if constexpr (kBlock > 0)
       for (int i = 0; i < kBlock; ++i)
@@ -428,8 +430,8 @@ struct JointConstraint {
   }
 
  private:
-  [[gnu::always_inline]] void solve_turn(JointVelocities<Real>& v, JointPass which) {
-    if constexpr (Rows::kAngular) turn.solve(v, which);
+  [[gnu::always_inline]] void solve_angular(JointVelocities<Real>& v, JointPass which) {
+    if constexpr (Rows::kAngular) angular.solve(v, which);
   }
   [[gnu::always_inline]] void solve_block(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
                                           JointPass which, Real relaxation) {
@@ -453,8 +455,8 @@ struct JointConstraint {
   Range limits() const {
     Range range;
     if constexpr (Rows::kAngular && !kRatchet) {
-      for (int i = 0; i < turn.count; ++i) {
-        const SolverRule<Real>& rule = turn.rule[i];
+      for (int i = 0; i < angular.count; ++i) {
+        const SolverRule<Real>& rule = angular.rule[i];
         if (rule.role == RowRole::Limit) (rule.sign > 0 ? range.lower : range.upper) = rule.origin;
       }
     }

@@ -80,12 +80,12 @@ struct JointCoordinate {
     inverse_mass = mobility(v);
     evaluate(q, step, relaxation);
   }
-  /// Does the same for a spring beside rigid rows, which reduce its mobility to `held`: its response if the
-  /// joint is solved alone, with these rows before and after the spring.
-  [[gnu::always_inline]] void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real held,
+  /// Does the same for a spring beside rigid rows, which reduce its mobility to `constrained`: its response
+  /// if the joint is solved alone, with these rows before and after the spring.
+  [[gnu::always_inline]] void evaluate_beside_rigid(Real q, const JointVelocities<Real>& v, Real constrained,
                                                     const JointStep<Scalar<Real>>& step,
                                                     UnderRelaxation<Real> relaxation) {
-    inverse_mass = select(relaxation.factor < Real(1), mobility(v), held);
+    inverse_mass = select(relaxation.factor < Real(1), mobility(v), constrained);
     evaluate(q, step, relaxation);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {

@@ -43,16 +43,16 @@ template <class Joint, class Act>
 }
 
 /// Returns the properties that joints of a block have in common: the rules' roles, and whether they are
-/// alone.
+/// isolated.
 template <class Joint>
 std::uint64_t kind_of_lanes(const Joint& joint) {
-  std::uint64_t key = joint.alone ? 1 : 0;
+  std::uint64_t key = joint.isolated ? 1 : 0;
   const auto add = [&key](const auto& coordinate) {
     key = key << 3 | static_cast<unsigned>(coordinate.count);
     for (int i = 0; i < coordinate.count; ++i)
       key = key << 2 | static_cast<unsigned>(coordinate.rule[i].role);
   };
-  if constexpr (Joint::Rows::kAngular) add(joint.turn);
+  if constexpr (Joint::Rows::kAngular) add(joint.angular);
   for (const auto& coordinate : joint.axial) add(coordinate);
   return key;
 }
@@ -60,12 +60,12 @@ std::uint64_t kind_of_lanes(const Joint& joint) {
 /// Sets the properties that joints of the kind have in common.
 template <class Lanes, class Joint>
 void copy_kind(Lanes& block, const Joint& from) {
-  block.alone = from.alone;
+  block.isolated = from.isolated;
   const auto take = [](auto& coordinate, const auto& other) {
     coordinate.count = other.count;
     for (int i = 0; i < other.count; ++i) coordinate.rule[i].role = other.rule[i].role;
   };
-  if constexpr (Joint::Rows::kAngular) take(block.turn, from.turn);
+  if constexpr (Joint::Rows::kAngular) take(block.angular, from.angular);
   for (int i = 0; i < Joint::kAxial; ++i) take(block.axial[i], from.axial[i]);
 }
 
@@ -89,7 +89,7 @@ template <class Lanes, class Joint, class Visit>
   pair(block.kind.anchor_a, one.kind.anchor_a), pair(block.kind.anchor_b, one.kind.anchor_b);
   if constexpr (requires { one.kind.axis; }) pair(block.kind.axis, one.kind.axis);
   if constexpr (Joint::kAngle != AngleUse::None) visit(block.angle.start, one.angle.start);
-  if constexpr (Joint::Rows::kAngular) coordinate(block.turn, one.turn);
+  if constexpr (Joint::Rows::kAngular) coordinate(block.angular, one.angular);
   for (int i = 0; i < Joint::kAxial; ++i) coordinate(block.axial[i], one.axial[i]);
   if constexpr (Joint::kBlock > 0)
     for (int i = 0; i < Joint::kBlock; ++i) visit(block.block.impulse[i], one.block.impulse[i]);
@@ -115,20 +115,20 @@ struct LanePairs {
 
   template <class Block>
   [[gnu::always_inline]] LanePairs(const Block& block, const SolverBodies<Real>& bodies, bool moves)
-      : a(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a, moves),
-        b(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b, moves),
+      : a(bodies.motion, block.offset_a, block.inverse_mass_a, block.inverse_inertia_a, moves),
+        b(bodies.motion, block.offset_b, block.inverse_mass_b, block.inverse_inertia_b, moves),
         v(a, b) {}
 
   [[gnu::always_inline]] JointMotion<Number> motion(const SolverBodies<Real>& bodies) const {
-    const auto rotation = [&](const std::uint32_t(&place)[Number::kLanes]) __attribute__((always_inline)) {
+    const auto rotation = [&](const std::uint32_t(&offset)[Number::kLanes]) __attribute__((always_inline)) {
       const auto at = [&](int i) __attribute__((always_inline))->const Rotation<Real>& {
-        return bodies.rotation[place[i] / kPlaceUnits<Real>];
+        return bodies.rotation[offset[i] / kOffsetUnits<Real>];
       };
       return Rotation<Number>{Number::of([&](int i) __attribute__((always_inline)) { return at(i).c; }),
                               Number::of([&](int i) __attribute__((always_inline)) { return at(i).s; })};
     };
-    return {a.delta_position, b.delta_position,  a.delta_angle,
-            b.delta_angle,    rotation(a.place), rotation(b.place)};
+    return {a.delta_position, b.delta_position,   a.delta_angle,
+            b.delta_angle,    rotation(a.offset), rotation(b.offset)};
   }
   template <class Block>
   [[gnu::always_inline]] void store(const Block& block) const {
@@ -142,18 +142,18 @@ struct LanePairs {
 template <class Joint>
 void JointBlocks<Joint>::begin(VectorWidth width) {
   width_ = !kNarrow && width == VectorWidth::Bytes16 ? VectorWidth::None : width;
-  count_ = narrow_ = 0, alone_.clear(), places_.clear();
+  count_ = narrow_ = 0, singles_.clear(), places_.clear();
 }
 
 template <class Joint>
 void JointBlocks<Joint>::sort(std::vector<Joint>& joints, const SolverBody<Real>* motion,
-                              const std::vector<char>& apart) {
-  ensure_capacity(alone_, alone_.size() + joints.size());
+                              const std::vector<char>& excluded) {
+  ensure_capacity(singles_, singles_.size() + joints.size());
   if constexpr (kWide)
-    if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, apart);
+    if (width_ == VectorWidth::Bytes32) return sort_into<32>(joints, motion, excluded);
   if constexpr (kNarrow)
-    if (width_ == VectorWidth::Bytes16) return sort_into<16>(joints, motion, apart);
-  for (Joint& joint : joints) alone_.push_back(&joint);
+    if (width_ == VectorWidth::Bytes16) return sort_into<16>(joints, motion, excluded);
+  for (Joint& joint : joints) singles_.push_back(&joint);
 }
 
 template <class Joint>
@@ -173,7 +173,7 @@ void JointBlocks<Joint>::add_block(std::vector<Block<kBytes>>& blocks, int place
 template <class Joint>
 template <int kBytes>
 void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const SolverBody<Real>* motion,
-                                   const std::vector<char>& apart) {
+                                   const std::vector<char>& excluded) {
   constexpr int kLanes = Block<kBytes>::kLanes;
   struct PartialBlock {
     std::uint64_t kind;
@@ -196,8 +196,8 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const SolverBody<
   for (Joint& joint : joints) {
     if constexpr (Joint::kPlainHinge)
       if (joint.external) continue;
-    if (!apart.empty() && apart[joint.joint]) {
-      alone_.push_back(&joint);
+    if (!excluded.empty() && excluded[joint.joint]) {
+      singles_.push_back(&joint);
       continue;
     }
     const std::uint64_t kind = kind_of_lanes(joint) << 2 | std::uint64_t{is_dynamic(motion[joint.b])} << 1 |
@@ -205,7 +205,7 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const SolverBody<
     int place = 0;
     while (place < kinds && partial[place].kind != kind) ++place;
     if (place == kMaxKinds) {
-      alone_.push_back(&joint);
+      singles_.push_back(&joint);
       continue;
     }
     PartialBlock& of_kind = partial[place];
@@ -218,7 +218,7 @@ void JointBlocks<Joint>::sort_into(std::vector<Joint>& joints, const SolverBody<
     if (rest.count >= kMinLanes) {
       add(rest);
     } else {
-      alone_.insert(alone_.end(), rest.joint, rest.joint + rest.count);
+      singles_.insert(singles_.end(), rest.joint, rest.joint + rest.count);
     }
   }
 }
@@ -253,11 +253,11 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
         for (int i = 0; i < block.kLanes; ++i) {
-          block.place_a[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->a);
-          block.place_b[i] = kPlaceUnits<Real> * static_cast<std::uint32_t>(block.from[i]->b);
+          block.offset_a[i] = kOffsetUnits<Real> * static_cast<std::uint32_t>(block.from[i]->a);
+          block.offset_b[i] = kOffsetUnits<Real> * static_cast<std::uint32_t>(block.from[i]->b);
         }
-        load_masses(bodies.motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a);
-        load_masses(bodies.motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b);
+        load_masses(bodies.motion, block.offset_a, block.inverse_mass_a, block.inverse_inertia_a);
+        load_masses(bodies.motion, block.offset_b, block.inverse_mass_b, block.inverse_inertia_b);
         copy_kind(block.joint, *block.from[0]);
         const auto load = [&](Number & x, const auto& lane) __attribute__((always_inline)) {
           x = Number::of([&](int i) __attribute__((always_inline)) { return static_cast<Real>(lane(i)); });
@@ -323,10 +323,10 @@ void JointBlocks<Joint>::beyond_limits(int first, int last, SolverBody<Real>* mo
                                        const void* data) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
-        if constexpr (requires { block.joint.turn.rule; }) {
-          const LaneBodies<Number> a(motion, block.place_a, block.inverse_mass_a, block.inverse_inertia_a,
+        if constexpr (requires { block.joint.angular.rule; }) {
+          const LaneBodies<Number> a(motion, block.offset_a, block.inverse_mass_a, block.inverse_inertia_a,
                                      true);
-          const LaneBodies<Number> b(motion, block.place_b, block.inverse_mass_b, block.inverse_inertia_b,
+          const LaneBodies<Number> b(motion, block.offset_b, block.inverse_mass_b, block.inverse_inertia_b,
                                      true);
           const Number beyond = block.joint.limit_opening(b.delta_angle - a.delta_angle, slack);
           if (!any(beyond < Number(0))) return;

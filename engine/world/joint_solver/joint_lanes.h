@@ -23,7 +23,7 @@ template <class Joint, class Number>
 struct LanesOfJoints {
   static constexpr int kLanes = Number::kLanes;
 
-  std::uint32_t place_a[kLanes], place_b[kLanes];  ///< see kPlaceUnits
+  std::uint32_t offset_a[kLanes], offset_b[kLanes];  ///< see kOffsetUnits
   Number inverse_mass_a, inverse_inertia_a, inverse_mass_b, inverse_inertia_b;
   bool dynamic_a, dynamic_b;  ///< impulses change the velocities of the bodies a, b
   Joint* from[kLanes];
@@ -42,7 +42,7 @@ enum class JointStage { WarmStart, Solve, Relax };
 
 /// Numbers of single joints and of blocks.
 struct JointCounts {
-  int blocks = 0, alone = 0;
+  int blocks = 0, singles = 0;
 };
 
 /// The blocks of joints of one form. Between steps only the memory is kept.
@@ -58,14 +58,14 @@ class JointBlocks {
   /// Begins a step with no joints.
   void begin(VectorWidth width);
   /// Sorts joints of a colour, whose step has begun, into blocks and single joints. Joints stay single if
-  /// there are few of their kind, or if they are marked in `apart` (by slot) because other code reads or
+  /// there are few of their kind, or if they are marked in `excluded` (by slot) because other code reads or
   /// changes them until `finish`.
-  void sort(std::vector<Joint>& joints, const SolverBody<Real>* motion, const std::vector<char>& apart);
+  void sort(std::vector<Joint>& joints, const SolverBody<Real>* motion, const std::vector<char>& excluded);
   /// Returns how many there are now.
-  JointCounts counts() const { return {count_, static_cast<int>(alone_.size())}; }
-  Joint& alone(int place) const { return *alone_[place]; }
+  JointCounts counts() const { return {count_, static_cast<int>(singles_.size())}; }
+  Joint& single(int place) const { return *singles_[place]; }
   /// Returns the addresses of its single joints, from index `place` on.
-  Joint* const* alone_from(int place) const { return alone_.data() + place; }
+  Joint* const* singles_from(int place) const { return singles_.data() + place; }
 
   /// Fills blocks and evaluates their joints. `factor_of(joint)` returns the under-relaxation factor of an
   /// evaluated joint.
@@ -108,7 +108,8 @@ class JointBlocks {
 
   /// Sorts joints into blocks of `kBytes`; the rest of a kind into narrow blocks if it fits into one.
   template <int kBytes>
-  void sort_into(std::vector<Joint>& joints, const SolverBody<Real>* motion, const std::vector<char>& apart);
+  void sort_into(std::vector<Joint>& joints, const SolverBody<Real>* motion,
+                 const std::vector<char>& excluded);
   template <int kBytes>
   void add_block(std::vector<Block<kBytes>>& blocks, int place, Joint* const* joints, int count,
                  std::uint64_t kind);
@@ -123,7 +124,7 @@ class JointBlocks {
 
   VectorWidth width_ = VectorWidth::None;
   int count_ = 0, narrow_ = 0;  ///< number of blocks; of these, blocks of 16 bytes
-  std::vector<Joint*> alone_;
+  std::vector<Joint*> singles_;
   std::vector<int> places_;  ///< by block: i >= 0 for blocks32_[i], -1 - i for blocks16_[i]
   std::vector<Block<16>> blocks16_;
   std::vector<Block<32>> blocks32_;

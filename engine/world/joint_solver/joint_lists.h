@@ -21,7 +21,7 @@ namespace plumb {
 /// Number of joint colours. One more list is the overflow, solved in order; the last one holds inactive
 /// joints.
 inline constexpr int kJointColours = 24;
-inline constexpr int kOverflowColour = kJointColours, kParked = kJointColours + 1;
+inline constexpr int kOverflowColour = kJointColours, kInactiveColour = kJointColours + 1;
 
 /// Form in which a joint is solved. Two kinds have a plain form and a general one.
 enum JointForm : int {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -51,7 +50,7 @@ struct JointRun {
 
 /// Numbers of joints, and of blocks of joints, that a thread takes at a time: 1 to 2 us of work. A thread
 /// needs 0.3 us to join a loop, so smaller tasks would cost more than they save.
-inline constexpr int kJointsOfTask = 16, kBlocksOfTask = 8;
+inline constexpr int kJointsPerTask = 16, kBlocksPerTask = 8;
 
 /// Joints side by side, of the forms that have them.
 template <class Real, template <class> class... Kinds>
@@ -72,36 +71,36 @@ inline constexpr bool kHasLanes = has_blocks<Constraint>(
 /// Functions that take their visitor by address, so that they are compiled once, not for each form and pass.
 using VisitRange = void (*)(const void* it, int first, int last);
 using VisitCounts = void (*)(const void* it, JointCounts first, JointCounts last);
-void share_range(int count, int grain, Crew* crew, VisitRange visit, const void* it);
-void share_run(const JointRun& run, int count, Crew* crew, VisitRange visit, const void* it);
-void share_blocks(const JointRun& run, Crew* crew, VisitCounts visit, const void* it);
+void share_range(int count, int grain, LoopScheduler* scheduler, VisitRange visit, const void* it);
+void share_run(const JointRun& run, int count, LoopScheduler* scheduler, VisitRange visit, const void* it);
+void share_blocks(const JointRun& run, LoopScheduler* scheduler, VisitCounts visit, const void* it);
 
-/// Calls `visit(first, last)` for ranges of joints or blocks of them, shared by a crew.
+/// Calls `visit(first, last)` for ranges of joints or blocks of them, shared among threads.
 template <class Visit>
-void share_range(int count, int grain, Crew* crew, const Visit& visit) {
+void share_range(int count, int grain, LoopScheduler* scheduler, const Visit& visit) {
   const auto call = [](const void* it, int first, int last) {
     (*static_cast<const Visit*>(it))(first, last);
   };
-  share_range(count, grain, crew, call, &visit);
+  share_range(count, grain, scheduler, call, &visit);
 }
 
-/// Calls `visit(first, last)` for ranges of a run's joints: in turn, or shared by a crew if they have a
+/// Calls `visit(first, last)` for ranges of a run's joints: in turn, or shared among threads if they have a
 /// colour.
 template <class Visit>
-void share_run(const JointRun& run, int count, Crew* crew, const Visit& visit) {
+void share_run(const JointRun& run, int count, LoopScheduler* scheduler, const Visit& visit) {
   const auto call = [](const void* it, int first, int last) {
     (*static_cast<const Visit*>(it))(first, last);
   };
-  share_run(run, count, crew, call, &visit);
+  share_run(run, count, scheduler, call, &visit);
 }
 
 /// Calls `visit(first, last)` for ranges of a sorted run's blocks and of its single joints.
 template <class Visit>
-void share_blocks(const JointRun& run, Crew* crew, const Visit& visit) {
+void share_blocks(const JointRun& run, LoopScheduler* scheduler, const Visit& visit) {
   const auto call = [](const void* it, JointCounts first, JointCounts last) {
     (*static_cast<const Visit*>(it))(first, last);
   };
-  share_blocks(run, crew, call, &visit);
+  share_blocks(run, scheduler, call, &visit);
 }
 
 template <class Real>

@@ -134,13 +134,14 @@ struct SoftPoint {
       impulse_scale[pass] = term[pass].scale;
     }
   }
-  /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `held`: its
-  /// response if the joint is solved alone.
+  /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `constrained`:
+  /// its response if the joint is solved alone.
   void evaluate_beside_rigid(const AnchorPoint<Real>& at, const JointVelocities<Real>& v,
-                             const PointResponse<Real>& held, const JointStep<Real>& step,
+                             const PointResponse<Real>& constrained, const JointStep<Real>& step,
                              UnderRelaxation<Real> relaxation) {
     point = at;
-    evaluate_spring(relaxation.factor == 1 ? held : point_response(v, at.arm_a, at.arm_b), step, relaxation);
+    evaluate_spring(relaxation.factor == 1 ? constrained : point_response(v, at.arm_a, at.arm_b), step,
+                    relaxation);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     v.apply(impulse, point.arm_a, point.arm_b);
@@ -164,11 +165,11 @@ struct SoftPoint {
     const SpringTerm<Real>& spring = rule.spring;
     const Real trace = k.xx + k.yy;
     // Stiffness counts in the direction in which the bodies are lightest.
-    const Real apart = k.xx - k.yy;
-    const Real lightest = Real(0.5) * (trace + std::sqrt(apart * apart + 4 * k.xy * k.xy));
-    constexpr Real kFirmest = Real(1e12);  // beyond it a spring is rigid to rounding
-    compliance = std::max(spring.compliance, lightest / kFirmest);
-    if (!(lightest > relaxation.max_stiffness(step.max_stiffness) * compliance)) {
+    const Real difference = k.xx - k.yy;
+    const Real max_mobility = Real(0.5) * (trace + std::sqrt(difference * difference + 4 * k.xy * k.xy));
+    constexpr Real kMaxStiffnessRatio = Real(1e12);  // beyond it a spring is rigid to rounding
+    compliance = std::max(spring.compliance, max_mobility / kMaxStiffnessRatio);
+    if (!(max_mobility > relaxation.max_stiffness(step.max_stiffness) * compliance)) {
       // The determinant of K + compliance 1: nothing cancels.
       const Real determinant = k.determinant + compliance * (trace + compliance);
       mass = mass_of({k.xx + compliance, k.xy, k.yy + compliance, determinant}, Real(1));

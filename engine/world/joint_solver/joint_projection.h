@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/world/contact_solver/follow.h"
+#include "engine/world/contact_solver/velocity_change.h"
 #include "engine/world/joint_solver/joint_constraint.h"
 
 /// Position-based joint solver. Within a substep a body's velocity is its displacement since the substep's
@@ -16,8 +16,8 @@ template <class Real>
 void store_projected(const JointVelocities<Real>& v, const JointVelocities<Real>& before, SolverBody<Real>& a,
                      SolverBody<Real>& b, Rotation<Real>& rotation_a, Rotation<Real>& rotation_b, Real h) {
   v.store(a, b);
-  if (v.m_a + v.i_a > 0) follow(a, rotation_a, before.v_a, before.w_a, h);
-  if (v.m_b + v.i_b > 0) follow(b, rotation_b, before.v_b, before.w_b, h);
+  if (v.m_a + v.i_a > 0) move_by_velocity_change(a, rotation_a, before.v_a, before.w_a, h);
+  if (v.m_b + v.i_b > 0) move_by_velocity_change(b, rotation_b, before.v_b, before.w_b, h);
 }
 
 /// Clears the joint's impulses at the start of a substep.

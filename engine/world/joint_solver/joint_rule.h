@@ -35,11 +35,11 @@ template <class Mask, class Real>
 /// Under-relaxation of a joint that shares bodies with others.
 template <class Real>
 struct UnderRelaxation {
-  Real factor = 1;     ///< fraction of its impulses that is applied at a time
-  bool alone = false;  ///< no other joint moves its bodies
+  Real factor = 1;        ///< fraction of its impulses that is applied at a time
+  bool isolated = false;  ///< no other joint moves its bodies
 
   [[gnu::always_inline]] Real max_stiffness(Scalar<Real> shared) const {
-    return alone ? Real(std::numeric_limits<Scalar<Real>>::infinity()) : shared * factor;
+    return isolated ? Real(std::numeric_limits<Scalar<Real>>::infinity()) : shared * factor;
   }
 };
 
@@ -56,10 +56,11 @@ struct SpringTerm {
 /// there yields to anything.
 template <class Real>
 SpringTerm<Real> spring_term(const Spring& spring, double mobility, double h) {
-  constexpr double kMost = std::numeric_limits<Real>::max() / 4;  // finite when added to a mobility
+  constexpr double kMaxCompliance = std::numeric_limits<Real>::max() / 4;  // finite when added to a mobility
   const double omega = kTwoPi * spring.hertz;
   const double a = 2 * spring.damping_ratio + h * omega;
-  const double compliance = mobility > 0 ? std::min(mobility / (h * omega * a), kMost) : kMost;
+  const double compliance =
+      mobility > 0 ? std::min(mobility / (h * omega * a), kMaxCompliance) : kMaxCompliance;
   return {static_cast<Real>(omega / a), static_cast<Real>(compliance)};
 }
 
@@ -71,7 +72,7 @@ template <class Real>
 struct StiffSpring {
   Real rate = 0, mass_scale = 1, impulse_scale = 0;
 
-  [[gnu::always_inline]] StiffSpring(const SpringTerm<Real>& spring, Real firmness, Real factor,
+  [[gnu::always_inline]] StiffSpring(const SpringTerm<Real>& spring, Real stiffness_ratio, Real factor,
                                      const JointStep<Scalar<Real>>& step) {
     using std::max, std::min, std::sqrt;
     const Softness<Scalar<Real>>& rigid = step.softness;
@@ -79,14 +80,14 @@ struct StiffSpring {
     const Real max_elastic = rigid.impulse_scale > 0
                                  ? step.h * step.stiff_rate * rigid.mass_scale / rigid.impulse_scale
                                  : step.max_stiffness;
-    const Real elastic = step.h * spring.rate * firmness;
+    const Real elastic = step.h * spring.rate * stiffness_ratio;
     const Real k = min(elastic, max_elastic);
     // Keeps the settling time c / k if k was reduced.
-    const Real damping =
-        select(elastic > Real(0), Real(max(Real(firmness - elastic), Real(0)) * (k / elastic)), Real(0));
+    const Real damping = select(elastic > Real(0),
+                                Real(max(Real(stiffness_ratio - elastic), Real(0)) * (k / elastic)), Real(0));
     // Largest damping for which a star of a hundred is stable.
-    constexpr Scalar<Real> kMostDamping = 10;
-    const Real c = select(factor < Real(1), Real(min(damping, Real(2 * kMostDamping * sqrt(k)))), damping);
+    constexpr Scalar<Real> kMaxDamping = 10;
+    const Real c = select(factor < Real(1), Real(min(damping, Real(2 * kMaxDamping * sqrt(k)))), damping);
     const Real held = max(Real(k + c), Real(k / (step.h * step.stiff_rate)));
     rate = k / (step.h * held);
     mass_scale = held / (1 + held);
@@ -139,25 +140,27 @@ struct SolverRule {
     const auto moves = mobility > Real(0);
     const Real mass = select(moves, Real(factor / mobility), Real(0));
     const Softness<Scalar<Real>>& rigid = step.softness;
-    const RowTerm<Real> pull{factor * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
-    const RowTerm<Real> hold{0, mass, 0};
+    const RowTerm<Real> biased{factor * rigid.bias_rate * c, mass * rigid.mass_scale, rigid.impulse_scale};
+    const RowTerm<Real> unbiased{0, mass, 0};
     switch (role) {
       case RowRole::Rigid:
-        term[kSolve] = pull, term[kRelax] = hold;
+        term[kSolve] = biased, term[kRelax] = unbiased;
         return;
       case RowRole::Spring: {
         using std::max;
-        constexpr Scalar<Real> kFirmest = Scalar<Real>(1e12);  // beyond it a spring is rigid to rounding
-        const Real compliance = max(spring.compliance, Real(mobility / kFirmest));
+        constexpr Scalar<Real> kMaxStiffnessRatio =
+            Scalar<Real>(1e12);  // beyond it a spring is rigid to rounding
+        const Real compliance = max(spring.compliance, Real(mobility / kMaxStiffnessRatio));
         const Real inverse = select(moves, Real(Real(1) / (mobility + compliance)), Real(0));
         term[kRelax] = {term[kSolve].bias, inverse, compliance * inverse};
         term[kSolve] = {spring.rate * c, inverse, compliance * inverse};
-        if (const auto firm = mobility > relaxation.max_stiffness(step.max_stiffness) * compliance; any(firm))
-            [[unlikely]] {
+        if (const auto is_stiff = mobility > relaxation.max_stiffness(step.max_stiffness) * compliance;
+            any(is_stiff)) [[unlikely]] {
           const StiffSpring<Real> stiff(spring, mobility / compliance, factor, step);
-          term[kSolve] = select_term(
-              firm, {factor * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale}, term[kSolve]);
-          term[kRelax] = select_term(firm, hold, term[kRelax]);
+          term[kSolve] =
+              select_term(is_stiff, {factor * stiff.rate * c, mass * stiff.mass_scale, stiff.impulse_scale},
+                          term[kSolve]);
+          term[kRelax] = select_term(is_stiff, unbiased, term[kRelax]);
         }
         return;
       }
@@ -165,15 +168,15 @@ struct SolverRule {
         // An open limit may close within the substep, but no faster.
         const auto open = c > Real(0);
         const RowTerm<Real> close{c * step.inverse_h, mass, 0};
-        term[kSolve] = select_term(open, close, pull), term[kRelax] = select_term(open, close, hold);
+        term[kSolve] = select_term(open, close, biased), term[kRelax] = select_term(open, close, unbiased);
         return;
       }
       case RowRole::Motor:
         // As for rigid rows, use decaying impulses and position feedback. With undiminished impulses, legs
         // with many held hips would oscillate with growing amplitude.
         term[kSolve] = term[kRelax] = {-speed, mass, 0};
-        if (!relaxation.alone)
-          term[kSolve] = {factor * rigid.bias_rate * drift - speed, pull.mass, pull.scale};
+        if (!relaxation.isolated)
+          term[kSolve] = {factor * rigid.bias_rate * drift - speed, biased.mass, biased.scale};
         return;
     }
   }

@@ -66,7 +66,7 @@ int JointSet<Real>::Parts::free_colour(const JointSlot& s) const {
 
 template <class Real>
 void JointSet<Real>::Parts::mark_colour(const JointSlot& s, bool used) {
-  if (s.colour == kParked) return;
+  if (s.colour == kInactiveColour) return;
   const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
   for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
     if (!moves) continue;
@@ -110,7 +110,7 @@ template <class Constraint>
 void JointSet<Real>::Parts::insert_constraint(int joint, const Constraint& constraint) {
   JointSlot& s = slot(joint);
   reserve_constraint(s.form, s);
-  s.colour = s.active ? free_colour(s) : kParked;
+  s.colour = s.active ? free_colour(s) : kInactiveColour;
   mark_colour(s, true);
   auto& list = std::get<JointLists<Constraint>>(store)[s.colour];
   s.index = static_cast<int>(list.size());
@@ -120,7 +120,7 @@ void JointSet<Real>::Parts::insert_constraint(int joint, const Constraint& const
 
 template <class Real>
 void JointSet<Real>::Parts::reserve_constraint(JointForm form, const JointSlot& s) {
-  const int colour = s.active ? free_colour(s) : kParked;
+  const int colour = s.active ? free_colour(s) : kInactiveColour;
   runs.reserve(static_cast<std::size_t>(kForms) * (kOverflowColour + 1));
   with(form, [&](auto& lists) { ensure_capacity(lists[colour], lists[colour].size() + 1); });
 }

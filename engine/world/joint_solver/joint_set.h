@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/crew.h"
+#include "engine/core/loop_scheduler.h"
 #include "engine/joints/joint_row.h"
 #include "engine/joints/spring_stiffness.h"
 #include "engine/math/vec2.h"
@@ -79,7 +79,7 @@ struct ExternalHinge {
 /// displacements. `relax` evaluates rows after bodies have moved, and they serve the next substep too.
 /// Impulses therefore act at the bodies' present positions: joints conserve angular momentum to rounding, and
 /// a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`. None of the
-/// four allocates. A crew shares them, colour by colour, with the same bits as one thread.
+/// four allocates. Threads share them, colour by colour, with the same bits as one thread.
 template <class Real>
 class JointSet {
  public:
@@ -126,23 +126,27 @@ class JointSet {
   /// Evaluates all rows at the start of the step.
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
   /// Does the same, and solves joints in blocks until `finish`, which must come at the end of the step.
-  /// Joints that other code reads or changes before `finish` are marked in `apart` (by slot; may be empty).
-  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step, const std::vector<char>& apart,
-               Crew* crew);
-  void finish(const SolverBodies<Real>& bodies, Crew* crew);
+  /// Joints that other code reads or changes before `finish` are marked in `excluded` (by slot; may be
+  /// empty).
+  void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+               const std::vector<char>& excluded, LoopScheduler* scheduler);
+  void finish(const SolverBodies<Real>& bodies, LoopScheduler* scheduler);
   /// Applies the impulses of the last substep.
-  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
+  void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                  LoopScheduler* scheduler = nullptr);
   /// Solves velocities with soft position correction.
-  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
+  void solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+             LoopScheduler* scheduler = nullptr);
   /// Evaluates all rows at the poses after the motion and solves velocities without bias, which removes the
   /// velocity that the bias added. Springs keep their force.
-  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew = nullptr);
+  void relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+             LoopScheduler* scheduler = nullptr);
 
   /// Projects angles beyond an angular limit by more than `slack`, rad, each joint by at most `max_rotation`
   /// about its common point. Changes poses, not velocities. One iteration; returns true if any joint was
-  /// turned. Call between the motion and `relax`. Does not allocate.
+  /// rotated. Call between the motion and `relax`. Does not allocate.
   bool project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, Real slack,
-                              Real max_rotation, Crew* crew = nullptr);
+                              Real max_rotation, LoopScheduler* scheduler = nullptr);
 
   /// Returns true if the joint's angle was beyond a limit by more than `slack`, rad, at the start of the
   /// step.
@@ -152,14 +156,14 @@ class JointSet {
   /// open after the last `relax` by more than a fraction `tolerance` of its link (joint_opening.h); returns
   /// true if there are any. Call before `finish`. Does not allocate.
   bool find_open(const SolverBodies<Real>& bodies, Real tolerance, std::vector<char>& open,
-                 Crew* crew = nullptr);
+                 LoopScheduler* scheduler = nullptr);
 
   // For solvers without relaxation. None of the three allocates.
   /// Evaluates all rows at the present poses, within a step.
   void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
   /// Clears impulses: position-based solvers start each substep without any.
   void begin_projection(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Makes one iteration over positions: moves and turns bodies (`rotation` is that of `bodies`) to satisfy
+  /// Makes one iteration over positions: moves and rotates bodies (`rotation` is that of `bodies`) to satisfy
   /// each joint in turn. Velocities remain the displacement since the substep's start over h. The rate of
   /// `step.softness` is 1 / h: errors are corrected completely.
   void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
@@ -192,8 +196,8 @@ class JointSet {
   /// Returns the reaction torque about b's anchor over the last substep, N m.
   Real torque(int joint, Real inverse_h) const;
 
-  /// Returns the error of the rigid rows and the limits at the present poses (`position` + `moved`, with
-  /// `rotation`). Springs and motors have no error.
+  /// Returns the error of the rigid rows and the limits at the present poses (`position` + `delta_position`,
+  /// with `rotation`). Springs and motors have no error.
   JointError<Real> error(int joint, const SolverBodies<Real>& bodies) const;
   /// Returns the angle of b relative to a minus the reference angle (the target, the phase), rad: revolute,
   /// prismatic, weld, wheel, motor, ratchet, friction. It starts at the turn nearest to 0 that limits allow,

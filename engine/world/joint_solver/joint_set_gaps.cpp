@@ -19,14 +19,14 @@ bool is_open(const Joint& joint, const SolverBodies<Real>& bodies, Real toleranc
 
 template <class Real>
 bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real tolerance, std::vector<char>& open,
-                               Crew* crew) {
+                               LoopScheduler* scheduler) {
   Parts& p = *parts_;
   std::atomic<bool> any = false;
   const auto mark = [&](const auto& joint) {
     open[joint.joint] = 1;
     any.store(true, std::memory_order_relaxed);
   };
-  const auto look = [&](const auto& joint) {
+  const auto check = [&](const auto& joint) {
     if (is_open(joint, bodies, tolerance)) mark(joint);
   };
   for (const JointRun& run : p.runs) {
@@ -36,21 +36,23 @@ bool JointSet<Real>::find_open(const SolverBodies<Real>& bodies, Real tolerance,
       if constexpr (kHasLanes<One>) {
         if (run.sorted) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
-          return share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+          return share_blocks(run, scheduler, [&](JointCounts first, JointCounts last) {
             if (first.blocks < last.blocks) blocks.open(first.blocks, last.blocks, tolerance, mark);
-            for (int i = first.alone; i < last.alone; ++i) look(blocks.alone(i));
+            for (int i = first.singles; i < last.singles; ++i) check(blocks.single(i));
           });
         }
       }
-      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
-        for (int i = first; i < last; ++i) look(list[i]);
+      share_run(run, static_cast<int>(list.size()), scheduler, [&](int first, int last) {
+        for (int i = first; i < last; ++i) check(list[i]);
       });
     });
   }
   return any.load(std::memory_order_relaxed);
 }
 
-template bool JointSet<float>::find_open(const SolverBodies<float>&, float, std::vector<char>&, Crew*);
-template bool JointSet<double>::find_open(const SolverBodies<double>&, double, std::vector<char>&, Crew*);
+template bool JointSet<float>::find_open(const SolverBodies<float>&, float, std::vector<char>&,
+                                         LoopScheduler*);
+template bool JointSet<double>::find_open(const SolverBodies<double>&, double, std::vector<char>&,
+                                          LoopScheduler*);
 
 }  // namespace plumb

@@ -7,14 +7,14 @@
 namespace plumb {
 namespace {
 
-/// Returns the angle, rad, by which to turn the joint so that no limit is exceeded by more than `slack`.
+/// Returns the angle, rad, by which to rotate the joint so that no limit is exceeded by more than `slack`.
 template <class Real>
 Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, const SolverBody<Real>* motion,
                             Real slack) {
   const Real angle =
       static_cast<Real>(joint.angle.start) + (motion[joint.b].delta_angle - motion[joint.a].delta_angle);
-  for (int i = 0; i < joint.turn.count; ++i) {
-    const SolverRule<Real>& rule = joint.turn.rule[i];
+  for (int i = 0; i < joint.angular.count; ++i) {
+    const SolverRule<Real>& rule = joint.angular.rule[i];
     if (rule.role != RowRole::Limit) continue;
     const Real open = rule.sign * (angle - rule.origin) + slack;
     if (open < 0) return -rule.sign * open;
@@ -23,31 +23,31 @@ Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, co
 }
 
 template <class Real>
-void shift(SolverBody<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Real turn) {
+void apply_displacement(SolverBody<Real>& motion, Rotation<Real>& rotation, Vec2<Real> by, Real angle) {
   if (!(motion.inverse_mass + motion.inverse_inertia > 0)) return;
   motion.delta_position += by;
-  motion.delta_angle += turn;
-  rotation = rotated_by(rotation, turn);
+  motion.delta_angle += angle;
+  rotation = rotated_by(rotation, angle);
 }
 
-/// Turns b relative to a about their common point and closes the point's gap: one Newton step of all three
+/// Rotates b relative to a about their common point and closes the point's gap: one Newton step of all three
 /// rows, on displacements instead of velocities.
 template <class Real>
-void turn_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<Real>& bodies,
-                Rotation<Real>* rotation, Real turn) {
+void rotate_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies<Real>& bodies,
+                  Rotation<Real>* rotation, Real angle) {
   SolverBody<Real>&a = bodies.motion[joint.a], &b = bodies.motion[joint.b];
   JointRows<Real> rows;
   joint.kind.evaluate(joint.pose(bodies), rows);
   JointBlock<Real, 3> block;
   block.row[0] = rows.point.plain_row({1, 0});
   block.row[1] = rows.point.plain_row({0, 1});
-  block.row[2] = {{}, {}, -1, 1, -turn};
-  JointVelocities<Real> way(a, b);
-  way.v_a = way.v_b = {}, way.w_a = way.w_b = 0;
-  block.factorise(way);
-  block.solve(way, {.bias_rate = 1}, kSolve, Real(1));
-  shift(a, rotation[joint.a], way.v_a, way.w_a);
-  shift(b, rotation[joint.b], way.v_b, way.w_b);
+  block.row[2] = {{}, {}, -1, 1, -angle};
+  JointVelocities<Real> displacement(a, b);
+  displacement.v_a = displacement.v_b = {}, displacement.w_a = displacement.w_b = 0;
+  block.factorise(displacement);
+  block.solve(displacement, {.bias_rate = 1}, kSolve, Real(1));
+  apply_displacement(a, rotation[joint.a], displacement.v_a, displacement.w_a);
+  apply_displacement(b, rotation[joint.b], displacement.v_b, displacement.w_b);
 }
 
 }  // namespace
@@ -65,14 +65,14 @@ bool JointSet<Real>::began_beyond_limits(int joint, Real slack) const {
 
 template <class Real>
 bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Rotation<Real>* rotation,
-                                            Real slack, Real most, Crew* crew) {
+                                            Real slack, Real max_rotation, LoopScheduler* scheduler) {
   using Hinge = JointConstraint<Real, RevoluteRows>;
   std::atomic<bool> any = false;
   auto& lists = std::get<kRevolute>(parts_->store);
   const auto project = [&](Hinge& joint) {
-    const Real turn = plumb::project_angular_limits(joint, bodies.motion, slack);
-    if (turn == 0) return;
-    turn_joint(joint, bodies, rotation, std::clamp(turn, -most, most));
+    const Real angle = plumb::project_angular_limits(joint, bodies.motion, slack);
+    if (angle == 0) return;
+    rotate_joint(joint, bodies, rotation, std::clamp(angle, -max_rotation, max_rotation));
     any.store(true, std::memory_order_relaxed);
   };
   for (const JointRun& run : parts_->runs) {
@@ -80,16 +80,16 @@ bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Ro
     if constexpr (kHasLanes<Hinge>) {
       if (run.sorted) {
         auto& blocks = std::get<JointBlocks<Hinge>>(parts_->lanes);
-        share_blocks(run, crew, [&](JointCounts first, JointCounts last) {
+        share_blocks(run, scheduler, [&](JointCounts first, JointCounts last) {
           if (first.blocks < last.blocks)
             blocks.beyond_limits(first.blocks, last.blocks, bodies.motion, slack, project);
-          for (int i = first.alone; i < last.alone; ++i) project(blocks.alone(i));
+          for (int i = first.singles; i < last.singles; ++i) project(blocks.single(i));
         });
         continue;
       }
     }
     auto& list = lists[run.colour];
-    share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+    share_run(run, static_cast<int>(list.size()), scheduler, [&](int first, int last) {
       for (int i = first; i < last; ++i) project(list[i]);
     });
   }
@@ -99,8 +99,8 @@ bool JointSet<Real>::project_angular_limits(const SolverBodies<Real>& bodies, Ro
 template bool JointSet<float>::began_beyond_limits(int, float) const;
 template bool JointSet<double>::began_beyond_limits(int, double) const;
 template bool JointSet<float>::project_angular_limits(const SolverBodies<float>&, Rotation<float>*, float,
-                                                      float, Crew*);
+                                                      float, LoopScheduler*);
 template bool JointSet<double>::project_angular_limits(const SolverBodies<double>&, Rotation<double>*, double,
-                                                       double, Crew*);
+                                                       double, LoopScheduler*);
 
 }  // namespace plumb

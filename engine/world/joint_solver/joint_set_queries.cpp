@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "engine/joints/joint_check.h"
 #include "engine/scene/error.h"
@@ -34,7 +33,7 @@ JointError<Real> error_of(const JointConstraint<Real, Kind>& constraint, const S
   // A rope without a length, and a ratchet, get their rules in the first step.
   if constexpr (Constraint::kRatchet || Constraint::kPulley)
     if (constraint.memory.known == 0) return error;
-  if constexpr (Rows::kAngular) error.angular = error_of(constraint.turn, pose.angle);
+  if constexpr (Rows::kAngular) error.angular = error_of(constraint.angular, pose.angle);
   for (int i = 0; i < Constraint::kAxial; ++i) {
     const Real e = error_of(constraint.axial[i], rows.axial[i].residual);
     // A gear's coordinate is an angle.

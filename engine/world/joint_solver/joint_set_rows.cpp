@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <type_traits>
 
 #include "engine/world/joint_solver/joint_parts.h"
 
@@ -61,7 +60,7 @@ void add_rows(JointConstraint<Real, Kind>& joint, const SolverBodies<Real>& bodi
   const JointPose<Real> at = joint.pose(bodies);
   JointRows<Real> now;
   joint.kind.evaluate(at, now);
-  if constexpr (Kind<Real>::kAngular) list.add(JointRow<Real>{{}, {}, -1, 1, at.angle}, joint.turn);
+  if constexpr (Kind<Real>::kAngular) list.add(JointRow<Real>{{}, {}, -1, 1, at.angle}, joint.angular);
   for (int i = 0; i < Constraint::kAxial; ++i) list.add(now.axial[i], joint.axial[i], Kind<Real>::kLength);
   if constexpr (Constraint::kBlock > 0)
     for (int i = 0; i < Constraint::kBlock; ++i) list.add_rigid(now.block[i], &joint.block.impulse[i]);
@@ -99,7 +98,7 @@ int JointSet<Real>::bounded_rows(int joint) const {
   return parts_->at(joint, [&]<template <class> class Kind>(const JointConstraint<Real, Kind>& constraint) {
     using Constraint = JointConstraint<Real, Kind>;
     int count = 0;
-    if constexpr (Kind<Real>::kAngular) count += bounded_of(constraint.turn);
+    if constexpr (Kind<Real>::kAngular) count += bounded_of(constraint.angular);
     for (const auto& coordinate : constraint.axial) count += bounded_of(coordinate);
     if constexpr (Constraint::kSoftPoint) count += is_bounded(constraint.point.rule) ? 2 : 0;
     return count;

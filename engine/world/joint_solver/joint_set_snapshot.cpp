@@ -38,7 +38,7 @@ template <class Parts>
 bool is_coloured(const Parts& p) {
   std::vector<BodyJoints> body_joints(p.body_joints.size());
   for (const JointSlot& s : p.slots) {
-    if (!s.used || s.colour == kParked) continue;
+    if (!s.used || s.colour == kInactiveColour) continue;
     const std::uint32_t bit = s.colour < kJointColours ? std::uint32_t{1} << s.colour : 0;
     for (const auto& [body, moves] : {std::pair{s.a, s.moves_a()}, std::pair{s.b, s.dynamic_b}}) {
       if (!moves) continue;
@@ -67,8 +67,8 @@ bool is_consistent(const Parts& p) {
     ++used;
     active += s.active ? 1 : 0;
     const bool placed = s.a >= 0 && s.a < bodies && s.b >= 0 && s.b < bodies && s.a != s.b &&
-                        s.form == form_of(s.definition) && s.colour >= 0 && s.colour <= kParked &&
-                        (s.colour == kParked) != s.active && s.index >= 0;
+                        s.form == form_of(s.definition) && s.colour >= 0 && s.colour <= kInactiveColour &&
+                        (s.colour == kInactiveColour) != s.active && s.index >= 0;
     const bool found = placed && p.with(s.form, [&](const auto& lists) {
       const auto& list = lists[s.colour];
       return s.index < static_cast<int>(list.size()) && list[s.index].joint == joint;

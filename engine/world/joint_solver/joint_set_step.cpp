@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-/// Evaluates a joint that is alone. Not inlined, because it has many callers.
+/// Evaluates a single joint. Not inlined, because it has many callers.
 template <class Joint, class Real>
 [[gnu::noinline]] void evaluate(Joint& joint, const SolverBodies<Real>& bodies,
                                 const JointVelocities<Real>& v, const JointStep<Real>& step, JointTime time) {
@@ -27,7 +27,7 @@ struct JointRange {
   Joint& operator[](int i) const { return places != nullptr ? *places[i] : first[i]; }
 };
 
-/// Solves joints that are alone.
+/// Solves single joints.
 template <class Joint, class Real>
 [[gnu::noinline]] void run_stage_on(JointStage stage, JointRange<Joint> joints, const SolverBodies<Real>& of,
                                     const JointStep<Real>& settings) {
@@ -38,7 +38,7 @@ template <class Joint, class Real>
       Joint& joint = joints[i];
       if constexpr (Joint::kPlainHinge)
         if (joint.external) continue;
-      // Ratchets note the teeth that they pass.
+      // Ratchets must record the teeth that they pass.
       if (joint.with_island && (stage != JointStage::Relax || !(step.evaluates_all || Joint::kRatchet)))
         continue;
       JointVelocities<Real> v = velocities_of(bodies, joint);
@@ -66,7 +66,7 @@ template <class Joint, class Real>
 
 /// Solves all active joints in the order of solving, colour by colour.
 template <class Parts, class Real>
-void run_stage(Parts& parts, JointStage stage, Crew* crew, const SolverBodies<Real>& bodies,
+void run_stage(Parts& parts, JointStage stage, LoopScheduler* scheduler, const SolverBodies<Real>& bodies,
                const JointStep<Real>& step) {
   for (const JointRun& run : parts.runs) {
     parts.with(run.form, [&](auto& lists) {
@@ -77,17 +77,18 @@ void run_stage(Parts& parts, JointStage stage, Crew* crew, const SolverBodies<Re
           const auto visit = [&](JointCounts first, JointCounts last) {
             // Single joints come first. Otherwise blocks of the next colour, which load a body's velocity as
             // one value, would stall on a velocity that was just stored in parts.
-            if (first.alone < last.alone)
-              run_stage_on<One>(stage, {nullptr, blocks.alone_from(first.alone), last.alone - first.alone},
+            if (first.singles < last.singles)
+              run_stage_on<One>(stage,
+                                {nullptr, blocks.singles_from(first.singles), last.singles - first.singles},
                                 bodies, step);
             if (first.blocks < last.blocks) blocks.run_stage(stage, first.blocks, last.blocks, bodies, step);
           };
-          return crew != nullptr && crew->shares() ? share_blocks(run, crew, visit)
-                                                   : visit(run.first, run.last);
+          return scheduler != nullptr && scheduler->shares() ? share_blocks(run, scheduler, visit)
+                                                             : visit(run.first, run.last);
         }
       }
       auto& list = lists[run.colour];
-      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+      share_run(run, static_cast<int>(list.size()), scheduler, [&](int first, int last) {
         run_stage_on<One>(stage, {list.data() + first, nullptr, last - first}, bodies, step);
       });
     });
@@ -112,7 +113,7 @@ void begin_step(const Parts& p, Joint& joint, const SolverBodies<Real>& bodies, 
   if (Joint::kHasRules && joint.known_h != step.h)
     joint.set_substep(std::get<Definition>(p.slot(joint.joint).definition), step.h);
   joint.under_relaxation = 1;
-  joint.alone = std::max(p.body_joints[joint.a].count, p.body_joints[joint.b].count) < 2;
+  joint.isolated = std::max(p.body_joints[joint.a].count, p.body_joints[joint.b].count) < 2;
   joint.begin_step(bodies, step);
 }
 
@@ -121,7 +122,7 @@ template <class Parts, class Joint, class Real>
 Real relaxation_factor_of(const Parts& p, const Joint& joint, const SolverBodies<Real>& bodies) {
   const int count_a = p.body_joints[joint.a].count, count_b = p.body_joints[joint.b].count;
   if (std::max(count_a, count_b) < kUnderRelaxedJoints) return 1;
-  return under_relaxation_factor(joint.load(velocities_of(bodies, joint)), count_a, count_b);
+  return under_relaxation_factor(joint.mobility_fractions(velocities_of(bodies, joint)), count_a, count_b);
 }
 
 /// Evaluates a joint whose step has begun.
@@ -151,7 +152,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
 
 template <class Real>
 void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
-                             const std::vector<char>& apart, Crew* crew) {
+                             const std::vector<char>& excluded, LoopScheduler* scheduler) {
   Parts& p = *parts_;
   std::apply([](auto&... blocks) { (blocks.begin(vector_width()), ...); }, p.lanes);
   for (JointRun& run : p.runs) {
@@ -159,9 +160,9 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
       using One = typename std::decay_t<decltype(lists[0])>::value_type;
       auto& list = lists[run.colour];
       run.sorted = kHasLanes<One> && run.colour != kOverflowColour;
-      share_run(run, static_cast<int>(list.size()), crew, [&](int first, int last) {
+      share_run(run, static_cast<int>(list.size()), scheduler, [&](int first, int last) {
         for (int i = first; i < last; ++i) {
-          list[i].with_island = !apart.empty() && apart[list[i].joint] != 0;
+          list[i].with_island = !excluded.empty() && excluded[list[i].joint] != 0;
           begin_step(p, list[i], bodies, step);
           if (!run.sorted) evaluate_first(p, list[i], bodies, step);
         }
@@ -170,7 +171,7 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
         if (!run.sorted) return;
         JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
         run.first = blocks.counts();
-        blocks.sort(list, bodies.motion, apart);
+        blocks.sort(list, bodies.motion, excluded);
         run.last = blocks.counts();
       }
     });
@@ -178,11 +179,11 @@ void JointSet<Real>::prepare(const SolverBodies<Real>& bodies, const JointStep<R
   const auto evaluate = [&]<class Joint>(JointBlocks<Joint>& blocks) {
     const auto factor_of = [&](const Joint& joint) { return relaxation_factor_of(p, joint, bodies); };
     const JointCounts counts = blocks.counts();
-    if (counts.blocks + counts.alone == 0) return;
-    share_range(counts.blocks, kBlocksOfTask, crew,
+    if (counts.blocks + counts.singles == 0) return;
+    share_range(counts.blocks, kBlocksPerTask, scheduler,
                 [&](int first, int last) { blocks.prepare(first, last, bodies, step, factor_of); });
-    share_range(counts.alone, kJointsOfTask, crew, [&](int first, int last) {
-      for (int i = first; i < last; ++i) evaluate_first(p, blocks.alone(i), bodies, step);
+    share_range(counts.singles, kJointsPerTask, scheduler, [&](int first, int last) {
+      for (int i = first; i < last; ++i) evaluate_first(p, blocks.single(i), bodies, step);
     });
   };
   std::apply([&](auto&... blocks) { (evaluate(blocks), ...); }, p.lanes);
@@ -196,11 +197,11 @@ void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<
 }
 
 template <class Real>
-void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
+void JointSet<Real>::finish(const SolverBodies<Real>& bodies, LoopScheduler* scheduler) {
   Parts& p = *parts_;
   const auto finish = [&](auto& blocks) {
     if (blocks.counts().blocks == 0) return;
-    share_range(blocks.counts().blocks, kBlocksOfTask, crew,
+    share_range(blocks.counts().blocks, kBlocksPerTask, scheduler,
                 [&](int first, int last) { blocks.finish(first, last, bodies); });
   };
   std::apply([&](auto&... blocks) { (finish(blocks), ...); }, p.lanes);
@@ -212,7 +213,7 @@ void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
         if constexpr (kHasLanes<One>) {
           JointBlocks<One>& blocks = std::get<JointBlocks<One>>(p.lanes);
           if (run.sorted)
-            for (int i = run.first.alone; i < run.last.alone; ++i) blocks.alone(i).end_step(bodies);
+            for (int i = run.first.singles; i < run.last.singles; ++i) blocks.single(i).end_step(bodies);
           if (run.sorted) return;
         }
         for (One& joint : lists[run.colour]) joint.end_step(bodies);
@@ -222,29 +223,32 @@ void JointSet<Real>::finish(const SolverBodies<Real>& bodies, Crew* crew) {
 }
 
 template <class Real>
-void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  run_stage(*parts_, JointStage::WarmStart, crew, bodies, step);
+void JointSet<Real>::warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                                LoopScheduler* scheduler) {
+  run_stage(*parts_, JointStage::WarmStart, scheduler, bodies, step);
 }
 
 template <class Real>
-void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  run_stage(*parts_, JointStage::Solve, crew, bodies, step);
+void JointSet<Real>::solve(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                           LoopScheduler* scheduler) {
+  run_stage(*parts_, JointStage::Solve, scheduler, bodies, step);
 }
 
 template <class Real>
-void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step, Crew* crew) {
-  run_stage(*parts_, JointStage::Relax, crew, bodies, step);
+void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
+                           LoopScheduler* scheduler) {
+  run_stage(*parts_, JointStage::Relax, scheduler, bodies, step);
 }
 
 #define PLUMB_FOR(R)                                                                                        \
   template void JointSet<R>::prepare(const SolverBodies<R>&, const JointStep<R>&);                          \
   template void JointSet<R>::prepare(const SolverBodies<R>&, const JointStep<R>&, const std::vector<char>&, \
-                                     Crew*);                                                                \
+                                     LoopScheduler*);                                                       \
   template void JointSet<R>::evaluate(const SolverBodies<R>&, const JointStep<R>&);                         \
-  template void JointSet<R>::finish(const SolverBodies<R>&, Crew*);                                         \
-  template void JointSet<R>::warm_start(const SolverBodies<R>&, const JointStep<R>&, Crew*);                \
-  template void JointSet<R>::solve(const SolverBodies<R>&, const JointStep<R>&, Crew*);                     \
-  template void JointSet<R>::relax(const SolverBodies<R>&, const JointStep<R>&, Crew*);
+  template void JointSet<R>::finish(const SolverBodies<R>&, LoopScheduler*);                                \
+  template void JointSet<R>::warm_start(const SolverBodies<R>&, const JointStep<R>&, LoopScheduler*);       \
+  template void JointSet<R>::solve(const SolverBodies<R>&, const JointStep<R>&, LoopScheduler*);            \
+  template void JointSet<R>::relax(const SolverBodies<R>&, const JointStep<R>&, LoopScheduler*);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

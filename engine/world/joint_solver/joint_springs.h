@@ -30,11 +30,12 @@ template <class Real>
 
 /// Returns the response of a point while the bodies do not rotate relative to each other.
 template <class Real>
-[[gnu::always_inline]] inline PointResponse<Real> held_response(const PairMobility<Real>& pair,
-                                                                const AnchorPoint<Real>& point) {
-  const Real m = pair.m_a + pair.m_b, turn = common_rotation_mobility(pair);
+[[gnu::always_inline]] inline PointResponse<Real> constrained_response(const PairMobility<Real>& pair,
+                                                                       const AnchorPoint<Real>& point) {
+  const Real m = pair.m_a + pair.m_b, rotational = common_rotation_mobility(pair);
   const Vec2<Real> p = perpendicular(point.arm_b - point.arm_a);
-  return {m + turn * p.x * p.x, turn * p.x * p.y, m + turn * p.y * p.y, m * (m + turn * length_squared(p))};
+  return {m + rotational * p.x * p.x, rotational * p.x * p.y, m + rotational * p.y * p.y,
+          m * (m + rotational * length_squared(p))};
 }
 
 }  // namespace plumb

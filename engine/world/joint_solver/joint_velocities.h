@@ -73,8 +73,8 @@ template <class Real, class Joint>
 /// Displacements and rotations of the two bodies of a joint since the start of the step.
 template <class Real>
 struct JointMotion {
-  Vec2<Real> moved_a{}, moved_b{};
-  Real turned_a = 0, turned_b = 0;
+  Vec2<Real> delta_position_a{}, delta_position_b{};
+  Real delta_angle_a = 0, delta_angle_b = 0;
   Rotation<Real> rotation_a{}, rotation_b{};
 };
 

@@ -187,12 +187,12 @@ void restore(BasicWorld<Real>& world, std::span<const std::byte> bytes) {
   std::apply([&](auto&... each) { (read(each), ...); }, state_of(fresh));
   read.finish();
   check_state(fresh);
-  require(fresh.graph.find_bodies([&](int body) { return fresh.is_dynamic(body); }), kSubject, "contacts",
+  require(fresh.graph.rebuild_bodies([&](int body) { return fresh.is_dynamic(body); }), kSubject, "contacts",
           "of one colour share a body");
   add_pairs(fresh);
   count_corner_uses(fresh);
   // Reserve the free lists now, because destroying objects later must not allocate.
-  fresh.bodies.reserve_more(0), fresh.uncommon.reserve_more(0), fresh.shapes.reserve_more(0);
+  fresh.bodies.reserve_more(0), fresh.body_extras.reserve_more(0), fresh.shapes.reserve_more(0);
   fresh.chains.reserve_more(0), fresh.contacts.reserve_more(0), fresh.joints.reserve_more(0);
   fresh.static_tree.reserve_more(0), fresh.dynamic_tree.reserve_more(0);
   // Nothing throws from here on. The hook and scratch memory are kept.

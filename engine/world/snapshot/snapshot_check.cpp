@@ -31,7 +31,7 @@ bool all_finite(const std::vector<T>& all) {
   return std::all_of(all.begin(), all.end(), [](const T& each) { return is_finite(each); });
 }
 
-bool is_in_range(double length) { return std::abs(length) <= kFarthest; }
+bool is_in_range(double length) { return std::abs(length) <= kMaxPosition; }
 
 template <class Real>
 bool is_in_range(Vec2<Real> v) {
@@ -68,7 +68,7 @@ class Check {
 
   void run() const {
     check_numbers();
-    check_slots(w_.bodies), check_slots(w_.uncommon), check_slots(w_.shapes), check_slots(w_.chains),
+    check_slots(w_.bodies), check_slots(w_.body_extras), check_slots(w_.shapes), check_slots(w_.chains),
         check_slots(w_.contacts), check_slots(w_.joints);
     check_sizes();
     check_uncommon();
@@ -81,7 +81,7 @@ class Check {
     check_lists();
     check_awake();
     check_quarantine();
-    check_unsettled();
+    check_mass_changes();
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (w_.contacts.used(contact)) check_contact(contact);
     }
@@ -101,8 +101,9 @@ class Check {
     const auto [corners, free] = w_.corners.parts();
     bool finite = is_finite(w_.settings) && is_finite(w_.time) && is_finite(w_.last_h) &&
                   all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
-                  all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.boxes) &&
-                  all_finite(corners) && all_finite(w_.parked) && all_finite(std::get<0>(w_.loads.parts())) &&
+                  all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.tight_aabbs) &&
+                  all_finite(corners) && all_finite(w_.sleeping_contacts) &&
+                  all_finite(std::get<0>(w_.loads.parts())) &&
                   all_finite(std::get<0>(w_.position_compensation.parts())) && all_finite_uncommon() &&
                   all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
                   all_finite(std::get<0>(w_.joints.parts()));
@@ -116,7 +117,7 @@ class Check {
   }
 
   bool all_finite_uncommon() const {
-    const auto& all = std::get<0>(w_.uncommon.parts());
+    const auto& all = std::get<0>(w_.body_extras.parts());
     return std::all_of(all.begin(), all.end(), [](const BodyExtras<Real>& each) {
       return is_finite(each.gravity_scale) && is_finite(each.linear_damping) &&
              is_finite(each.angular_damping);
@@ -131,7 +132,7 @@ class Check {
     };
     const auto in_range = [](const auto&... each) { return (is_in_range(each) && ...); };
     // The part of a motion that is smaller than the rounding of positions.
-    constexpr double kRounding = kFarthest * std::numeric_limits<double>::epsilon();
+    constexpr double kRounding = kMaxPosition * std::numeric_limits<double>::epsilon();
     const auto is_rounding = [](Vec2d v) { return std::abs(v.x) <= kRounding && std::abs(v.y) <= kRounding; };
     const bool bodies = all(std::get<0>(w_.position_compensation.parts()), is_rounding) &&
                         all(w_.position, in_range) && all(w_.extents, in_range) &&
@@ -172,20 +173,20 @@ class Check {
             "bodies", "are not as many everywhere");
     const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
     const std::size_t data = std::get<0>(w_.shape_data.parts()).size();
-    require(w_.forms.size() == shapes && w_.boxes.size() == shapes && (data == 0 || data == shapes), "shapes",
-            "are not as many everywhere");
+    require(w_.forms.size() == shapes && w_.tight_aabbs.size() == shapes && (data == 0 || data == shapes),
+            "shapes", "are not as many everywhere");
   }
 
   // Checks that each entry belongs to one body, with numbers that a call may set.
   void check_uncommon() const {
-    Marks taken(w_.uncommon.size());
+    Marks taken(w_.body_extras.size());
     for (int body = 0; body < w_.bodies.size(); ++body) {
       const int extras = w_.bodies[body].uncommon;
-      require(extras == kNone || (w_.bodies.used(body) && taken.mark(extras) && w_.uncommon.used(extras)),
+      require(extras == kNone || (w_.bodies.used(body) && taken.mark(extras) && w_.body_extras.used(extras)),
               "bodies", "share what is their own");
     }
-    require(taken.count() == w_.uncommon.count(), "bodies", "have not all that is their own");
-    for (const BodyExtras<Real>& each : std::get<0>(w_.uncommon.parts()))
+    require(taken.count() == w_.body_extras.count(), "bodies", "have not all that is their own");
+    for (const BodyExtras<Real>& each : std::get<0>(w_.body_extras.parts()))
       validate(BodyDefinition{.name = "snapshot",
                               .gravity_scale = each.gravity_scale,
                               .linear_damping = each.linear_damping,
@@ -315,15 +316,15 @@ class Check {
     for (const int shape : w_.move_buffer) {
       require(shape >= 0 && shape < w_.shapes.size(), "shapes", "moved that are not there");
     }
-    for (const int joint : w_.load_limits) {
+    for (const int joint : w_.load_limited_joints) {
       require(has_joint(joint) && limited.mark(joint), "joints", "have limits that are not there");
     }
   }
 
   // Checks that bodies whose mass is to be computed are listed. The mass of a static body may be unknown.
-  void check_unsettled() const {
+  void check_mass_changes() const {
     Marks listed(w_.bodies.size());
-    for (const int body : w_.unsettled)
+    for (const int body : w_.mass_changed_bodies)
       require(has_body(body) && listed.mark(body), "bodies", "whose shapes changed are not there");
     int count = 0;
     for (int body = 0; body < w_.bodies.size(); ++body) {
@@ -379,10 +380,10 @@ class Check {
       return record.index >= 0 && record.index < static_cast<int>(list.size());
     };
     bool indexed = true;
-    if (record.home == ContactHome::Near) {
-      indexed = is_in(w_.near) && w_.near[record.index] == contact;
-    } else if (record.home == ContactHome::Parked) {
-      indexed = is_in(w_.parked) && fits(record, w_.parked[record.index], contact);
+    if (record.home == ContactHome::NonTouching) {
+      indexed = is_in(w_.nontouching_contacts) && w_.nontouching_contacts[record.index] == contact;
+    } else if (record.home == ContactHome::Sleeping) {
+      indexed = is_in(w_.sleeping_contacts) && fits(record, w_.sleeping_contacts[record.index], contact);
     } else if (record.home == ContactHome::Graph) {
       indexed = record.colour >= 0 && record.colour <= w_.graph.kColours &&
                 is_in(w_.graph.colour(record.colour)) &&
@@ -398,9 +399,9 @@ class Check {
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (w_.contacts.used(contact)) ++count[static_cast<int>(w_.contacts[contact].home)];
     }
-    require(count[static_cast<int>(ContactHome::Near)] == w_.near.size() &&
+    require(count[static_cast<int>(ContactHome::NonTouching)] == w_.nontouching_contacts.size() &&
                 count[static_cast<int>(ContactHome::Graph)] == w_.graph.size() &&
-                count[static_cast<int>(ContactHome::Parked)] == w_.parked.size(),
+                count[static_cast<int>(ContactHome::Sleeping)] == w_.sleeping_contacts.size(),
             "contacts", "are not as many as their places");
   }
 
@@ -447,7 +448,7 @@ class Check {
     for (int contact = 0; contact < w_.contacts.size(); ++contact) {
       if (!w_.contacts.used(contact)) continue;
       const ContactRecord& record = w_.contacts[contact];
-      if (record.home == ContactHome::Graph || record.home == ContactHome::Parked) add(record);
+      if (record.home == ContactHome::Graph || record.home == ContactHome::Sleeping) add(record);
     }
     for (int joint = 0; joint < w_.joints.size(); ++joint) {
       if (w_.joints.used(joint) && !has_quarantined_body(w_, w_.joints[joint])) add(w_.joints[joint]);

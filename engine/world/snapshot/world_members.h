@@ -21,7 +21,7 @@ inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
 inline constexpr int kEnumerators<ContactHardness> = 3;
 template <>
-inline constexpr int kEnumerators<Watch> = 3;
+inline constexpr int kEnumerators<ImpactTracking> = 3;
 template <>
 inline constexpr int kEnumerators<BadField> = 7;
 
@@ -63,10 +63,11 @@ PLUMB_MEMBERS(SensorRecord, shape, visitors)
 PLUMB_MEMBERS(ContactRecord, shape_a, shape_b, body_a, body_b, previous, next, home, colour, touching,
               pre_solve, hit_events, index)
 PLUMB_REAL_MEMBERS(ContactConstraint, body_a, body_b, normal, arm_a, arm_tangent_a, arm_b, arm_tangent_b,
-                   separation, now, normal_impulse, load_estimate, tangent_impulse, mass, inverse_pp,
-                   inverse_pq, inverse_qq, between, tangent_mass, friction, push_speed, surface_speed,
-                   hardness, count, touching, watched, restitution, rolling_arm, rolling_impulse,
-                   peak_impulse, step_impulse, approach, recycle_budget, contact, features, locks)
+                   separation, current_separation, normal_impulse, load_estimate, tangent_impulse, mass,
+                   inverse_pp, inverse_pq, inverse_qq, k_pq, tangent_mass, friction, depenetration_speed,
+                   surface_speed, hardness, count, touching, tracking, restitution, rolling_arm,
+                   rolling_impulse, max_normal_impulse, step_impulse, approach, recycle_budget, contact,
+                   features, locks)
 PLUMB_MEMBERS(JointRecord, body_a, body_b, previous, next, slot, collide, active, break_force, break_torque,
               report_force, report_torque, user_data)
 
@@ -86,17 +87,17 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, loaded
 /// these exceptions.
 template <class World>
 constexpr auto state_of(World& w) {
-  auto& [settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation, position,
-         position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes, corners,
-         shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near, graph, parked,
-         joints, joint_set, sensors, load_limits, quarantine, events, pending, stepping, profiled, profile,
-         crew, callers, abandoned, reports_hits, topology_changed, scratch, pre_solve, filter, friction_rule,
-         restitution_rule] = w;
-  return std::tie(settings, time, steps, last_h, bodies, uncommon, loads, body_data, motion, rotation,
-                  position, position_compensation, extents, enlarged, awake, unsettled, shapes, forms, boxes,
-                  corners, shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, near,
-                  graph, parked, joints, joint_set, sensors, load_limits, quarantine, events, pending,
-                  reports_hits);
+  auto& [settings, time, steps, last_h, bodies, body_extras, loads, body_data, motion, rotation, position,
+         position_compensation, extents, enlarged, awake, mass_changed_bodies, shapes, forms, tight_aabbs,
+         corners, shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs,
+         nontouching_contacts, graph, sleeping_contacts, joints, joint_set, sensors, load_limited_joints,
+         quarantine, events, pending, stepping, profiled, profile, scheduler, active_callbacks, abandoned,
+         reports_hits, topology_changed, scratch, pre_solve, filter, friction_rule, restitution_rule] = w;
+  return std::tie(settings, time, steps, last_h, bodies, body_extras, loads, body_data, motion, rotation,
+                  position, position_compensation, extents, enlarged, awake, mass_changed_bodies, shapes,
+                  forms, tight_aabbs, corners, shape_data, chains, move_buffer, static_tree, dynamic_tree,
+                  contacts, pairs, nontouching_contacts, graph, sleeping_contacts, joints, joint_set, sensors,
+                  load_limited_joints, quarantine, events, pending, reports_hits);
 }
 
 }  // namespace plumb

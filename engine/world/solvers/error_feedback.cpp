@@ -51,16 +51,16 @@ void add_joints(WorldData<Real>& w, Real rate) {
 // Adds the points that overlap by more than the slop.
 template <class Real>
 void add_contacts(WorldData<Real>& w, Real rate) {
-  constexpr Real kSlop = Real(tuning::kSlop / tuning::kPushSpeed);
+  constexpr Real kSlop = Real(tuning::kSlop / tuning::kDepenetrationSpeed);
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const ContactPair<Real> pair(w.motion.data(), c);
     for (int i = 0; i < c.count; ++i) {
-      const Real overlap = -pair.separation(i) - kSlop * c.push_speed;
+      const Real overlap = -pair.separation(i) - kSlop * c.depenetration_speed;
       if (!(overlap > 0)) continue;
       add_row(w, {.body_a = c.body_a,
                   .body_b = c.body_b,
                   .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
-                  .target_speed = std::min(rate * overlap, c.push_speed),
+                  .target_speed = std::min(rate * overlap, c.depenetration_speed),
                   .min_impulse = 0});
     }
   });

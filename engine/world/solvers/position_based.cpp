@@ -24,7 +24,7 @@ void project_positions(WorldData<Real>& w, double h, int substeps, int iteration
   if (jointed) w.joint_set.prepare(bodies, joints);
   for (int substep = 0; substep < substeps; ++substep) {
     if (jointed) w.joint_set.begin_projection(bodies, joints);
-    begin_position_contacts(bodies.motion, w.graph);
+    prepare_position_contacts(bodies.motion, w.graph);
     integrate_velocities(w);
     integrate_positions(w, step, Integrator::SemiImplicitEuler);
     for (int iteration = 0; iteration < iterations; ++iteration) {
@@ -43,7 +43,7 @@ template <class Real>
 void solve_jakobsen(WorldData<Real>& w, double h, int substeps) {
   project_positions(
       w, h, substeps, w.settings.iterations, PositionFriction::Coulomb,
-      [&](const PositionStep<Real>& contacts) { restore_bounces(w.motion.data(), w.graph, contacts); });
+      [&](const PositionStep<Real>& contacts) { apply_restitution(w.motion.data(), w.graph, contacts); });
 }
 
 // Makes one projection per substep, with the compliance of soft constraints; more substeps replace

@@ -36,8 +36,8 @@ void predict_circle_normal(const WorldData<Real>& w, const ContactRecord& contac
   if (c.count != 1 || !(c.separation[0] > 0) || c.normal_impulse[0] > 0) return;
   if (!is_centred_circle(w, contact.shape_a) || !is_centred_circle(w, contact.shape_b)) return;
   const Real radius_a = w.forms[contact.shape_a].radius, radius_b = w.forms[contact.shape_b].radius;
-  bounce.radii = radius_a + radius_b;
-  bounce.between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+  bounce.radius_sum = radius_a + radius_b;
+  bounce.centre_offset = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
   // The future contact point, in the middle of the present gap.
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   c.arm_tangent_a = -radius_a, c.arm_tangent_b = radius_b;
@@ -71,7 +71,7 @@ void collect_joints(WorldData<Real>& w) {
 
 // Fills in the rows of a joint: rigid rows and reached limits.
 template <class Real>
-void fill_joint_rows(void* world, ImpactJoint& joint) {
+void append_joint_rows(void* world, ImpactJoint& joint) {
   WorldData<Real>& w = *static_cast<WorldData<Real>*>(world);
   ImpactScratch<Real>& scratch = w.scratch.impacts;
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
@@ -114,14 +114,16 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
     ContactConstraint<Real>& c = constraint_of(w, record);
     if (c.restitution > 0) return;
     const ContactPair<Real> pair(w.motion.data(), c);
-    const int known = static_cast<int>(scratch.way.size());
-    const auto way = [&](int of) { return of < known ? scratch.way[of] : Vec2<Real>{}; };
-    const auto turn = [&](int of) { return of < known ? scratch.turn[of] : Real(0); };
+    const int body_count = static_cast<int>(scratch.displacement.size());
+    const auto displacement = [&](int of) {
+      return of < body_count ? scratch.displacement[of] : Vec2<Real>{};
+    };
+    const auto delta_angle = [&](int of) { return of < body_count ? scratch.delta_angle[of] : Real(0); };
     Real opened = 0;
     for (int i = 0; i < c.count; ++i) {
-      const Real opens = dot(c.normal, way(c.body_b) - way(c.body_a)) + c.arm_b[i] * turn(c.body_b) -
-                         c.arm_a[i] * turn(c.body_a);
-      const bool presses = pair.separation(i) - opens + h * pair.normal_rate(i) < 0;
+      const Real opens = dot(c.normal, displacement(c.body_b) - displacement(c.body_a)) +
+                         c.arm_b[i] * delta_angle(c.body_b) - c.arm_a[i] * delta_angle(c.body_a);
+      const bool presses = pair.separation(i) - opens + h * pair.normal_velocity(i) < 0;
       if (presses) opened = std::max(opened, opens);
     }
     if (!(opened > 0)) return;
@@ -135,7 +137,7 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
 template <class Real>
 void keep_closed(WorldData<Real>& w, Real h) {
   ImpactScratch<Real>& scratch = w.scratch.impacts;
-  const std::size_t count = scratch.unplaced ? scratch.displaced.size() : 0;
+  const std::size_t count = scratch.has_other_contacts ? scratch.displaced.size() : 0;
   for (std::size_t i = 0; i < count; ++i)
     if (w.bodies[scratch.displaced[i]].first_joint == kNone) keep_closed(w, scratch.displaced[i], h);
 }
@@ -147,12 +149,12 @@ void prepare_impacts(WorldData<Real>& w) {
   if (!scratch.linked) {
     collect_joints(w);
     link_contacts(w.motion.data(), w.scratch.restitution_contacts, scratch);
-    scratch.unplaced = any_without_restitution(w);
+    scratch.has_other_contacts = any_without_restitution(w);
     scratch.linked = true;
   }
   scratch.rows.clear();
-  for (ImpactJoint& joint : scratch.joints) joint.known = false;
-  scratch.fill_rows = fill_joint_rows<Real>, scratch.world = &w;
+  for (ImpactJoint& joint : scratch.joints) joint.rows_ready = false;
+  scratch.append_rows = append_joint_rows<Real>, scratch.world = &w;
 }
 
 }  // namespace
@@ -180,7 +182,8 @@ void collect_restitution_contacts(WorldData<Real>& w) {
     if (contact.home != ContactHome::Graph) continue;
     RestitutionContact<Real> bounce{.contact = &constraint_of(w, contact)};
     predict_circle_normal(w, contact, bounce);
-    if (bounce.contact->restitution > 0 || bounce.radii > 0) w.scratch.restitution_contacts.push_back(bounce);
+    if (bounce.contact->restitution > 0 || bounce.radius_sum > 0)
+      w.scratch.restitution_contacts.push_back(bounce);
   }
 }
 

@@ -34,11 +34,11 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
     warm_start_sequentially(bodies.motion, w.graph, contacts);
     for (int iteration = 0; iteration < w.settings.iterations; ++iteration) {
       if (jointed) w.joint_set.solve(bodies, joints);
-      sweep_contacts(bodies.motion, w.graph, contacts);
+      iterate_contacts(bodies.motion, w.graph, contacts);
     }
     feed_back_errors(w, feedback_rate);
     integrate_positions(w, static_cast<Real>(h), Integrator::SemiImplicitEuler);
-    stop_arrivals(bodies.motion, w.graph, contacts);
+    stop_closed_gaps(bodies.motion, w.graph, contacts);
     add_step_impulses(w);
     if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);
     contacts.warm_start = 1;

@@ -32,7 +32,7 @@ void project_angular_limits(WorldData<Real>& w) {
   bool any = true;
   for (int iteration = 0; any && iteration < tuning::kLimitIterations; ++iteration) {
     any = w.joint_set.project_angular_limits(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),
-                                             Real(tuning::kLimitMaxRotation), &w.crew);
+                                             Real(tuning::kLimitMaxRotation), &w.scheduler);
     if (any) enforce_motion_locks(w);
   }
 }
@@ -94,7 +94,7 @@ template <class Real, class Run>
 bool any_bounce(WorldData<Real>& w, const Run& run) {
   const std::span<RestitutionContact<Real>> all(w.scratch.restitution_contacts);
   std::atomic<bool> any = false;
-  w.crew.ranges(static_cast<int>(all.size()), kBouncesPerTask, [&](int first, int last) {
+  w.scheduler.ranges(static_cast<int>(all.size()), kBouncesPerTask, [&](int first, int last) {
     if (run(all.subspan(first, last - first))) any.store(true, std::memory_order_relaxed);
   });
   return any;
@@ -121,7 +121,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                    {{static_cast<Real>(tuning::kDirectPushFraction / h), 1, 0}}},
       .warm_start = warm_start,
       .bounce_threshold = bounce_threshold(w, h * substeps),
-      .load_push_share = Real(tuning::kLoadPushShare)};
+      .load_push_fraction = Real(tuning::kLoadPushFraction)};
   const Softness<Real> rigid =
       softness<Real>(tuning::kJointFrequencyRatio / h, tuning::kJointDampingRatio, h);
   JointStep<Real> joints{.h = static_cast<Real>(h),
@@ -132,11 +132,11 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                          .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   prepare_direct_islands(w);
-  if (jointed) w.joint_set.prepare(bodies, joints, joints_in_islands(w), &w.crew);
+  if (jointed) w.joint_set.prepare(bodies, joints, joints_in_islands(w), &w.scheduler);
   const bool iterated = jointed && any_joint_iterated(w);
   collect_restitution_contacts(w);
   SoftContacts<Real>& soft_contacts = w.scratch.soft_contacts;
-  soft_contacts.begin(w.graph, bodies.motion, scalar_contacts(w), w.crew);
+  soft_contacts.prepare(w.graph, bodies.motion, scalar_contacts(w), w.scheduler);
   using Bounce = RestitutionContact<Real>;
   const bool bounces = !w.scratch.restitution_contacts.empty();
   bool has_impacts = false;
@@ -148,9 +148,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     enforce_motion_locks(w);  // impact propagation ignores locks, and displaces bodies
   };
   for (int substep = 0; substep < substeps; ++substep) {
-    if (bounces && substep > 0) soft_contacts.show_bounces();
-    const bool separated =
-        any_bounce(w, [&](std::span<Bounce> some) { return note_approaches(bodies.motion, some, contacts); });
+    if (bounces && substep > 0) soft_contacts.scatter_restitution();
+    const bool separated = any_bounce(
+        w, [&](std::span<Bounce> some) { return record_approaches(bodies.motion, some, contacts); });
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool fuse_warm_start = substep > 0 && !jointed && !has_impacts && !separated;
     begin_jointed_substep(w);
@@ -162,28 +162,28 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     save_free_velocities(w);
     if (impacts_first) handle_impacts();
     if (has_impacts) add_impact_velocities(w);
-    if (iterated) w.joint_set.warm_start(bodies, joints, &w.crew);
+    if (iterated) w.joint_set.warm_start(bodies, joints, &w.scheduler);
     if (!impacts_first) handle_impacts();
-    let_pass(std::span<Bounce>(w.scratch.restitution_contacts));
-    if (bounces) soft_contacts.take_bounces();
+    defer_impacts(std::span<Bounce>(w.scratch.restitution_contacts));
+    if (bounces) soft_contacts.gather_restitution();
     if (!fuse_warm_start) soft_contacts.warm_start(bodies.motion, contacts);
-    if (iterated) w.joint_set.solve(bodies, joints, &w.crew);
+    if (iterated) w.joint_set.solve(bodies, joints, &w.scheduler);
     solve_direct_islands(w, contacts, true);
     soft_contacts.solve(bodies.motion, contacts);
     solve_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
     joints.evaluates_all = substep + 1 == substeps;
-    if (jointed) w.joint_set.relax(bodies, joints, &w.crew);
+    if (jointed) w.joint_set.relax(bodies, joints, &w.scheduler);
     solve_direct_islands(w, contacts, false);
     soft_contacts.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps);
-    hold_again(std::span<Bounce>(w.scratch.restitution_contacts));
+    restore_deferred(std::span<Bounce>(w.scratch.restitution_contacts));
     contacts.warm_start = joints.warm_start = 1;
   }
   if (jointed) close_joint_gaps(w, h, substeps);
   soft_contacts.finish();
-  if (jointed) w.joint_set.finish(bodies, &w.crew);
+  if (jointed) w.joint_set.finish(bodies, &w.scheduler);
   finish_direct_islands(w);
 }
 

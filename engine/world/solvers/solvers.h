@@ -11,7 +11,7 @@ namespace plumb {
 template <class Real>
 void add_step_impulses(WorldData<Real>& w) {
   w.graph.for_each([](ContactConstraint<Real>& c) {
-    if (c.watched != Watch::Off) c.step_impulse += normal_sum(c);
+    if (c.tracking != ImpactTracking::Off) c.step_impulse += normal_sum(c);
   });
 }
 

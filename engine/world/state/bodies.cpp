@@ -19,9 +19,11 @@ template <class Real>
 void reserve_body(WorldData<Real>& w, bool has_data) {
   w.bodies.reserve_more(1);
   const int size = w.bodies.size() + 1;
-  const std::size_t room = static_cast<std::size_t>(size);
-  ensure_capacity(w.motion, room), ensure_capacity(w.rotation, room), ensure_capacity(w.position, room);
-  ensure_capacity(w.extents, room), ensure_capacity(w.enlarged, room), ensure_capacity(w.awake, room);
+  const std::size_t capacity = static_cast<std::size_t>(size);
+  ensure_capacity(w.motion, capacity), ensure_capacity(w.rotation, capacity),
+      ensure_capacity(w.position, capacity);
+  ensure_capacity(w.extents, capacity), ensure_capacity(w.enlarged, capacity),
+      ensure_capacity(w.awake, capacity);
   w.loads.reserve(size, false), w.body_data.reserve(size, has_data),
       w.position_compensation.reserve(size, false);
 }
@@ -107,16 +109,16 @@ int add_body(WorldData<Real>& w, const BodyDefinition& definition, std::span<con
   reserve_body(w, definition.user_data != 0);
   reserve_shapes<Real>(w, definition.type, made);
   reserve_recentring<Real>(w, made);
-  if (has_extras(own)) w.uncommon.reserve_more(1);
+  if (has_extras(own)) w.body_extras.reserve_more(1);
   if (!definition.awake) reserve_one(w.event_buffer().fell_asleep);
 
   const int body = w.bodies.add(record);
   reset_body_data(w, body);
   if (definition.user_data != 0) w.body_data.at(body, w.bodies.size()) = definition.user_data;
-  if (has_extras(own)) w.bodies[body].uncommon = w.uncommon.add(std::move(own));
+  if (has_extras(own)) w.bodies[body].uncommon = w.body_extras.add(std::move(own));
   w.position[body] = definition.position;
   w.rotation[body] = rounded<Real>(rotation_of(definition.angle));
-  if (definition.type != BodyType::Static) enter_awake(w, body);
+  if (definition.type != BodyType::Static) add_awake(w, body);
   for (const NewShape<Real>& shape : made) insert_shape(w, body, shape);
   if (definition.mass) {
     set_mass(w, body, *definition.mass);
@@ -150,9 +152,9 @@ void remove_body(WorldData<Real>& w, int body) {
       erase_shape(w, shape);
     }
   }
-  if (w.bodies[body].awake) leave_awake(w, body);
-  if (w.bodies[body].uncommon != kNone) w.uncommon.remove(w.bodies[body].uncommon);
-  if (has_mass_change(w, body)) std::erase(w.unsettled, body);
+  if (w.bodies[body].awake) remove_awake(w, body);
+  if (w.bodies[body].uncommon != kNone) w.body_extras.remove(w.bodies[body].uncommon);
+  if (has_mass_change(w, body)) std::erase(w.mass_changed_bodies, body);
   w.motion[body] = {};
   w.bodies.remove(body);
 }
@@ -165,8 +167,8 @@ Vec2d origin_of(const WorldData<Real>& w, int body) {
 template <class Real>
 BodyExtras<Real>& make_extras(WorldData<Real>& w, int body) {
   int& place = w.bodies[body].uncommon;
-  if (place == kNone) place = w.uncommon.add({});
-  return w.uncommon[place];
+  if (place == kNone) place = w.body_extras.add({});
+  return w.body_extras[place];
 }
 
 template <class Real>
@@ -225,10 +227,10 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   destroy_contacts_of(w, body);
   set_joints_dynamic(w, body, type == BodyType::Dynamic);
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) destroy_proxy(w, shape);
-  if (record.awake) leave_awake(w, body);
+  if (record.awake) remove_awake(w, body);
   record.type = type;
   w.position_compensation.reset(body, w.bodies.size());
-  if (type != BodyType::Static) enter_awake(w, body);
+  if (type != BodyType::Static) add_awake(w, body);
   if (type == BodyType::Static) w.motion[body] = {};
   update_mass_for_type(w, body);
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) create_proxy(w, shape);

@@ -36,7 +36,7 @@ void destroy_contacts_of_chain(WorldData<Real>& w, int chain) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     const bool own_is_a = (edge & 1) == 0;
     if (w.shapes[own_is_a ? contact.shape_a : contact.shape_b].chain != chain) return;
-    if (contact.home == ContactHome::Parked) wake_body(w, own_is_a ? contact.body_b : contact.body_a);
+    if (contact.home == ContactHome::Sleeping) wake_body(w, own_is_a ? contact.body_b : contact.body_a);
     destroy_contact(w, edge / 2);
   });
 }

@@ -34,13 +34,13 @@ inline constexpr double kDirectPushFraction = 0.1;
 
 /// Limits up to which an island of contacts is solved directly: rows, and multiplications for the
 /// factorisation.
-inline constexpr int kDirectRows = 128;
-inline constexpr double kDirectCost = 20000;
+inline constexpr int kMaxDirectRows = 128;
+inline constexpr double kMaxDirectCost = 20000;
 /// Limits up to which a larger island without joints is slender, and solved directly too: rows, loops of
 /// contacts, and contacts on any one body.
-inline constexpr int kSlenderRows = 4096;
-inline constexpr int kSlenderLoops = 8;
-inline constexpr int kSlenderContacts = 8;
+inline constexpr int kMaxSlenderRows = 4096;
+inline constexpr int kMaxSlenderLoops = 8;
+inline constexpr int kMaxSlenderContacts = 8;
 /// Mass ratio of the heaviest to the lightest body above which an island with joints is solved directly; with
 /// Solver::Direct any ratio suffices. Iterations are accurate for chains of equal links, and cost less.
 inline constexpr double kDirectMassRatio = 8;
@@ -61,22 +61,22 @@ inline constexpr double kFewCost = 1000;
 /// Limits up to which an island with joints is solved as one system: joints, contacts, and multiplications to
 /// factorise its rows. Larger islands are solved by iterations. With a limit of 2e6 multiplications, a step
 /// of four substeps would take some 20 ms.
-inline constexpr int kJointedJoints = 4096;
-inline constexpr int kJointedContacts = 512;
-inline constexpr double kJointedCost = 2e5;
+inline constexpr int kMaxJointedJoints = 4096;
+inline constexpr int kMaxJointedContacts = 512;
+inline constexpr double kMaxJointedCost = 2e5;
 /// Fraction of a joint's gap that a step closes by moving the bodies, and relative compliance of the rows for
-/// this correction. No body moves by more than 1 / (2 sqrt(kCloseSoftness)) = 5 times the gaps. With a
+/// this correction. No body moves by more than 1 / (2 sqrt(kCorrectionSoftness)) = 5 times the gaps. With a
 /// softness of 1e-4 (50 times), links of a taut bridge rotate so far for a gap of 0.4 mm that the bridge
 /// sags. At 0.1, chains close half as fast.
-inline constexpr double kJointCloseFraction = 0.5;
-inline constexpr double kCloseSoftness = 1e-2;
+inline constexpr double kJointCorrectionFraction = 0.5;
+inline constexpr double kCorrectionSoftness = 1e-2;
 /// The same for Solver::Direct, which closes gaps in each substep: a chain of ten links that is pulled around
 /// stays closed within 1e-6 m. With a softness of 1e-2 it opens by 7e-6 m; with 1e-4 bridges sag here as
 /// well. If whole gaps were closed only once per step, bridges would sag too.
-inline constexpr double kDirectJointCloseFraction = 1;
-inline constexpr double kDirectCloseSoftness = 1e-3;
+inline constexpr double kDirectCorrectionFraction = 1;
+inline constexpr double kDirectCorrectionSoftness = 1e-3;
 /// rad, largest rotation of a body in a step by that correction.
-inline constexpr double kMaxCloseRotation = 0.125;
+inline constexpr double kMaxCorrectionRotation = 0.125;
 
 /// Natural frequency of the joint spring, as a fraction of the substep rate, and its damping ratio.
 inline constexpr double kJointFrequencyRatio = 0.25;
@@ -99,11 +99,11 @@ inline constexpr double kSlop = 0.002;
 
 /// Depenetration speed, in extents of the smaller shape a second, so that deep overlaps dissolve without a
 /// burst.
-inline constexpr double kPushSpeed = 4;
+inline constexpr double kDepenetrationSpeed = 4;
 /// Additional depenetration speed between dynamic bodies that an impact has driven into each other, as a
 /// fraction of the velocity that their contact impulse gives them in a substep. At 0.2, shapes that overlap
 /// initially separate a fifth faster.
-inline constexpr double kLoadPushShare = 0.05;
+inline constexpr double kLoadPushFraction = 0.05;
 
 /// Constant part of the speculative margin, as a fraction of the smaller shape's extent; the possible
 /// approach in the step is added.
@@ -119,11 +119,11 @@ inline constexpr double kRecycleDistance = 0.002;
 /// Height of steps that are ignored in a surface of several shapes, as a fraction of the smaller extent of
 /// the shapes in contact. Gaps may be three times as wide. With a smaller value, planks that are level to a
 /// thousandth would act as stairs; with a larger one, real steps would be ignored.
-inline constexpr double kSeamTolerance = 0.002;
+inline constexpr double kInternalEdgeTolerance = 0.002;
 /// Penetration, as a fraction of the smaller extent, above which a shape in such a surface keeps the normal
-/// of a single shape, because the corrected normal across a seam would throw it out. Contact points farther
-/// apart than this belong to no seam.
-inline constexpr double kSeamDepth = 0.25;
+/// of a single shape, because the corrected normal across an internal edge would push it out fast. Contact
+/// points farther apart than this belong to no internal edge.
+inline constexpr double kInternalEdgeDepth = 0.25;
 
 /// Margin of a fat AABB, as a fraction of the shape's extent, and number of steps of future motion that it
 /// covers for a body without a contact. Larger values mean fewer updates of the tree, but more pairs; bodies
@@ -156,7 +156,7 @@ inline constexpr double kFastFraction = 0.5;
 inline constexpr double kCoreDepth = 0.5;
 /// Depth of the inner core, for shapes that loads, joints or the user have already put deeper than
 /// kCoreDepth: they get no deeper than this.
-inline constexpr double kInnerDepth = 0.9;
+inline constexpr double kInnerCoreDepth = 0.9;
 /// Penetration, as a fraction of the smaller extent, from which a contact is checked for entering the core.
 inline constexpr double kCoreCheckOverlap = 0.002;
 /// Overlap, as a fraction of the smaller radius, at which two fast circles without a contact are stopped.

@@ -6,7 +6,7 @@
 #include "engine/scene/error.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/seams.h"
+#include "engine/world/state/internal_edges.h"
 
 namespace plumb {
 namespace {
@@ -29,16 +29,16 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
     c.mass[i] = inverse(k[i]);
   }
   if (c.count == 2) {
-    c.between = coupling(along_n, c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
-    const Real determinant = k[0] * k[1] - c.between * c.between;
+    c.k_pq = coupling(along_n, c.arm_a[0], c.arm_b[0], c.arm_a[1], c.arm_b[1]);
+    const Real determinant = k[0] * k[1] - c.k_pq * c.k_pq;
     // Points that nearly coincide share their load.
     const bool apart = determinant > Real(1e-3) * k[0] * k[1];
     const Real d = apart ? 1 / determinant : Real(0);
     c.inverse_pp = apart ? d * k[1] : Real(0.5) * c.mass[0];
     c.inverse_qq = apart ? d * k[0] : Real(0.5) * c.mass[1];
-    c.inverse_pq = -d * c.between;
+    c.inverse_pq = -d * c.k_pq;
   } else {
-    c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.between = c.inverse_pq = c.inverse_qq = 0;
+    c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.k_pq = c.inverse_pq = c.inverse_qq = 0;
     c.inverse_pp = c.mass[0];
   }
   const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
@@ -48,12 +48,12 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
-double call_combine_rule(CombineFunction rule, double a, double b, const char* what, double most) {
-  const double answer = rule(a, b);
-  if (answer >= 0 && answer <= most) return answer;
-  throw Error(
-      Error::Kind::Value, "combine rule", what, std::to_string(answer),
-      "must be in [0, " + std::to_string(most) + "] for " + std::to_string(a) + " and " + std::to_string(b));
+double call_combine_rule(CombineFunction rule, double a, double b, const char* what, double maximum) {
+  const double result = rule(a, b);
+  if (result >= 0 && result <= maximum) return result;
+  throw Error(Error::Kind::Value, "combine rule", what, std::to_string(result),
+              "must be in [0, " + std::to_string(maximum) + "] for " + std::to_string(a) + " and " +
+                  std::to_string(b));
 }
 
 }  // namespace
@@ -79,8 +79,8 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   const Real radius = std::max(form_a.radius, form_b.radius);
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;
   c.surface_speed = static_cast<Real>(a.surface_speed + b.surface_speed);
-  c.push_speed = Real(tuning::kPushSpeed) * std::min(form_a.extent, form_b.extent);
-  c.watched = watch_of(contact, c);
+  c.depenetration_speed = Real(tuning::kDepenetrationSpeed) * std::min(form_a.extent, form_b.extent);
+  c.tracking = tracking_of(contact, c);
   c.hardness = w.is_dynamic(contact.body_a) && w.is_dynamic(contact.body_b) ? ContactHardness::Soft
                                                                             : ContactHardness::Stiff;
 }
@@ -108,7 +108,7 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
   Vec2<Real> arms_a[2];
   bool kept = false;
   for (int i = 0; i < 2; ++i) {
-    impulse[i] = c.load_estimate[i] = c.separation[i] = c.approach[i] = c.peak_impulse[i] = 0;
+    impulse[i] = c.load_estimate[i] = c.separation[i] = c.approach[i] = c.max_normal_impulse[i] = 0;
     c.features[i] = 0;
     if (i >= manifold.count) continue;
     const ContactManifoldPoint<Real>& from = manifold.points[i];

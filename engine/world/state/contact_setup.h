@@ -27,9 +27,9 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
 /// Returns why the solver must record approach and largest impulses. A touching contact that neither bounces
 /// nor is reported needs neither.
 template <class Real>
-Watch watch_of(const ContactRecord& contact, const ContactConstraint<Real>& c) {
-  if (!c.touching || c.restitution > 0) return Watch::Motion;
-  return contact.hit_events || contact.pre_solve ? Watch::Reports : Watch::Off;
+ImpactTracking tracking_of(const ContactRecord& contact, const ContactConstraint<Real>& c) {
+  if (!c.touching || c.restitution > 0) return ImpactTracking::Motion;
+  return contact.hit_events || contact.pre_solve ? ImpactTracking::Reports : ImpactTracking::Off;
 }
 
 /// Returns an upper bound of the overlap, m, that rounding alone may have caused between the shapes of a
@@ -43,9 +43,9 @@ Real rounding_overlap(const WorldData<Real>& w, int body_a, int body_b) {
 /// coarsely as positions, so a rounding margin is added.
 template <class Real>
 bool aabbs_apart(const WorldData<Real>& w, int shape_a, int shape_b, Real margin) {
-  const Aabb<Real>& box = w.boxes[shape_a];
+  const Aabb<Real>& box = w.tight_aabbs[shape_a];
   const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * (l1_norm(box.lower) + l1_norm(box.upper));
-  return !box.grown(margin + rounding).overlaps(w.boxes[shape_b]);
+  return !box.grown(margin + rounding).overlaps(w.tight_aabbs[shape_b]);
 }
 
 /// Returns the manifold of two shapes at their bodies' present poses, with points up to `margin` apart, in
@@ -65,7 +65,7 @@ unsigned locks_of(const WorldData<Real>& w, int body_a, int body_b) {
 }
 
 /// Writes the manifold into the constraint, with lever arms and effective masses. Points with a known feature
-/// keep their impulses. `q` is the rotation of a, `between` the vector from its centre of mass to that of b.
+/// keep their impulses. `q` is the rotation of a, `a_to_b` the vector from its centre of mass to that of b.
 template <class Real>
 void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
                      const ContactManifold<Real>& manifold, Rotation<Real> q, Vec2<Real> a_to_b,

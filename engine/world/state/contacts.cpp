@@ -15,28 +15,28 @@ void count_constraint(WorldData<Real>& w, const ContactRecord& contact, int by) 
 }
 
 template <class Real>
-void enter_near(WorldData<Real>& w, int contact) {
-  append(w.near, contact);
+void enter_nontouching(WorldData<Real>& w, int contact) {
+  append(w.nontouching_contacts, contact);
   ContactRecord& record = w.contacts[contact];
-  record.home = ContactHome::Near;
-  record.index = static_cast<int>(w.near.size()) - 1;
+  record.home = ContactHome::NonTouching;
+  record.index = static_cast<int>(w.nontouching_contacts.size()) - 1;
 }
 
-// Swap-removes: the last contact in Near takes the freed place.
+// Swap-removes: the last nontouching contact takes the freed place.
 template <class Real>
-void leave_place(WorldData<Real>& w, int index) {
-  assert(index >= 0 && index < static_cast<int>(w.near.size()));
-  if (index + 1 < static_cast<int>(w.near.size())) {
-    w.near[index] = w.near.back();
-    w.contacts[w.near[index]].index = index;
+void remove_nontouching(WorldData<Real>& w, int index) {
+  assert(index >= 0 && index < static_cast<int>(w.nontouching_contacts.size()));
+  if (index + 1 < static_cast<int>(w.nontouching_contacts.size())) {
+    w.nontouching_contacts[index] = w.nontouching_contacts.back();
+    w.contacts[w.nontouching_contacts[index]].index = index;
   }
-  w.near.pop_back();
+  w.nontouching_contacts.pop_back();
 }
 
 template <class Real>
-void leave_near(WorldData<Real>& w, int contact) {
-  assert(w.contacts[contact].home == ContactHome::Near);
-  leave_place(w, w.contacts[contact].index);
+void leave_nontouching(WorldData<Real>& w, int contact) {
+  assert(w.contacts[contact].home == ContactHome::NonTouching);
+  remove_nontouching(w, w.contacts[contact].index);
 }
 
 template <class Real>
@@ -60,13 +60,13 @@ void leave_graph(WorldData<Real>& w, int contact) {
 }
 
 template <class Real>
-void leave_parked(WorldData<Real>& w, int index) {
-  assert(index >= 0 && index < static_cast<int>(w.parked.size()));
-  if (index + 1 < static_cast<int>(w.parked.size())) {
-    w.parked[index] = w.parked.back();
-    w.contacts[w.parked[index].contact].index = index;
+void leave_sleeping(WorldData<Real>& w, int index) {
+  assert(index >= 0 && index < static_cast<int>(w.sleeping_contacts.size()));
+  if (index + 1 < static_cast<int>(w.sleeping_contacts.size())) {
+    w.sleeping_contacts[index] = w.sleeping_contacts.back();
+    w.contacts[w.sleeping_contacts[index].contact].index = index;
   }
-  w.parked.pop_back();
+  w.sleeping_contacts.pop_back();
 }
 
 template <class Real>
@@ -105,14 +105,14 @@ template <class Real>
 void create_contact(WorldData<Real>& w, int shape_a, int shape_b) {
   const ContactRecord record = contact_of(w, shape_a, shape_b);
   w.contacts.reserve_more(1);
-  ensure_capacity(w.near, w.near.size() + 1);
+  ensure_capacity(w.nontouching_contacts, w.nontouching_contacts.size() + 1);
   w.pairs.insert(record.shape_a, record.shape_b);
   const int contact = w.contacts.add(record);
   link_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
   if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) {
-    enter_near(w, contact);
+    enter_nontouching(w, contact);
   } else {
-    w.contacts[contact].home = ContactHome::Idle;
+    w.contacts[contact].home = ContactHome::SleepingNonTouching;
   }
 }
 
@@ -122,19 +122,19 @@ void destroy_contact(WorldData<Real>& w, int contact) {
   set_touching(w, contact, false);
   const ContactRecord record = w.contacts[contact];
   switch (record.home) {
-    case ContactHome::Near:
-      leave_near(w, contact);
+    case ContactHome::NonTouching:
+      leave_nontouching(w, contact);
       break;
     case ContactHome::Graph:
       leave_graph(w, contact);
       break;
-    case ContactHome::Parked:
-      leave_parked(w, record.index);
+    case ContactHome::Sleeping:
+      leave_sleeping(w, record.index);
       break;
-    case ContactHome::Idle:
+    case ContactHome::SleepingNonTouching:
       break;
   }
-  if (record.home == ContactHome::Graph || record.home == ContactHome::Parked)
+  if (record.home == ContactHome::Graph || record.home == ContactHome::Sleeping)
     count_constraint(w, record, -1);
   unlink_edges(w, w.contacts, contact, &BodyRecord<Real>::first_contact);
   w.pairs.erase(record.shape_a, record.shape_b);
@@ -143,10 +143,10 @@ void destroy_contact(WorldData<Real>& w, int contact) {
 
 template <class Real>
 void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint) {
-  assert(w.contacts[contact].home == ContactHome::Near);
-  const int near = w.contacts[contact].index;
+  assert(w.contacts[contact].home == ContactHome::NonTouching);
+  const int index = w.contacts[contact].index;
   enter_graph(w, contact, constraint);
-  leave_place(w, near);
+  remove_nontouching(w, index);
   const ContactRecord record = w.contacts[contact];
   count_constraint(w, record, 1);
   try {
@@ -154,7 +154,7 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
     wake_body(w, record.body_b);
   } catch (...) {
     leave_graph(w, contact);
-    enter_near(w, contact);  // its capacity suffices: the contact was in Near before
+    enter_nontouching(w, contact);  // its capacity suffices: the contact was there before
     count_constraint(w, record, -1);
     throw;
   }
@@ -163,48 +163,48 @@ void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact) {
   assert(w.contacts[contact].home == ContactHome::Graph);
-  ensure_capacity(w.near, w.near.size() + 1);
+  ensure_capacity(w.nontouching_contacts, w.nontouching_contacts.size() + 1);
   set_touching(w, contact, false);
   leave_graph(w, contact);
-  enter_near(w, contact);
+  enter_nontouching(w, contact);
   count_constraint(w, w.contacts[contact], -1);
 }
 
 template <class Real>
-void park_contact(WorldData<Real>& w, int contact) {
+void sleep_contact(WorldData<Real>& w, int contact) {
   ContactRecord& record = w.contacts[contact];
-  if (record.home == ContactHome::Near) {
+  if (record.home == ContactHome::NonTouching) {
     // An awake kinematic body may touch a sleeping one.
     if (w.bodies[record.body_a].awake || w.bodies[record.body_b].awake) return;
-    leave_near(w, contact);
-    record.home = ContactHome::Idle;
+    leave_nontouching(w, contact);
+    record.home = ContactHome::SleepingNonTouching;
   } else if (record.home == ContactHome::Graph) {
-    append(w.parked, w.graph.at({record.colour, record.index}));
+    append(w.sleeping_contacts, w.graph.at({record.colour, record.index}));
     leave_graph(w, contact);
-    record.home = ContactHome::Parked;
-    record.index = static_cast<int>(w.parked.size()) - 1;
+    record.home = ContactHome::Sleeping;
+    record.index = static_cast<int>(w.sleeping_contacts.size()) - 1;
   }
 }
 
 template <class Real>
-void unpark_contact(WorldData<Real>& w, int contact) {
+void wake_contact(WorldData<Real>& w, int contact) {
   const ContactRecord& record = w.contacts[contact];
-  if (record.home == ContactHome::Idle) {
-    enter_near(w, contact);
-  } else if (record.home == ContactHome::Parked) {
-    const int parked = record.index;
-    if (w.stepping) append(w.scratch.unparked, contact);
-    const ContactConstraint<Real> constraint = w.parked[parked];
+  if (record.home == ContactHome::SleepingNonTouching) {
+    enter_nontouching(w, contact);
+  } else if (record.home == ContactHome::Sleeping) {
+    const int index = record.index;
+    if (w.stepping) append(w.scratch.woken_contacts, contact);
+    const ContactConstraint<Real> constraint = w.sleeping_contacts[index];
     enter_graph(w, contact, constraint);
-    leave_parked(w, parked);
+    leave_sleeping(w, index);
   }
 }
 
 template <class Real>
 ContactConstraint<Real>& constraint_of(WorldData<Real>& w, const ContactRecord& contact) {
-  assert(contact.home == ContactHome::Parked || contact.home == ContactHome::Graph);
-  return contact.home == ContactHome::Parked ? w.parked[contact.index]
-                                             : w.graph.at({contact.colour, contact.index});
+  assert(contact.home == ContactHome::Sleeping || contact.home == ContactHome::Graph);
+  return contact.home == ContactHome::Sleeping ? w.sleeping_contacts[contact.index]
+                                               : w.graph.at({contact.colour, contact.index});
 }
 
 template <class Real>
@@ -222,7 +222,7 @@ void set_touching(WorldData<Real>& w, int contact, bool touching) {
 template <class Real>
 void invalidate_manifolds(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, ContactRecord& contact) {
-    if (contact.home == ContactHome::Graph || contact.home == ContactHome::Parked) {
+    if (contact.home == ContactHome::Graph || contact.home == ContactHome::Sleeping) {
       constraint_of(w, contact).recycle_budget = -1;
     }
   });
@@ -233,7 +233,7 @@ void destroy_contacts_of(WorldData<Real>& w, int body, int shape) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
     if (shape != kNone && contact.shape_a != shape && contact.shape_b != shape) return;
     const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
-    if (contact.home == ContactHome::Parked) wake_body(w, other);
+    if (contact.home == ContactHome::Sleeping) wake_body(w, other);
     destroy_contact(w, edge / 2);
   });
 }
@@ -244,7 +244,7 @@ void destroy_forbidden_contacts(WorldData<Real>& w, int shape) {
       w.contacts, w.bodies[w.shapes[shape].body].first_contact, [&](int edge, const ContactRecord& contact) {
         if (contact.shape_a != shape && contact.shape_b != shape) return;
         const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
-        if (contact.home == ContactHome::Parked) wake_body(w, other);
+        if (contact.home == ContactHome::Sleeping) wake_body(w, other);
         if (!may_touch(w.shapes[contact.shape_a].filter, w.shapes[contact.shape_b].filter) || w.filter)
           destroy_contact(w, edge / 2);
       });
@@ -270,8 +270,8 @@ void wake_touched(WorldData<Real>& w, int shape) {
   template void destroy_contact(WorldData<Real>&, int);                                    \
   template void begin_contact(WorldData<Real>&, int, const ContactConstraint<Real>&);      \
   template void end_contact(WorldData<Real>&, int);                                        \
-  template void park_contact(WorldData<Real>&, int);                                       \
-  template void unpark_contact(WorldData<Real>&, int);                                     \
+  template void sleep_contact(WorldData<Real>&, int);                                      \
+  template void wake_contact(WorldData<Real>&, int);                                       \
   template ContactConstraint<Real>& constraint_of(WorldData<Real>&, const ContactRecord&); \
   template void set_touching(WorldData<Real>&, int, bool);                                 \
   template void invalidate_manifolds(WorldData<Real>&, int);                               \

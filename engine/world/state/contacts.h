@@ -5,7 +5,7 @@
 #include "engine/world/world_data.h"
 
 /// Lifecycle of a contact. It is created when the fat AABBs of two shapes overlap, and destroyed when they
-/// separate. It is in the constraint graph while it has points, and parked while its bodies sleep.
+/// separate. It is in the constraint graph while it has points and a body is awake.
 namespace plumb {
 
 /// Returns true if bodies, filters, and joints between the bodies let the two shapes collide.
@@ -31,7 +31,7 @@ inline std::uint32_t effective_mask(const Filter& filter) {
 }
 /// Returns true if a contact has points, or had points in the solver.
 inline bool has_points(const ContactRecord& contact) {
-  return contact.home == ContactHome::Graph || contact.home == ContactHome::Parked;
+  return contact.home == ContactHome::Graph || contact.home == ContactHome::Sleeping;
 }
 
 /// Returns true if the shape collides with nothing; such a shape has no proxy in the trees.
@@ -48,19 +48,19 @@ void create_contact(WorldData<Real>& w, int shape_a, int shape_b);
 template <class Real>
 void destroy_contact(WorldData<Real>& w, int contact);
 
-/// Moves a contact that has gained points from Near to Graph, and wakes its bodies.
+/// Moves a contact that has gained points from NonTouching to Graph, and wakes its bodies.
 template <class Real>
 void begin_contact(WorldData<Real>& w, int contact, const ContactConstraint<Real>& constraint);
 
-/// Moves a contact that has lost its points from Graph to Near.
+/// Moves a contact that has lost its points from Graph to NonTouching.
 template <class Real>
 void end_contact(WorldData<Real>& w, int contact);
 
-/// Moves a contact to Parked or Idle when none of its dynamic bodies is awake, and back.
+/// Moves a contact to Sleeping or SleepingNonTouching when none of its dynamic bodies is awake, and back.
 template <class Real>
-void park_contact(WorldData<Real>& w, int contact);
+void sleep_contact(WorldData<Real>& w, int contact);
 template <class Real>
-void unpark_contact(WorldData<Real>& w, int contact);
+void wake_contact(WorldData<Real>& w, int contact);
 
 /// Returns the constraint of a contact that has points.
 template <class Real>

@@ -19,7 +19,7 @@ void erase_joint(WorldData<Real>& w, int joint) {
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   if (!has_quarantined_body(w, record))
     --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
-  std::erase(w.load_limits, joint);
+  std::erase(w.load_limited_joints, joint);
   w.joints.remove(joint);
 }
 
@@ -42,7 +42,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   const bool limited = definition.break_force > 0 || definition.break_torque > 0 ||
                        definition.report_force > 0 || definition.report_torque > 0;
   w.joints.reserve_more(1);
-  ensure_capacity(w.load_limits, w.load_limits.size() + (limited ? 1 : 0));
+  ensure_capacity(w.load_limited_joints, w.load_limited_joints.size() + (limited ? 1 : 0));
   if (!definition.collide) reserve_end_events(w, body_a, body_b);
   w.topology_changed = true;  // before the joints' lists grow, which may fail halfway
   const int slot =
@@ -59,7 +59,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   record.user_data = definition.user_data;
   const int joint = w.joints.add(record);
   link_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
-  if (limited) w.load_limits.push_back(joint);
+  if (limited) w.load_limited_joints.push_back(joint);
   try {
     if (has_quarantined_body(w, record)) {
       w.joint_set.set_active(slot, false);
@@ -96,17 +96,17 @@ void remove_joint(WorldData<Real>& w, int joint) {
 template <class Real>
 void set_load_events(WorldData<Real>& w, int joint, double force, double torque) {
   JointRecord& record = w.joints[joint];
-  const auto place = std::find(w.load_limits.begin(), w.load_limits.end(), joint);
+  const auto place = std::find(w.load_limited_joints.begin(), w.load_limited_joints.end(), joint);
   const bool limited = record.break_force > 0 || record.break_torque > 0 || force > 0 || torque > 0;
-  if (limited && place == w.load_limits.end()) append(w.load_limits, joint);
-  if (!limited && place != w.load_limits.end()) w.load_limits.erase(place);
+  if (limited && place == w.load_limited_joints.end()) append(w.load_limited_joints, joint);
+  if (!limited && place != w.load_limited_joints.end()) w.load_limited_joints.erase(place);
   record.report_force = force, record.report_torque = torque;
 }
 
 template <class Real>
 JointStiffness stiffness_of(const WorldData<Real>& w, int joint) {
   const JointRecord& record = w.joints[joint];
-  // Masses may still be unsettled: reading changes nothing.
+  // Mass changes may still be pending: reading does not apply them.
   const auto centre_of = [&w](int body) { return w.bodies[body].centre + centre_of_mass_shift(w, body); };
   const auto add = [&w](int body, Real& inverse_mass, Real& inverse_inertia) {
     if (own_type(w, body) != BodyType::Dynamic) return;

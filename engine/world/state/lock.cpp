@@ -6,7 +6,7 @@ namespace plumb {
 
 template <class Real>
 void require_unlocked(const WorldData<Real>& w) {
-  if (!w.stepping && w.callers == 0) return;
+  if (!w.stepping && w.active_callbacks == 0) return;
   throw Error(Error::Kind::Unsupported, "world", "", "",
               w.stepping
                   ? "cannot be changed from within its step; have the hook note what is to be done, and do "
@@ -32,7 +32,7 @@ WorldData<Real>& unlocked(BasicWorld<Real>& world) {
 template <class Real>
 WorldData<Real>& unlocked_with_masses(BasicWorld<Real>& world) {
   WorldData<Real>& w = unlocked(world);
-  if (!w.unsettled.empty()) apply_mass_changes(w);
+  if (!w.mass_changed_bodies.empty()) apply_mass_changes(w);
   return w;
 }
 

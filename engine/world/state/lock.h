@@ -26,7 +26,7 @@ WorldData<Real>& unlocked_with_masses(BasicWorld<Real>& world);
 /// Ends a use of the world. If the user destroyed the world from a callback, the last use deletes its data.
 template <class Real>
 void end_use(const WorldData<Real>& w) {
-  if (w.abandoned && !w.stepping && w.callers == 0) delete &w;
+  if (w.abandoned && !w.stepping && w.active_callbacks == 0) delete &w;
 }
 
 /// Locks the world while the user's code reads it. Locks may overlap, also from several threads.
@@ -35,11 +35,11 @@ class Lock {
  public:
   /// `has_user_code` is false if there is no user code to call; then nothing is locked.
   explicit Lock(const WorldData<Real>& w, bool has_user_code = true) : w_(has_user_code ? &w : nullptr) {
-    if (w_ != nullptr) w_->callers.fetch_add(1, std::memory_order_relaxed);
+    if (w_ != nullptr) w_->active_callbacks.fetch_add(1, std::memory_order_relaxed);
   }
   ~Lock() {
     if (w_ == nullptr) return;
-    w_->callers.fetch_sub(1, std::memory_order_relaxed);
+    w_->active_callbacks.fetch_sub(1, std::memory_order_relaxed);
     end_use(*w_);
   }
   Lock(const Lock&) = delete;

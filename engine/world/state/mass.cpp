@@ -22,8 +22,8 @@ namespace {
 template <class Real>
 void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
   BodyRecord<Real>& record = w.bodies[body];
-  const Vec2<Real> shift = centre - record.centre;
-  if (shift == Vec2<Real>{}) return;
+  const Vec2<Real> displacement = centre - record.centre;
+  if (displacement == Vec2<Real>{}) return;
   typename CornerPool<Real>::Runs runs{};
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
     ++runs[static_cast<std::size_t>(w.forms[shape].stored())];
@@ -33,11 +33,11 @@ void recentre(WorldData<Real>& w, int body, Vec2<Real> centre) {
     Corner<Real> moved[kMaxCorners + 2];
     const auto corners = w.corners.run(form.corner, form.stored());
     std::copy(corners.begin(), corners.end(), moved);
-    for (int i = 0; i < form.stored(); ++i) moved[i].point -= shift;
+    for (int i = 0; i < form.stored(); ++i) moved[i].point -= displacement;
     w.corners.remove(form.corner, form.stored());
     form.corner = w.corners.add({moved, corners.size()});
   }
-  const Vec2<Real> arm = w.rotation[body] * shift;
+  const Vec2<Real> arm = w.rotation[body] * displacement;
   w.motion[body].velocity += cross(w.motion[body].angular_velocity, arm);  // velocity of the new centre
   w.position[body] += arm.template as<double>();
   record.centre = centre;
@@ -171,7 +171,7 @@ void record_mass_change(WorldData<Real>& w, int body) {
     return;
   }
   if (has_mass_change(w, body)) return;
-  append(w.unsettled, body);
+  append(w.mass_changed_bodies, body);
   record.half_width = -1;
 }
 
@@ -181,15 +181,15 @@ void grow_extents(WorldData<Real>& w, int body, int shape) {
   w.extents[body] = std::max(w.extents[body], convex_extent(w.convex(shape), Vec2<Real>{}));
   if (has_mass_change(w, body)) return;
   const Real half_width = convex_tunnelling_width(w.convex(shape));
-  const bool alone = record.first_shape == shape && w.shapes[shape].next == kNone;
-  record.half_width = alone ? half_width : std::min(record.half_width, half_width);
+  const bool only_shape = record.first_shape == shape && w.shapes[shape].next == kNone;
+  record.half_width = only_shape ? half_width : std::min(record.half_width, half_width);
 }
 
 template <class Real>
 void apply_mass_changes(WorldData<Real>& w) {
-  while (!w.unsettled.empty()) {
-    update_mass(w, w.unsettled.back());
-    w.unsettled.pop_back();
+  while (!w.mass_changed_bodies.empty()) {
+    update_mass(w, w.mass_changed_bodies.back());
+    w.mass_changed_bodies.pop_back();
   }
 }
 

@@ -34,7 +34,7 @@ void record_mass_change(WorldData<Real>& w, int body);
 /// Grows the body's sizes by a shape that was added.
 template <class Real>
 void grow_extents(WorldData<Real>& w, int body, int shape);
-/// Updates all bodies that were noted.
+/// Updates the masses of all bodies with a recorded change.
 template <class Real>
 void apply_mass_changes(WorldData<Real>& w);
 /// Returns true if a change of the body's shapes was recorded and not yet applied.

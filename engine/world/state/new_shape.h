@@ -21,9 +21,9 @@ struct NewShape {
 
 template <class Real>
 NewShape<Real> prepare_shape(const ShapeDefinition& definition);
-/// Prepares the segment that begins at point `which`.
+/// Prepares the segment that begins at point `index`.
 template <class Real>
-NewShape<Real> prepare_segment(const ChainDefinition& definition, int which);
+NewShape<Real> prepare_segment(const ChainDefinition& definition, int index);
 
 /// Reserves memory for shapes of a body of this type.
 template <class Real>

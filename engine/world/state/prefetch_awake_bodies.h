@@ -27,7 +27,7 @@ class PrefetchAwakeBodies {
     __builtin_prefetch(&w_.position[body]), __builtin_prefetch(&w_.rotation[body]);
     if (shape == kNone) return;
     __builtin_prefetch(&w_.shapes[shape]), __builtin_prefetch(&w_.forms[shape]);
-    __builtin_prefetch(&w_.boxes[shape]);
+    __builtin_prefetch(&w_.tight_aabbs[shape]);
   }
 
  private:

@@ -68,7 +68,7 @@ void remove_from_simulation(WorldData<Real>& w, int body, const QuarantineEvent&
                 [&](int, JointRecord& joint) { detach_joint(w, joint); });
   BodyRecord<Real>& record = w.bodies[body];
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) destroy_proxy(w, shape);
-  if (record.awake) leave_awake(w, body);
+  if (record.awake) remove_awake(w, body);
   w.quarantine.push_back(std::move(entry));
   record.type = BodyType::Static;
   record.quarantined = true;
@@ -111,8 +111,8 @@ void set_rotation_from_angle(WorldData<Real>& w, int body) {
 template <class Real>
 void restore_start_state(WorldData<Real>& w, int body, const BodyVelocity<Real>& start) {
   SolverBody<Real>& motion = w.motion[body];
-  const BodyVelocity<Real> sound = is_in_range(start) ? start : BodyVelocity<Real>{};
-  motion.velocity = sound.velocity, motion.angular_velocity = sound.angular_velocity;
+  const BodyVelocity<Real> valid_start = is_in_range(start) ? start : BodyVelocity<Real>{};
+  motion.velocity = valid_start.velocity, motion.angular_velocity = valid_start.angular_velocity;
   motion.delta_position = {}, motion.delta_angle = 0;
   set_rotation_from_angle(w, body);
   w.bodies[body].sleep_time = 0;
@@ -147,11 +147,11 @@ void reset_static_bodies(WorldData<Real>& w) {
 template <class Real>
 void clear_impulses(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
-    if (contact.home != ContactHome::Graph && contact.home != ContactHome::Parked) return;
+    if (contact.home != ContactHome::Graph && contact.home != ContactHome::Sleeping) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
     for (int i = 0; i < 2; ++i) {
-      c.normal_impulse[i] = c.load_estimate[i] = c.peak_impulse[i] = c.approach[i] = 0;
-      c.now[i] = c.separation[i];
+      c.normal_impulse[i] = c.load_estimate[i] = c.max_normal_impulse[i] = c.approach[i] = 0;
+      c.current_separation[i] = c.separation[i];
     }
     c.tangent_impulse = c.rolling_impulse = c.step_impulse = 0;
   });
@@ -169,9 +169,9 @@ void move_kinematic(WorldData<Real>& w, int body, double dt) {
   w.position[body] += motion.delta_position.template as<double>();
   w.bodies[body].angle += static_cast<double>(motion.delta_angle);
   set_rotation_from_angle(w, body);
-  const Real turned = std::abs(motion.delta_angle) * w.extents[body];
+  const Real rotation_distance = std::abs(motion.delta_angle) * w.extents[body];
   for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next)
-    update_proxy(w, shape, t, turned);
+    update_proxy(w, shape, t, rotation_distance);
 }
 
 // A body with an invalid motion.
@@ -281,7 +281,7 @@ void release_body(WorldData<Real>& w, int body) {
   std::erase_if(w.quarantine, [&](const QuarantinedBody& each) { return each.body == body; });
   w.topology_changed = true;  // its joints are active again, also those of a static body
   if (record.type == BodyType::Static) w.motion[body] = {};
-  if (record.type != BodyType::Static) enter_awake(w, body);
+  if (record.type != BodyType::Static) add_awake(w, body);
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) create_proxy(w, shape);
   w.enlarged[body] = 1;
   for_each_edge(w.joints, record.first_joint, [&](int, JointRecord& joint) { reattach_joint(w, joint); });
@@ -301,9 +301,9 @@ void apply_body_impulse(WorldData<Real>& w, int body, Vec2d impulse, double angu
 
 template <class Real>
 void quarantine_overloaded(WorldData<Real>& w, double dt) {
-  std::vector<int>& bad = w.scratch.nonfinite_bodies;
-  bad.clear();
-  const auto gain = [&](int body, const Load<Real>& load) -> std::pair<Vec2d, double> {
+  std::vector<int>& overloaded = w.scratch.nonfinite_bodies;
+  overloaded.clear();
+  const auto velocity_change = [&](int body, const Load<Real>& load) -> std::pair<Vec2d, double> {
     const SolverBody<Real>& motion = w.motion[body];
     return {dt * static_cast<double>(motion.inverse_mass) * load.force.template as<double>(),
             dt * static_cast<double>(motion.inverse_inertia) * static_cast<double>(load.torque)};
@@ -311,14 +311,14 @@ void quarantine_overloaded(WorldData<Real>& w, double dt) {
   for (const int body : w.awake) {
     const Load<Real> load = w.loads.get(body);
     if (load.force == Vec2<Real>{} && load.torque == 0) continue;
-    const auto [velocity, spin] = gain(body, load);
+    const auto [velocity, spin] = velocity_change(body, load);
     if (!is_in_range(velocity) || !is_in_range(dt * velocity) || !is_in_range(spin) ||
         !is_in_range(dt * spin))
-      bad.push_back(body);
+      overloaded.push_back(body);
   }
-  for (const int body : bad) {
+  for (const int body : overloaded) {
     const Load<Real> load = w.loads.get(body);
-    const auto [velocity, spin] = gain(body, load);
+    const auto [velocity, spin] = velocity_change(body, load);
     if (!is_in_range(velocity.x) || !is_in_range(dt * velocity.x)) {
       quarantine_body(w, body, BadField::Velocity, velocity.x);
     } else if (!is_in_range(velocity.y) || !is_in_range(dt * velocity.y)) {

@@ -17,7 +17,7 @@ Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape) {
 template <class Real>
 Aabb<Real> fat_aabb(const WorldData<Real>& w, int shape, Real dt) {
   const int body = w.shapes[shape].body;
-  Aabb<Real> box = w.boxes[shape];
+  Aabb<Real> box = w.tight_aabbs[shape];
   // The margin covers the rounding of positions far from the origin.
   const Real far =
       std::max(std::abs(box.lower.x) + std::abs(box.lower.y), std::abs(box.upper.x) + std::abs(box.upper.y));

@@ -16,7 +16,7 @@ Aabb<Real> tight_aabb(const WorldData<Real>& w, int shape);
 /// shape that collides with nothing it is computed.
 template <class Real>
 Aabb<Real> current_aabb(const WorldData<Real>& w, int shape) {
-  return w.shapes[shape].proxy == kNone ? tight_aabb(w, shape) : w.boxes[shape];
+  return w.shapes[shape].proxy == kNone ? tight_aabb(w, shape) : w.tight_aabbs[shape];
 }
 
 /// Returns the fat AABB of a shape: with a margin and the predicted motion of the next steps.
@@ -60,7 +60,7 @@ void store_fat_aabb(WorldData<Real>& w, int shape, const Aabb<Real>& box, Tree& 
 /// Shapes that rotate too fast are not predicted.
 template <class Real>
 Aabb<Real> next_step_aabb(const WorldData<Real>& w, int shape, Real dt, Real rotation_distance) {
-  const Aabb<Real>& box = w.boxes[shape];
+  const Aabb<Real>& box = w.tight_aabbs[shape];
   if (rotation_distance > Real(0.5 * tuning::kAabbMargin) * w.forms[shape].extent) return box;
   const Vec2<Real> ahead = dt * w.motion[w.shapes[shape].body].velocity;
   return merged(box, {box.lower + ahead, box.upper + ahead}).grown(rotation_distance);
@@ -71,11 +71,11 @@ Aabb<Real> next_step_aabb(const WorldData<Real>& w, int shape, Real dt, Real rot
 template <class Real, class Enlarge>
 bool update_aabbs(WorldData<Real>& w, int shape, Real dt, Real rotation_distance, const Enlarge& enlarge) {
   if (w.shapes[shape].proxy == kNone) return true;
-  const Aabb<Real> before = w.boxes[shape];
-  w.boxes[shape] = tight_aabb(w, shape);
+  const Aabb<Real> before = w.tight_aabbs[shape];
+  w.tight_aabbs[shape] = tight_aabb(w, shape);
   const ShapeRecord<Real>& record = w.shapes[shape];
   const Aabb<Real>& stored = w.tree_of(w.bodies[record.body].type).box(record.proxy);
-  const bool covered = stored.contains(merged(before, w.boxes[shape]).grown(rotation_distance));
+  const bool covered = stored.contains(merged(before, w.tight_aabbs[shape]).grown(rotation_distance));
   if (!stored.contains(next_step_aabb(w, shape, dt, rotation_distance)))
     enlarge(shape, fat_aabb(w, shape, dt));
   return covered;

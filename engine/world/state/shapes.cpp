@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/geometry/convex_bounds.h"
@@ -78,7 +77,7 @@ NewShape<Real> prepare_shape(const ShapeDefinition& definition) {
 }
 
 template <class Real>
-NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
+NewShape<Real> prepare_segment(const ChainDefinition& definition, int index) {
   const std::vector<Vec2d>& points = definition.points;
   const int count = static_cast<int>(points.size());
   // Returns the vertex at `i`. An open end is its own neighbour, which makes it a corner.
@@ -87,8 +86,8 @@ NewShape<Real> prepare_segment(const ChainDefinition& definition, int which) {
     return points[static_cast<std::size_t>(std::clamp(i, 0, count - 1))];
   };
   NewShape<Real> made;
-  const Corners segment = capsule_corners(vertex(which), vertex(which + 1));
-  made.corners = {{vertex(which - 1), {}}, segment[0], segment[1], {vertex(which + 2), {}}};
+  const Corners segment = capsule_corners(vertex(index), vertex(index + 1));
+  made.corners = {{vertex(index - 1), {}}, segment[0], segment[1], {vertex(index + 2), {}}};
   made.count = 2;  // two of the four corners are the segment's own
   made.form.chain = true;
   made.form.sensor = definition.sensor;
@@ -111,7 +110,7 @@ void reserve_shapes(WorldData<Real>& w, BodyType type, std::span<const NewShape<
     data = data || shape.user_data != 0;
   }
   w.shapes.reserve_more(more);
-  ensure_capacity(w.forms, all), ensure_capacity(w.boxes, all);
+  ensure_capacity(w.forms, all), ensure_capacity(w.tight_aabbs, all);
   w.shape_data.reserve(static_cast<int>(all), data);
   w.corners.reserve_runs(runs);
   ensure_capacity(w.sensors, w.sensors.size() + sensors);
@@ -123,7 +122,7 @@ void reserve_shapes(WorldData<Real>& w, BodyType type, std::span<const NewShape<
 template <class Real>
 int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
   const int shape = w.shapes.add(made.record);
-  resize_with_growth(w.forms, w.shapes.size()), resize_with_growth(w.boxes, w.shapes.size());
+  resize_with_growth(w.forms, w.shapes.size()), resize_with_growth(w.tight_aabbs, w.shapes.size());
   w.shape_data.reset(shape, w.shapes.size());
   if (made.user_data != 0) w.shape_data.at(shape, w.shapes.size()) = made.user_data;
   ShapeForm<Real>& form = w.forms[shape];
@@ -164,7 +163,7 @@ void add_to_move_buffer(WorldData<Real>& w, int shape) {
 template <class Real>
 void create_proxy(WorldData<Real>& w, int shape) {
   ShapeRecord<Real>& record = w.shapes[shape];
-  w.boxes[shape] = tight_aabb(w, shape);
+  w.tight_aabbs[shape] = tight_aabb(w, shape);
   if (w.bodies[record.body].quarantined || collides_with_nothing(record.filter)) return;
   record.proxy = w.tree_of(w.bodies[record.body].type)
                      .insert(fat_aabb(w, shape, Real(0)), folded(record.filter.category), shape);
@@ -303,8 +302,8 @@ void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
     contact.pre_solve = a.pre_solve || b.pre_solve;
     if (!has_points(contact)) return;
     ContactConstraint<Real>& c = constraint_of(w, contact);
-    if (c.watched == Watch::Off) c.step_impulse = 0;  // left from an earlier step
-    c.watched = watch_of(contact, c);
+    if (c.tracking == ImpactTracking::Off) c.step_impulse = 0;  // left from an earlier step
+    c.tracking = tracking_of(contact, c);
   });
 }
 

@@ -23,10 +23,10 @@ BodyId id_of(const WorldData<Real>& w, int body) {
 template <class Real>
 void add_event(WorldData<Real>& w, std::vector<BodyId>& events, int body) {
   if (events.size() >= 64 + 2 * static_cast<std::size_t>(w.bodies.size())) {
-    std::vector<char>& known = w.scratch.cannot_sleep;
-    known.assign(static_cast<std::size_t>(w.bodies.size()), 0);
+    std::vector<char>& seen = w.scratch.cannot_sleep;
+    seen.assign(static_cast<std::size_t>(w.bodies.size()), 0);
     std::erase_if(events, [&](BodyId each) {
-      return !w.bodies.holds(each.index, each.generation) || std::exchange(known[each.index], 1) != 0;
+      return !w.bodies.holds(each.index, each.generation) || std::exchange(seen[each.index], 1) != 0;
     });
   }
   events.push_back(id_of(w, body));
@@ -47,7 +47,7 @@ bool is_awake_dynamic(const WorldData<Real>& w, int body) {
   return w.bodies[body].awake && w.is_dynamic(body);
 }
 
-// Returns true if a constraint has an awake dynamic body. Without one it stays parked, even while its
+// Returns true if a constraint has an awake dynamic body. Without one it stays asleep, even while its
 // kinematic body is awake.
 template <class Real, class Record>
 bool is_solved(const WorldData<Real>& w, const Record& record) {
@@ -55,9 +55,9 @@ bool is_solved(const WorldData<Real>& w, const Record& record) {
 }
 
 template <class Real>
-void unpark_constraints(WorldData<Real>& w, int body) {
+void wake_constraints(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
-    if (contact.home != ContactHome::Parked || is_solved(w, contact)) unpark_contact(w, edge / 2);
+    if (contact.home != ContactHome::Sleeping || is_solved(w, contact)) wake_contact(w, edge / 2);
   });
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
     if (joint.active || has_quarantined_body(w, joint) || !is_solved(w, joint)) return;
@@ -67,9 +67,9 @@ void unpark_constraints(WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-void park_constraints(WorldData<Real>& w, int body) {
+void sleep_constraints(WorldData<Real>& w, int body) {
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, ContactRecord& contact) {
-    if (contact.home == ContactHome::Near || !is_solved(w, contact)) park_contact(w, edge / 2);
+    if (contact.home == ContactHome::NonTouching || !is_solved(w, contact)) sleep_contact(w, edge / 2);
   });
   for_each_edge(w.joints, w.bodies[body].first_joint, [&](int, JointRecord& joint) {
     if (!joint.active || is_solved(w, joint)) return;
@@ -88,26 +88,26 @@ bool may_fall_asleep(const WorldData<Real>& w, int body) {
 template <class Real>
 bool is_deep(const ContactConstraint<Real>& c) {
   const Real depth = -(c.count == 2 ? std::min(c.separation[0], c.separation[1]) : c.separation[0]);
-  return depth > Real(tuning::kSleepOverlap / tuning::kPushSpeed) * c.push_speed;
+  return depth > Real(tuning::kSleepOverlap / tuning::kDepenetrationSpeed) * c.depenetration_speed;
 }
 
 // Reserves memory for the contacts of bodies that fall asleep.
 template <class Real>
-void reserve_parked(WorldData<Real>& w, const std::vector<int>& sleepers) {
+void reserve_sleeping(WorldData<Real>& w, const std::vector<int>& sleepers) {
   std::size_t contacts = 0;
   for (const int body : sleepers) {
     for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
       contacts += contact.home == ContactHome::Graph ? 1 : 0;
     });
   }
-  ensure_capacity(w.parked, w.parked.size() + std::min(contacts, w.graph.size()));
+  ensure_capacity(w.sleeping_contacts, w.sleeping_contacts.size() + std::min(contacts, w.graph.size()));
   ensure_capacity(w.event_buffer().fell_asleep, w.event_buffer().fell_asleep.size() + sleepers.size());
 }
 
 }  // namespace
 
 template <class Real>
-void enter_awake(WorldData<Real>& w, int body) {
+void add_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   assert(!record.awake && record.type != BodyType::Static);
   record.awake = true;
@@ -118,7 +118,7 @@ void enter_awake(WorldData<Real>& w, int body) {
 }
 
 template <class Real>
-void leave_awake(WorldData<Real>& w, int body) {
+void remove_awake(WorldData<Real>& w, int body) {
   BodyRecord<Real>& record = w.bodies[body];
   assert(record.awake && w.awake[record.awake_index] == body);
   record.awake = false;
@@ -132,7 +132,7 @@ void leave_awake(WorldData<Real>& w, int body) {
 template <class Real>
 void fall_asleep(WorldData<Real>& w, int body) {
   add_event(w, w.event_buffer().fell_asleep, body);
-  leave_awake(w, body);
+  remove_awake(w, body);
   // Islands on a kinematic body check that body's sleep timer, so set it.
   w.bodies[body].sleep_time = std::max(w.bodies[body].sleep_time, Real(tuning::kSleepTime));
   SolverBody<Real>& motion = w.motion[body];
@@ -150,21 +150,21 @@ void wake_body(WorldData<Real>& w, int body) {
     if (!sleeps(i)) return;
     ensure_capacity(w.awake, w.awake.size() + 1), ensure_capacity(queue, queue.size() + 1);
     add_event(w, w.event_buffer().woke, i);
-    enter_awake(w, i);
+    add_awake(w, i);
     queue.push_back(i);
   };
   try {
     wake(body);
     for (std::size_t next = first; next < queue.size(); ++next) {
       const int current = queue[next];
-      unpark_constraints(w, current);
+      wake_constraints(w, current);
       if (w.is_dynamic(current)) for_each_constraint_edge(w, current, wake);
     }
   } catch (...) {
     // Keeps the whole island asleep, because an island must not be half awake. This needs no memory: the
     // lists contained these bodies before.
-    for (std::size_t i = first; i < queue.size(); ++i) leave_awake(w, queue[i]);
-    for (std::size_t i = first; i < queue.size(); ++i) park_constraints(w, queue[i]);
+    for (std::size_t i = first; i < queue.size(); ++i) remove_awake(w, queue[i]);
+    for (std::size_t i = first; i < queue.size(); ++i) sleep_constraints(w, queue[i]);
     queue.resize(first);
     throw;
   }
@@ -209,9 +209,9 @@ void sleep_islands(WorldData<Real>& w) {
   for (const int body : w.awake) {
     if (!cannot_sleep[islands.find(body)]) sleepers.push_back(body);
   }
-  reserve_parked(w, sleepers);
+  reserve_sleeping(w, sleepers);
   for (const int body : sleepers) fall_asleep(w, body);
-  for (const int body : sleepers) park_constraints(w, body);
+  for (const int body : sleepers) sleep_constraints(w, body);
   sleepers.clear();
 }
 
@@ -231,9 +231,9 @@ void put_to_sleep(WorldData<Real>& w, int body) {
   for (std::size_t next = 0; next < island.size(); ++next) {
     if (w.is_dynamic(island[next])) for_each_constraint_edge(w, island[next], add);
   }
-  reserve_parked(w, island);
+  reserve_sleeping(w, island);
   for (const int i : island) fall_asleep(w, i);
-  for (const int i : island) park_constraints(w, i);
+  for (const int i : island) sleep_constraints(w, i);
 }
 
 #define PLUMB_FOR(Real)                                 \
@@ -242,8 +242,8 @@ void put_to_sleep(WorldData<Real>& w, int body) {
   template void sleep_islands(WorldData<Real>&);        \
   template void put_to_sleep(WorldData<Real>&, int);    \
   template void fall_asleep(WorldData<Real>&, int);     \
-  template void enter_awake(WorldData<Real>&, int);     \
-  template void leave_awake(WorldData<Real>&, int);
+  template void add_awake(WorldData<Real>&, int);       \
+  template void remove_awake(WorldData<Real>&, int);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

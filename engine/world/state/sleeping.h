@@ -22,12 +22,12 @@ bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const So
   if (extent == 0 && motion.inverse_inertia > 0)
     extent = std::sqrt(motion.inverse_mass / motion.inverse_inertia);
   const double set = w.settings.thresholds.sleep;
-  const Real slow = set >= 0 ? static_cast<Real>(set) : Real(tuning::kSleepSpeed) * extent;
-  const auto moves = [extent](Vec2<Real> way, Real turn) {
-    return std::sqrt(length_squared(way)) + std::abs(turn) * extent;
+  const Real max_speed = set >= 0 ? static_cast<Real>(set) : Real(tuning::kSleepSpeed) * extent;
+  const auto speed = [extent](Vec2<Real> linear, Real angular) {
+    return std::sqrt(length_squared(linear)) + std::abs(angular) * extent;
   };
-  return record.may_sleep && moves(motion.velocity, motion.angular_velocity) <= slow &&
-         (dt == 0 || moves(motion.delta_position, motion.delta_angle) <= slow * dt);
+  return record.may_sleep && speed(motion.velocity, motion.angular_velocity) <= max_speed &&
+         (dt == 0 || speed(motion.delta_position, motion.delta_angle) <= max_speed * dt);
 }
 
 /// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic body wakes alone.
@@ -47,14 +47,14 @@ void sleep_islands(WorldData<Real>& w);
 template <class Real>
 void put_to_sleep(WorldData<Real>& w, int body);
 
-/// Puts one body to sleep. The caller parks its contacts and joints.
+/// Puts one body to sleep. The caller deactivates its contacts and joints.
 template <class Real>
 void fall_asleep(WorldData<Real>& w, int body);
 
 /// Only adds a body to the list of awake bodies, or removes it.
 template <class Real>
-void enter_awake(WorldData<Real>& w, int body);
+void add_awake(WorldData<Real>& w, int body);
 template <class Real>
-void leave_awake(WorldData<Real>& w, int body);
+void remove_awake(WorldData<Real>& w, int body);
 
 }  // namespace plumb

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/core/crew.h"
+#include "engine/core/loop_scheduler.h"
 #include "engine/core/text.h"
 #include "engine/geometry/convex_hull.h"
 #include "engine/joints/joint_check.h"
@@ -120,9 +120,9 @@ void validate(const WorldDefinition& definition) {
 }
 
 void require_threads(int threads) {
-  if (threads >= 1 && threads <= Crew::kMostThreads) return;
+  if (threads >= 1 && threads <= LoopScheduler::kMaxThreads) return;
   throw Error(Error::Kind::Value, "world", "threads", std::to_string(threads),
-              "must be a number from 1 to " + std::to_string(Crew::kMostThreads));
+              "must be a number from 1 to " + std::to_string(LoopScheduler::kMaxThreads));
 }
 
 void validate(const BodyDefinition& definition) {
@@ -202,9 +202,9 @@ void require_float_mass(const ShapeDefinition& definition) {
 void require_float_mass(double density, const ConvexMass& part) {
   if (part.mass == 0) return;
   const double whole = part.inertia + part.mass * length_squared(part.centroid);
-  const bool holds = part.mass >= kSmallestFloatMass && part.mass <= kLargestFloatMass &&
-                     part.inertia >= kSmallestFloatMass && whole <= kLargestFloatMass;
-  if (holds) return;
+  const bool fits_float = part.mass >= kSmallestFloatMass && part.mass <= kLargestFloatMass &&
+                          part.inertia >= kSmallestFloatMass && whole <= kLargestFloatMass;
+  if (fits_float) return;
   throw_invalid("shape", "density", density,
                 "gives a mass of " + shortest(part.mass) + " kg and an inertia of " + shortest(whole) +
                     " kg m^2, of which single precision holds 1e-36 to 1e36");

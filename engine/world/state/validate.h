@@ -43,7 +43,7 @@ inline constexpr double kSmallestNumber = 1e-12;
 /// m or rad: limit of positions and sizes; valid calls and steps lead to none beyond it. A position within
 /// 1e12 m and the arms of shapes and centres of mass, of a few 1e12 m, may add up. Squares of this limit fit
 /// into a float, and boxes that grow from there stay finite.
-inline constexpr double kFarthest = 100 * kLargestNumber;
+inline constexpr double kMaxPosition = 100 * kLargestNumber;
 /// For comparison: a box of 1e-6 m and 1e-12 kg has 1e-25 kg m^2. Inverses, and their products with lever
 /// arms of the body's size, fit into a float.
 inline constexpr double kSmallestInertia = 1e-30;

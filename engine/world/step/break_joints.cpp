@@ -8,8 +8,8 @@ template <class Real>
 void break_joints(WorldData<Real>& w, double h) {
   const Real rate = static_cast<Real>(1 / h);
   const auto exceeds = [](double load, double limit) { return limit > 0 && load > limit; };
-  for (std::size_t i = 0; i < w.load_limits.size();) {
-    const int joint = w.load_limits[i];
+  for (std::size_t i = 0; i < w.load_limited_joints.size();) {
+    const int joint = w.load_limited_joints[i];
     const JointRecord& record = w.joints[joint];
     const JointId id{static_cast<std::uint32_t>(joint), w.joints.generation(joint)};
     // Joints of sleeping bodies keep their loads, which are not reported again.

@@ -10,9 +10,10 @@ namespace plumb {
 
 /// Returns the approach speed from which an impact is reported, m/s.
 template <class Real>
-Real least_hit_speed(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+Real min_hit_speed(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   const double set = w.settings.thresholds.hit;
-  return set >= 0 ? static_cast<Real>(set) : c.push_speed * Real(tuning::kHitSpeed / tuning::kPushSpeed);
+  return set >= 0 ? static_cast<Real>(set)
+                  : c.depenetration_speed * Real(tuning::kHitSpeed / tuning::kDepenetrationSpeed);
 }
 
 /// Returns a contact as the user sees it. The constraint stores each lever arm r as its components along t

@@ -9,7 +9,6 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/seams.h"
 #include "engine/world/step/common_rotation.h"
 #include "engine/world/step/expected_impacts.h"
 #include "engine/world/step/lasting_contact.h"
@@ -24,21 +23,21 @@ namespace plumb {
 
 /// Changes of a contact found by an update, as flags.
 enum : std::uint8_t {
-  kTouchChange = 1,  ///< the contact begins or ends touching
-  kLost = 2,         ///< its fat AABBs have separated
-  kEnded = 4,        ///< the contact has no points any more
-  kBounces = 8,      ///< see begin_contact_step
-  kRenewed = 16,     ///< its points were recomputed: impulses are not settled yet
-  kAsked = 32,       ///< the user's hook decides about its new points
-  kLeft = 64,        ///< a shape has left its fat AABB
-  kStale = 128,      ///< its bodies have moved too far for its points
+  kTouchChange = 1,     ///< the contact begins or ends touching
+  kSeparated = 2,       ///< its fat AABBs have separated
+  kEnded = 4,           ///< the contact has no points any more
+  kBounces = 8,         ///< see begin_contact_step
+  kRebuilt = 16,        ///< its points were recomputed: new impulses are not stored yet
+  kNeedsPreSolve = 32,  ///< the pre-solve hook is to be called for its new points
+  kLeftFatAabb = 64,    ///< a shape has left its fat AABB
+  kStale = 128,         ///< its bodies have moved too far for its points
 };
 
 /// Returns true if the fat AABBs do not overlap. Tests the tight AABBs first: they lie within the fat ones,
 /// and are already loaded.
 template <class Real>
 [[gnu::always_inline]] inline bool fat_aabbs_apart(WorldData<Real>& w, const ContactRecord& contact) {
-  if (w.boxes[contact.shape_a].overlaps(w.boxes[contact.shape_b])) return false;
+  if (w.tight_aabbs[contact.shape_a].overlaps(w.tight_aabbs[contact.shape_b])) return false;
   const auto stored = [&](int shape, int body) -> const Aabb<Real>& {
     return w.tree_of(w.bodies[body].type).box(w.shapes[shape].proxy);
   };
@@ -48,13 +47,13 @@ template <class Real>
 /// Updates the load estimate: most of the load, or all of it if the load pressed the shapes into each other.
 template <class Real>
 [[gnu::always_inline]] inline void update_load_estimate(ContactConstraint<Real>& c) {
-  constexpr Real kShare = Real(tuning::kLoadEstimateFraction), kRate = Real(tuning::kLoadEstimateRate);
+  constexpr Real kFraction = Real(tuning::kLoadEstimateFraction), kRate = Real(tuning::kLoadEstimateRate);
   constexpr Real kRise =
-      Real((1 - tuning::kLoadEstimateFraction) * tuning::kPushSpeed / tuning::kLoadEstimateOverlap);
-  const Real rise = kRise / c.push_speed;
+      Real((1 - tuning::kLoadEstimateFraction) * tuning::kDepenetrationSpeed / tuning::kLoadEstimateOverlap);
+  const Real rise = kRise / c.depenetration_speed;
   for (int i = 0; i < 2; ++i) {
-    const Real share = std::min(kShare + rise * std::max(-c.separation[i], Real(0)), Real(1));
-    c.load_estimate[i] += kRate * (share * c.normal_impulse[i] - c.load_estimate[i]);
+    const Real fraction = std::min(kFraction + rise * std::max(-c.separation[i], Real(0)), Real(1));
+    c.load_estimate[i] += kRate * (fraction * c.normal_impulse[i] - c.load_estimate[i]);
   }
 }
 
@@ -63,23 +62,24 @@ template <class Real>
 template <class Real>
 bool begin_contact_step(const WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   update_load_estimate(c);
-  c.now[0] = c.separation[0], c.now[1] = c.separation[1];
-  if (c.watched == Watch::Off) return false;
-  c.peak_impulse[0] = c.peak_impulse[1] = c.step_impulse = 0;
+  c.current_separation[0] = c.separation[0], c.current_separation[1] = c.separation[1];
+  if (c.tracking == ImpactTracking::Off) return false;
+  c.max_normal_impulse[0] = c.max_normal_impulse[1] = c.step_impulse = 0;
   const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
   for (int i = 0; i < c.count; ++i) {
     c.approach[i] = along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
   }
-  if (c.watched == Watch::Reports) return false;
+  if (c.tracking == ImpactTracking::Reports) return false;
   // A single point with a fast approach may belong to two discs, whose normal will rotate.
-  const Real travel = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+  const Real travel = c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
   return c.restitution > 0 || (c.count == 1 && -c.approach[0] * dt > travel);
 }
 
 template <class Real>
 bool has_touched(const ContactConstraint<Real>& c) {
-  const Real near_enough = c.push_speed * Real(tuning::kTouchSeparation / tuning::kPushSpeed);
+  const Real near_enough =
+      c.depenetration_speed * Real(tuning::kTouchSeparation / tuning::kDepenetrationSpeed);
   // A contact that bounced off within a step has touched, too.
   return c.separation[0] <= near_enough || (c.count == 2 && c.separation[1] <= near_enough) || has_pressed(c);
 }
@@ -87,45 +87,45 @@ bool has_touched(const ContactConstraint<Real>& c) {
 template <class Real>
 ContactManifold<Real> new_manifold(const WorldData<Real>& w, const ContactRecord& contact, Real dt) {
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Real reach =
+  const Real margin =
       speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-  if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return {};
-  return manifold_of(w, contact, reach);
+  if (aabbs_apart(w, contact.shape_a, contact.shape_b, margin)) return {};
+  return manifold_of(w, contact, margin);
 }
 
 /// Returns true if a contact without points is farther apart than its shapes may approach in the step: it
 /// then has no manifold and no predicted impact. Tests their AABBs, and the face that separated them before.
-/// This rejects most pairs in a crowd. The approach used here is an upper bound of those that the manifold
-/// and the prediction compute, rounding included.
+/// This rejects most pairs of a dense pile. The approach used here is an upper bound of those that the
+/// manifold and the prediction compute, rounding included.
 template <class Real>
-[[gnu::always_inline]] inline bool is_out_of_reach(const WorldData<Real>& w, const ContactRecord& contact,
-                                                   std::uint8_t face, Real dt) {
+[[gnu::always_inline]] inline bool is_beyond_margin(const WorldData<Real>& w, const ContactRecord& contact,
+                                                    std::uint8_t face, Real dt) {
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real form_a = w.forms[contact.shape_a].extent, form_b = w.forms[contact.shape_b].extent;
-  const Real turning = std::abs(a.angular_velocity) * std::max(form_a, w.extents[contact.body_a]) +
-                       std::abs(b.angular_velocity) * std::max(form_b, w.extents[contact.body_b]);
+  const Real rotation_speed = std::abs(a.angular_velocity) * std::max(form_a, w.extents[contact.body_a]) +
+                              std::abs(b.angular_velocity) * std::max(form_b, w.extents[contact.body_b]);
   const Real smaller = std::min(form_a, form_b);
   const Real rounding = 1 + 4 * std::numeric_limits<Real>::epsilon();
-  const Real closing = rounding * (dt * (l1_norm(b.velocity - a.velocity) + turning));
-  const Real reach = Real(tuning::kSpeculativeMargin) * smaller + closing;
-  if (aabbs_apart(w, contact.shape_a, contact.shape_b, reach)) return true;
+  const Real approach = rounding * (dt * (l1_norm(b.velocity - a.velocity) + rotation_speed));
+  const Real margin = Real(tuning::kSpeculativeMargin) * smaller + approach;
+  if (aabbs_apart(w, contact.shape_a, contact.shape_b, margin)) return true;
   // Shapes that approach faster are searched along their curved paths, for which a face at the start says
   // little.
-  return face != kNoFace && closing <= Real(tuning::kMaxSpeculativeApproach) * smaller &&
-         are_separated_by(w, contact, face, reach);
+  return face != kNoFace && approach <= Real(tuning::kMaxSpeculativeApproach) * smaller &&
+         are_separated_by(w, contact, face, margin);
 }
 
-/// Returns true if the user's pre-solve hook is to be asked about a contact.
+/// Returns true if the user's pre-solve hook is to be called for a contact.
 template <class Real>
-bool is_asked(const WorldData<Real>& w, const ContactRecord& contact) {
+bool needs_pre_solve_call(const WorldData<Real>& w, const ContactRecord& contact) {
   return contact.pre_solve && w.pre_solve;
 }
 
 /// Starts a contact that had no points and now has some, computed by `build`.
 template <class Real, class Build>
-void begin_near(WorldData<Real>& w, int block, int id, Real dt, bool pressing, const Build& build) {
+void begin_contact_with(WorldData<Real>& w, int block, int id, Real dt, bool loaded, const Build& build) {
   const ContactRecord& contact = w.contacts[id];
-  BegunContact<Real> begun{.pressing = pressing, .needs_pre_solve = is_asked(w, contact)};
+  BegunContact<Real> begun{.loaded = loaded, .needs_pre_solve = needs_pre_solve_call(w, contact)};
   ContactConstraint<Real>& c = begun.constraint;
   build(c);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
@@ -140,14 +140,14 @@ template <class Real>
                                                              const SpeculativeContact<Real>& at, Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
-  prepare_meeting(w, contact, at, c, c.normal_impulse);
+  prepare_impact_contact(w, contact, at, c, c.normal_impulse);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
-  if (meets_in_flight(w, contact, at, c, dt)) {
+  if (is_impact_in_flight(w, contact, at, c, dt)) {
     w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
     return;
   }
-  begin_near(w, block, id, dt, true, [&](ContactConstraint<Real>& begun) { begun = c; });
+  begin_contact_with(w, block, id, dt, true, [&](ContactConstraint<Real>& begun) { begun = c; });
 }
 
 /// Prefetches contact records kRecords ahead and, once these are loaded, their bodies and shapes kShapes
@@ -163,7 +163,7 @@ template <class Real, class IdAt>
   for (const int body : {contact.body_a, contact.body_b})
     __builtin_prefetch(&w.bodies[body]), __builtin_prefetch(&w.motion[body]);
   for (const int shape : {contact.shape_a, contact.shape_b})
-    __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.boxes[shape]);
+    __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.tight_aabbs[shape]);
 }
 
 /// Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight
@@ -171,27 +171,28 @@ template <class Real, class IdAt>
 template <class Real>
 [[gnu::always_inline]] inline int update_nontouching(WorldData<Real>& w, int block, int id, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[id];
-  const int parted = contact.touching ? kTouchChange : 0;
-  if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact)) return kLost;
+  const int touch_change = contact.touching ? kTouchChange : 0;
+  if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact))
+    return kSeparated;
   std::uint8_t& face = w.scratch.separating_faces[id];
-  if (is_out_of_reach(w, contact, face, dt)) return parted;
+  if (is_beyond_margin(w, contact, face, dt)) return touch_change;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   if (manifold.separating != kNoFace) face = manifold.separating;
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
-  if (at.outlook == Outlook::Meets) {
+  if (at.prediction == ImpactPrediction::Hit) {
     begin_speculative_contact(w, block, id, at, dt);
     return 0;
   }
   if (const SpeculativeContact<Real> arriving = arriving_contact(w, contact, manifold, dt);
       arriving.manifold.count > 0) {
-    begin_near(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+    begin_contact_with(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
       prepare_speculative_contact(w, contact, arriving, c, c.normal_impulse);
     });
     return 0;
   }
-  if (manifold.count == 0 || at.outlook == Outlook::Misses) return parted;
-  begin_near(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
-    prepare_turning_contact(w, contact, manifold, dt, c, c.normal_impulse);
+  if (manifold.count == 0 || at.prediction == ImpactPrediction::Miss) return touch_change;
+  begin_contact_with(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+    prepare_rotating_contact(w, contact, manifold, dt, c, c.normal_impulse);
   });
   return 0;
 }
@@ -202,35 +203,35 @@ template <class Real>
 [[gnu::always_inline]] inline bool rebuild_manifold(WorldData<Real>& w, int block,
                                                     const ContactRecord& contact, Real dt, Real h,
                                                     ContactConstraint<Real>& c) {
-  if (renew_lasting(w, contact, dt, c)) return true;
+  if (rebuild_lasting_contact(w, contact, dt, c)) return true;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
-  if (renew_turning(w, contact, manifold, dt, c)) return true;
+  if (rebuild_rotating_contact(w, contact, manifold, dt, c)) return true;
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
-  if (at.outlook == Outlook::Meets) {
-    prepare_meeting(w, contact, at, c, c.now);
-    ContactConstraint<Real> settled = c;
-    settled.normal_impulse[0] = c.now[0], settled.normal_impulse[1] = c.now[1];
-    if (meets_in_flight(w, contact, at, settled, dt)) {
-      w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = settled, .in_graph = true});
+  if (at.prediction == ImpactPrediction::Hit) {
+    prepare_impact_contact(w, contact, at, c, c.current_separation);
+    ContactConstraint<Real> updated = c;
+    updated.normal_impulse[0] = c.current_separation[0], updated.normal_impulse[1] = c.current_separation[1];
+    if (is_impact_in_flight(w, contact, at, updated, dt)) {
+      w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = updated, .in_graph = true});
     } else {
-      w.scratch.found_pressed.add(block, {c.body_a, c.body_b});
+      w.scratch.found_loaded.add(block, {c.body_a, c.body_b});
     }
   } else {
-    prepare_turning_contact(w, contact, manifold, dt, c, c.now);
+    prepare_rotating_contact(w, contact, manifold, dt, c, c.current_separation);
   }
   // The prediction ignores the load that a contact carries: keep a contact that holds a body.
-  const bool holds = c.now[0] > 0 || c.now[1] > 0;
-  return c.count > 0 && (holds || at.outlook != Outlook::Misses);
+  const bool loaded = c.current_separation[0] > 0 || c.current_separation[1] > 0;
+  return c.count > 0 && (loaded || at.prediction != ImpactPrediction::Miss);
 }
 
 /// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they
-/// have moved too far for that, and kLeft if its shapes may have separated.
+/// have moved too far for that, and kLeftFatAabb if its shapes may have separated.
 template <class Real>
 [[gnu::always_inline]] inline int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
   if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) mark_contact_load(w, c);
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = has_touched(c) != c.touching ? kTouchChange : 0;
-  const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeft : 0;
+  const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeftFatAabb : 0;
   if (!recycle_manifold(w, c, w.extents[c.body_a], w.extents[c.body_b])) return touch | left | kStale;
   return touch | left | (begin_contact_step(w, c, dt) ? kBounces : 0);
 }
@@ -241,11 +242,12 @@ template <class Real>
 [[gnu::always_inline]] inline int rebuild_contact(WorldData<Real>& w, int block, ContactConstraint<Real>& c,
                                                   int change, Real dt, Real h) {
   const ContactRecord& contact = w.contacts[c.contact];
-  if ((change & kLeft) != 0 && fat_aabbs_apart(w, contact)) return (change & kTouchChange) | kLost;
-  const int known = change & ~(kLeft | kStale);
+  if ((change & kLeftFatAabb) != 0 && fat_aabbs_apart(w, contact))
+    return (change & kTouchChange) | kSeparated;
+  const int known = change & ~(kLeftFatAabb | kStale);
   if ((change & kStale) == 0) return known;
   const bool has_points = rebuild_manifold(w, block, contact, dt, h, c);
-  return known | kRenewed | (!has_points ? kEnded : is_asked(w, contact) ? kAsked : 0);
+  return known | kRebuilt | (!has_points ? kEnded : needs_pre_solve_call(w, contact) ? kNeedsPreSolve : 0);
 }
 
 }  // namespace plumb

@@ -15,10 +15,10 @@ namespace {
 
 // Impacts whose times differ by less than this fraction of the step are simultaneous. With four substeps this
 // is the same time as in impact propagation.
-constexpr double kAtOnce = 2.5e-4;
+constexpr double kSimultaneous = 2.5e-4;
 
 template <class Real>
-Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) {
+Real separation_rate(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) {
   const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   return dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
          c.arm_a[i] * a.angular_velocity;
@@ -29,8 +29,8 @@ Real rate_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i) 
 // Otherwise the impact would be left to continuous collision before the step, but belong to the solver after
 // it.
 template <class Real>
-bool lies_on(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
-  const Real rate = rate_of(w, c, i);
+bool is_resting_point(const WorldData<Real>& w, const ContactConstraint<Real>& c, int i, Real dt) {
+  const Real rate = separation_rate(w, c, i);
   return !(dt * rate > rounding_overlap(w, c.body_a, c.body_b)) &&
          !(c.restitution > 0 && -rate > bounce_threshold(w, static_cast<double>(dt)));
 }
@@ -47,32 +47,33 @@ bool moves_far(const WorldData<Real>& w, int body, Real dt) {
 
 // Returns true if a body is in free flight until its impact, or is not dynamic.
 template <class Real>
-bool flies_freely(const WorldData<Real>& w, int body, Real dt) {
+bool is_in_free_flight(const WorldData<Real>& w, int body, Real dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
-  if (w.scratch.pressed[body] || record.first_joint != kNone) return false;
+  if (w.scratch.is_loaded[body] || record.first_joint != kNone) return false;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
-    return contact.home == ContactHome::Parked ||
-           (contact.home == ContactHome::Graph && holds(w, w.graph.at({contact.colour, contact.index}), dt));
+    return contact.home == ContactHome::Sleeping ||
+           (contact.home == ContactHome::Graph &&
+            is_load_bearing(w, w.graph.at({contact.colour, contact.index}), dt));
   });
 }
 
 // Adds a dynamic body to a list, unless the list contains it.
 template <class Real>
-void note(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& noted, int body) {
+void add_once(const WorldData<Real>& w, std::vector<int>& list, std::vector<char>& listed, int body) {
   if (!w.is_dynamic(body)) return;
-  if (noted.size() < w.motion.size()) noted.resize(w.motion.size());
-  if (noted[body]) return;
-  noted[body] = 1;
+  if (listed.size() < w.motion.size()) listed.resize(w.motion.size());
+  if (listed[body]) return;
+  listed[body] = 1;
   append(list, body);
 }
 
 // Returns the time until a contact's first point closes, s, at the bodies' present velocities.
 template <class Real>
-Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+Real time_of_contact(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   Real first = std::numeric_limits<Real>::infinity();
   for (int i = 0; i < c.count; ++i) {
-    const Real rate = rate_of(w, c, i);
+    const Real rate = separation_rate(w, c, i);
     if (rate < 0) first = std::min(first, std::max(-c.separation[i] / rate, Real(0)));
   }
   return first;
@@ -84,90 +85,91 @@ Real time_until(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
 // change or not happen. Without restitution, dynamic bodies stay together and press on others within the
 // step, which only contacts can pass on: such impacts with several bodies are left to the solver.
 template <class Real>
-void leave_simultaneous(WorldData<Real>& w, Real dt) {
-  std::vector<char>& met = w.scratch.expecting;
+void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
+  std::vector<char>& listed = w.scratch.expects_impact;
   std::vector<Real>& earliest = w.scratch.impacts.earliest;  // by body
   if (earliest.size() < w.motion.size()) resize_with_growth(earliest, static_cast<int>(w.motion.size()));
-  const auto counts = [&](const ContactConstraint<Real>& c) {
+  const auto concerns = [&](const ContactConstraint<Real>& c) {
     return c.restitution > 0 || (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b));
   };
   for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
-    if (!counts(impact.constraint)) continue;
-    const Real time = time_until(w, impact.constraint);
+    if (!concerns(impact.constraint)) continue;
+    const Real time = time_of_contact(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
-      const bool first = met.size() <= static_cast<std::size_t>(body) || !met[body];
+      const bool first = listed.size() <= static_cast<std::size_t>(body) || !listed[body];
       earliest[body] = first ? time : std::min(earliest[body], time);
-      if (first) note(w, w.scratch.expecting_bodies, met, body);
+      if (first) add_once(w, w.scratch.impact_bodies, listed, body);
     }
   }
-  for (const int body : w.scratch.expecting_bodies) met[body] = 0;
-  w.scratch.expecting_bodies.clear();
+  for (const int body : w.scratch.impact_bodies) listed[body] = 0;
+  w.scratch.impact_bodies.clear();
   for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
-    if (!counts(impact.constraint)) continue;
-    const Real time = time_until(w, impact.constraint);
+    if (!concerns(impact.constraint)) continue;
+    const Real time = time_of_contact(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
-      if (impact.constraint.restitution > 0 && time > earliest[body] + Real(kAtOnce) * dt) continue;
-      if (met.size() > static_cast<std::size_t>(body) && met[body]) {
-        note(w, w.scratch.pressed_bodies, w.scratch.pressed, body);
+      if (impact.constraint.restitution > 0 && time > earliest[body] + Real(kSimultaneous) * dt) continue;
+      if (listed.size() > static_cast<std::size_t>(body) && listed[body]) {
+        add_once(w, w.scratch.loaded_bodies, w.scratch.is_loaded, body);
       } else {
-        note(w, w.scratch.expecting_bodies, met, body);
+        add_once(w, w.scratch.impact_bodies, listed, body);
       }
     }
   }
-  for (const int body : w.scratch.expecting_bodies) met[body] = 0;
-  w.scratch.expecting_bodies.clear();
+  for (const int body : w.scratch.impact_bodies) listed[body] = 0;
+  w.scratch.impact_bodies.clear();
 }
 
 }  // namespace
 
 template <class Real>
-bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
-  const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+bool is_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
+  const Real tolerance = c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
   const Real rounding = rounding_overlap(w, c.body_a, c.body_b);
   for (int i = 0; i < c.count; ++i) {
     if (c.normal_impulse[i] > 0 || !(c.separation[i] > -rounding)) return true;
-    if (c.separation[i] <= near && lies_on(w, c, i, dt)) return true;
+    if (c.separation[i] <= tolerance && is_resting_point(w, c, i, dt)) return true;
   }
   return false;
 }
 
 template <class Real>
-bool has_held(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
+bool was_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
   if (has_pressed(c)) return true;
-  if (c.watched != Watch::Motion) return holds(w, c, dt);
-  const Real near = c.push_speed * Real(tuning::kRecycleDistance / tuning::kPushSpeed);
+  if (c.tracking != ImpactTracking::Motion) return is_load_bearing(w, c, dt);
+  const Real tolerance = c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
   for (int i = 0; i < c.count; ++i)
-    if (c.now[i] <= near && lies_on(w, c, i, dt)) return true;
+    if (c.current_separation[i] <= tolerance && is_resting_point(w, c, i, dt)) return true;
   return false;
 }
 
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w) {
   Scratch<Real>& scratch = w.scratch;
-  for (const int body : scratch.pressed_bodies) scratch.pressed[body] = 0;
-  for (const int body : scratch.expecting_bodies) scratch.expecting[body] = 0;
-  scratch.pressed_bodies.clear(), scratch.expecting_bodies.clear(), scratch.expected_impacts.clear();
+  for (const int body : scratch.loaded_bodies) scratch.is_loaded[body] = 0;
+  for (const int body : scratch.impact_bodies) scratch.expects_impact[body] = 0;
+  scratch.loaded_bodies.clear(), scratch.impact_bodies.clear(), scratch.expected_impacts.clear();
 }
 
 template <class Real>
-bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
-                     const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
-  const bool flies = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!flies || contact.pre_solve) return false;
+bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
+                         const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
+  const bool solves_in_flight = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
+  if (!solves_in_flight || contact.pre_solve) return false;
   if (!(c.restitution > 0)) {
     // Slower bodies strike with one corner after the other in different substeps, and two dynamic bodies move
     // on together: contacts handle both at less cost.
     if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) return false;
     if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) return false;
   }
-  const Real nearest = c.count == 2
-                           ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
-                           : at.manifold.points[0].separation;
-  const Real smaller = c.push_speed / Real(tuning::kPushSpeed);
+  const Real min_separation =
+      c.count == 2 ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
+                   : at.manifold.points[0].separation;
+  const Real smaller = c.depenetration_speed / Real(tuning::kDepenetrationSpeed);
   const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   for (int i = 0; i < c.count; ++i) {
     if (c.normal_impulse[i] > 0) return false;
-    if (at.manifold.points[i].separation > nearest + Real(tuning::kImpactTolerance) * smaller) continue;
+    if (at.manifold.points[i].separation > min_separation + Real(tuning::kImpactTolerance) * smaller)
+      continue;
     const Real rate =
         dot(c.normal, at.velocity) + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
     if (-rate > bounce_threshold(w, static_cast<double>(dt))) return true;
@@ -176,17 +178,17 @@ bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
 }
 
 template <class Real>
-void note_pressed(WorldData<Real>& w, int body_a, int body_b) {
-  note(w, w.scratch.pressed_bodies, w.scratch.pressed, body_a);
-  note(w, w.scratch.pressed_bodies, w.scratch.pressed, body_b);
+void mark_loaded(WorldData<Real>& w, int body_a, int body_b) {
+  add_once(w, w.scratch.loaded_bodies, w.scratch.is_loaded, body_a);
+  add_once(w, w.scratch.loaded_bodies, w.scratch.is_loaded, body_b);
 }
 
 template <class Real>
 void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   std::vector<ExpectedImpact<Real>>& impacts = w.scratch.expected_impacts;
   if (impacts.empty()) return;
-  if (w.scratch.pressed.size() < w.motion.size()) w.scratch.pressed.resize(w.motion.size());
-  leave_simultaneous(w, dt);
+  if (w.scratch.is_loaded.size() < w.motion.size()) w.scratch.is_loaded.resize(w.motion.size());
+  assign_simultaneous_impacts(w, dt);
   // An impact that is left to the solver may end the free flight of its bodies, which may affect their other
   // impacts.
   bool more = true;
@@ -194,25 +196,26 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
     more = false;
     for (ExpectedImpact<Real>& impact : impacts) {
       const ContactConstraint<Real>& c = impact.constraint;
-      if (impact.left || (flies_freely(w, c.body_a, dt) && flies_freely(w, c.body_b, dt))) continue;
-      impact.left = more = true;
-      note_pressed(w, c.body_a, c.body_b);
+      if (impact.left_to_solver || (is_in_free_flight(w, c.body_a, dt) && is_in_free_flight(w, c.body_b, dt)))
+        continue;
+      impact.left_to_solver = more = true;
+      mark_loaded(w, c.body_a, c.body_b);
     }
   }
   for (const ExpectedImpact<Real>& impact : impacts) {
-    if (impact.left) continue;
-    note(w, w.scratch.expecting_bodies, w.scratch.expecting, impact.constraint.body_a);
-    note(w, w.scratch.expecting_bodies, w.scratch.expecting, impact.constraint.body_b);
+    if (impact.left_to_solver) continue;
+    add_once(w, w.scratch.impact_bodies, w.scratch.expects_impact, impact.constraint.body_a);
+    add_once(w, w.scratch.impact_bodies, w.scratch.expects_impact, impact.constraint.body_b);
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                 \
-  template bool holds(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                    \
-  template bool has_held(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                 \
-  template void clear_expected_impacts(WorldData<Real>&);                                               \
-  template bool meets_in_flight(const WorldData<Real>&, const ContactRecord&,                           \
-                                const SpeculativeContact<Real>&, const ContactConstraint<Real>&, Real); \
-  template void note_pressed(WorldData<Real>&, int, int);                                               \
+#define PLUMB_FOR(Real)                                                                                     \
+  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
+  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);             \
+  template void clear_expected_impacts(WorldData<Real>&);                                                   \
+  template bool is_impact_in_flight(const WorldData<Real>&, const ContactRecord&,                           \
+                                    const SpeculativeContact<Real>&, const ContactConstraint<Real>&, Real); \
+  template void mark_loaded(WorldData<Real>&, int, int);                                                    \
   template void decide_expected_impacts(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

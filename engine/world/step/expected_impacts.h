@@ -5,16 +5,16 @@
 
 namespace plumb {
 
-/// Returns true if a contact with points holds its bodies at the start of a step of `dt`: it has an impulse,
-/// or touches and will neither separate nor bounce.
+/// Returns true if a contact with points carries load at the start of a step of `dt`: it has an impulse, or
+/// touches and will neither separate nor bounce.
 template <class Real>
-bool holds(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
+bool is_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
 
-/// Returns true if a contact has held its bodies in a step, after the solver: it has pressed, or touches now
+/// Returns true if a contact has carried load in a step, after the solver: it had an impulse, or touches now
 /// and will neither separate nor bounce. The separation of discs is measured along the normal at their
 /// impact, which differs from the normal at the step's start.
 template <class Real>
-bool has_held(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
+bool was_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
 
 /// Clears the expected impacts of the previous step.
 template <class Real>
@@ -25,15 +25,15 @@ void clear_expected_impacts(WorldData<Real>& w);
 /// corners of a body strike one after the other also without restitution; solved together, they would remove
 /// all of its spin.
 template <class Real>
-bool meets_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
-                     const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt);
+bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
+                         const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt);
 
-/// Marks the two bodies of a contact that will press in this step: they are not in free flight.
+/// Marks the two bodies of a contact that will carry load in this step: they are not in free flight.
 template <class Real>
-void note_pressed(WorldData<Real>& w, int body_a, int body_b);
+void mark_loaded(WorldData<Real>& w, int body_a, int body_b);
 
-/// Decides between continuous collision and the solver for each expected impact. If nothing else holds either
-/// body, the contact has no points in this step. The bodies then rebound at the time of impact
+/// Decides between continuous collision and the solver for each expected impact. If nothing else constrains
+/// either body, the contact has no points in this step. The bodies then rebound at the time of impact
 /// (continuous.cpp). All other impacts are marked as left to the solver.
 template <class Real>
 void decide_expected_impacts(WorldData<Real>& w, Real dt);

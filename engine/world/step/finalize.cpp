@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "engine/collision/broad_phase/prefetched_enlarging.h"
@@ -18,7 +17,7 @@ namespace plumb {
 namespace {
 
 // Steps after which a body's rotation is recomputed from its angle, because rounding accumulates in between.
-constexpr int kRefresh = 256;
+constexpr int kRotationRefreshSteps = 256;
 
 // Returns the Kahan compensation of positions (Kahan, 1965), in double only: 1e7 m from the origin, 600 steps
 // would otherwise lose 1e-6 m. In float the steps themselves are coarser than that.
@@ -34,9 +33,9 @@ template <class Real>
 void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const SolverBody<Real>& motion,
                [[maybe_unused]] Vec2d* position_compensation) {
   if constexpr (std::is_same_v<Real, double>) {
-    const Vec2d way = motion.delta_position + position_compensation[body], before = w.position[body];
-    w.position[body] = before + way;
-    position_compensation[body] = way - (w.position[body] - before);
+    const Vec2d displacement = motion.delta_position + position_compensation[body], before = w.position[body];
+    w.position[body] = before + displacement;
+    position_compensation[body] = displacement - (w.position[body] - before);
   } else {
     w.position[body] += motion.delta_position.template as<double>();
   }
@@ -46,52 +45,53 @@ void move_body(WorldData<Real>& w, int body, BodyRecord<Real>& record, const Sol
   Rotation<Real>& q = w.rotation[body];
   const Real scale = Real(1.5) - Real(0.5) * (q.c * q.c + q.s * q.s);
   q = {scale * q.c, scale * q.s};
-  if ((w.steps + body) % kRefresh == 0) {
+  if ((w.steps + body) % kRotationRefreshSteps == 0) {
     const Rotation<double> exact = rotation_of(record.angle);
     q = {static_cast<Real>(exact.c), static_cast<Real>(exact.s)};
   }
 }
 
 // Bodies per block of a shared loop: about 10 us of work.
-constexpr int kBodiesOfBlock = 128;
+constexpr int kBodiesPerBlock = 128;
 
 // Applies the consequences of the bodies' motion, on one thread.
 template <class Real>
-struct TakenAtOnce {
+struct ImmediateUpdates {
   WorldData<Real>& w;
   PrefetchedEnlarging<Real>& tree;
   // Stores the new fat AABB `box` of a shape that has left its previous one.
-  void leave(int shape, const Aabb<Real>& box) const { store_fat_aabb(w, shape, box, tree); }
-  void find_fast(const FastBody& fast) const { append(w.scratch.fast_bodies, fast); }
-  void find_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }
+  void enlarge(int shape, const Aabb<Real>& box) const { store_fat_aabb(w, shape, box, tree); }
+  void add_fast(const FastBody& fast) const { append(w.scratch.fast_bodies, fast); }
+  void add_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }
 };
 
 // Records the same changes in the lists of a block, for later.
 template <class Real>
-struct NotedInBlock {
+struct DeferredUpdates {
   WorldData<Real>& w;
   int block;
-  void leave(int shape, const Aabb<Real>& box) const {
+  void enlarge(int shape, const Aabb<Real>& box) const {
     w.scratch.proxy_updates.add(block, ProxyUpdate<Real>{shape, box});
   }
-  void find_fast(const FastBody& fast) const { w.scratch.found_fast.add(block, fast); }
-  void find_nonfinite(int body) const { w.scratch.found_nonfinite.add(block, body); }
+  void add_fast(const FastBody& fast) const { w.scratch.found_fast.add(block, fast); }
+  void add_nonfinite(int body) const { w.scratch.found_nonfinite.add(block, body); }
 };
 
 // Moves a body, and updates its tight AABBs.
-template <class Real, class Found>
-[[gnu::always_inline]] inline void finalize_body(WorldData<Real>& w, int body, Real dt, bool expects,
+template <class Real, class Updates>
+[[gnu::always_inline]] inline void finalize_body(WorldData<Real>& w, int body, Real dt, bool any_expected,
                                                  Load<Real>* loads, Vec2d* position_compensation,
-                                                 const Found& found) {
+                                                 const Updates& updates) {
   BodyRecord<Real>& record = w.bodies[body];
   const SolverBody<Real>& motion = w.motion[body];
   const Real extent = w.extents[body];
-  const Real turned = std::abs(motion.delta_angle) * extent;
-  const Real way = std::abs(motion.delta_position.x) + std::abs(motion.delta_position.y) + turned;
-  const bool expected = expects && w.scratch.expecting[body];
-  const bool fast = expected || way > Real(tuning::kFastFraction) * record.half_width;
+  const Real rotation_distance = std::abs(motion.delta_angle) * extent;
+  const Real displacement =
+      std::abs(motion.delta_position.x) + std::abs(motion.delta_position.y) + rotation_distance;
+  const bool expects_impact = any_expected && w.scratch.expects_impact[body];
+  const bool fast = expects_impact || displacement > Real(tuning::kFastFraction) * record.half_width;
   if (!is_finite_motion(motion) || (fast && !(is_valid_motion(motion) && stays_in_range(w, body)))) {
-    found.find_nonfinite(body);
+    updates.add_nonfinite(body);
     return;
   }
   move_body(w, body, record, motion, position_compensation);
@@ -102,25 +102,26 @@ template <class Real, class Found>
     record.sleep_time = 0;
   }
   w.enlarged[body] = 0;
-  if (!expected && motion.delta_position == Vec2<Real>{} && motion.delta_angle == 0) return;
-  const auto note = [&](int shape, const Aabb<Real>& box) { found.leave(shape, box); };
+  if (!expects_impact && motion.delta_position == Vec2<Real>{} && motion.delta_angle == 0) return;
+  const auto enlarge = [&](int shape, const Aabb<Real>& box) { updates.enlarge(shape, box); };
   if (fast) {
     bool covered = true;
     for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next)
-      covered = update_aabbs(w, shape, dt, turned, note) && covered;
+      covered = update_aabbs(w, shape, dt, rotation_distance, enlarge) && covered;
     // A body that stays within its fat AABBs and has no contact cannot hit anything.
     const bool alone = covered && record.first_contact == kNone;
-    if (!alone) found.find_fast({body, covered, expected});
+    if (!alone) updates.add_fast({body, covered, expects_impact});
   } else {
     const Pose<Real> pose{w.position[body].template as<Real>(), w.rotation[body]};
     for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) {
       const int proxy = w.shapes[shape].proxy;
       if (proxy == kNone) continue;
       const Aabb<Real> box = convex_bounds(w.convex(shape), pose);
-      w.boxes[shape] = box;
+      w.tight_aabbs[shape] = box;
       // Predict one step ahead, so that a pair exists in the step in which its shapes meet.
-      if (!w.dynamic_tree.box(proxy).contains(predicted_aabb(box, dt * motion.velocity, turned, extent)))
-        note(shape, fat_aabb(w, shape, dt));
+      if (!w.dynamic_tree.box(proxy).contains(
+              predicted_aabb(box, dt * motion.velocity, rotation_distance, extent)))
+        enlarge(shape, fat_aabb(w, shape, dt));
     }
   }
 }
@@ -133,33 +134,33 @@ void finalize_bodies(WorldData<Real>& w, Real dt) {
   scratch.fast_bodies.clear(), scratch.nonfinite_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const position_compensation = position_compensation_of(w);
-  const bool expects = !scratch.expecting_bodies.empty();
-  const PrefetchAwakeBodies<Real> ahead(w);
+  const bool any_expected = !scratch.impact_bodies.empty();
+  const PrefetchAwakeBodies<Real> prefetch(w);
   const int count = static_cast<int>(w.awake.size());
-  const auto finalize = [&w, &ahead, dt, expects, loads, position_compensation ](
-      int first, int last, const auto& found) __attribute__((always_inline)) {
-    for (int place = first; place < last; ++place) {
-      ahead.prefetch_motion(place), ahead.prefetch_pose(place);
-      finalize_body(w, w.awake[place], dt, expects, loads, position_compensation, found);
+  const auto finalize = [&w, &prefetch, dt, any_expected, loads, position_compensation ](
+      int first, int last, const auto& updates) __attribute__((always_inline)) {
+    for (int index = first; index < last; ++index) {
+      prefetch.prefetch_motion(index), prefetch.prefetch_pose(index);
+      finalize_body(w, w.awake[index], dt, any_expected, loads, position_compensation, updates);
     }
   };
   // Awake bodies are never static, so all their proxies are in the dynamic tree.
   PrefetchedEnlarging<Real> moving(w.dynamic_tree);
-  const TakenAtOnce<Real> at_once{w, moving};
-  if (!w.crew.shares()) {
-    finalize(0, count, at_once);
+  const ImmediateUpdates<Real> immediate{w, moving};
+  if (!w.scheduler.shares()) {
+    finalize(0, count, immediate);
   } else {
-    const int blocks = (count + kBodiesOfBlock - 1) / kBodiesOfBlock;
+    const int blocks = (count + kBodiesPerBlock - 1) / kBodiesPerBlock;
     scratch.proxy_updates.begin(blocks), scratch.found_fast.begin(blocks),
         scratch.found_nonfinite.begin(blocks);
-    w.crew.blocks(blocks, [&](int block) {
-      finalize(block * kBodiesOfBlock, std::min(count, (block + 1) * kBodiesOfBlock),
-               NotedInBlock<Real>{w, block});
+    w.scheduler.blocks(blocks, [&](int block) {
+      finalize(block * kBodiesPerBlock, std::min(count, (block + 1) * kBodiesPerBlock),
+               DeferredUpdates<Real>{w, block});
     });
     scratch.proxy_updates.for_each(
-        [&](const ProxyUpdate<Real>& left) { at_once.leave(left.shape, left.box); });
-    scratch.found_fast.for_each([&](const FastBody& fast) { at_once.find_fast(fast); });
-    scratch.found_nonfinite.for_each([&](int body) { at_once.find_nonfinite(body); });
+        [&](const ProxyUpdate<Real>& each) { immediate.enlarge(each.shape, each.box); });
+    scratch.found_fast.for_each([&](const FastBody& fast) { immediate.add_fast(fast); });
+    scratch.found_nonfinite.for_each([&](int body) { immediate.add_nonfinite(body); });
   }
   moving.finish();
   if (!scratch.nonfinite_bodies.empty()) quarantine_diverged(w, static_cast<double>(dt));

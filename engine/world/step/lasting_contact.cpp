@@ -7,7 +7,7 @@
 #include "engine/math/small_rotation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
-#include "engine/world/state/seams.h"
+#include "engine/world/state/internal_edges.h"
 #include "engine/world/step/common_rotation.h"
 #include "engine/world/step/speculative_contact.h"
 
@@ -20,29 +20,30 @@ namespace {
 // bounds, and blocks that tip over and discs that roll off change their errors by less than a factor of 2.
 constexpr double kLastingBend = 1.0 / 64;
 
-// Returns the contact at the middle of the step, if the bodies rotate little enough. `closed`: m,
-// displacement of b relative to a until then; `common`: rad, rotation that they have in common until then.
+// Returns the contact at the middle of the step, if the bodies rotate little enough. `displacement`: m,
+// of b relative to a until then; `common`: rad, rotation that they have in common until then.
 template <class Real>
 SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const ContactRecord& contact,
-                                           Vec2<Real> closed, Real common, Real dt) {
+                                           Vec2<Real> displacement, Real common, Real dt) {
   SpeculativeContact<Real> at;
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   const Real half = Real(0.5) * dt;
-  at.closed = closed;
-  at.turned_a = half * a.angular_velocity, at.turned_b = half * b.angular_velocity;
-  const auto bends = [&](int body, Real turned) {
+  at.displacement = displacement;
+  at.delta_angle_a = half * a.angular_velocity, at.delta_angle_b = half * b.angular_velocity;
+  const auto deviates = [&](int body, Real turned) {
     const Real turn = turned - common;
     return w.is_dynamic(body) &&
            Real(0.5) * turn * turn * w.extents[body] > Real(kLastingBend) * w.bodies[body].half_width;
   };
-  if (bends(contact.body_a, at.turned_a) || bends(contact.body_b, at.turned_b)) return at;
-  at.between = centres_a_to_b(w, contact) + at.closed;
-  at.rotation = rotated_by(w.rotation[contact.body_a], at.turned_a);
-  const Rotation<Real> to_a = at.rotation.inverse(), q = rotated_by(w.rotation[contact.body_b], at.turned_b);
-  const Pose<Real> b_in_a{to_a * at.between, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
-  const Real reach =
+  if (deviates(contact.body_a, at.delta_angle_a) || deviates(contact.body_b, at.delta_angle_b)) return at;
+  at.a_to_b = centres_a_to_b(w, contact) + at.displacement;
+  at.rotation = rotated_by(w.rotation[contact.body_a], at.delta_angle_a);
+  const Rotation<Real> to_a = at.rotation.inverse(),
+                       q = rotated_by(w.rotation[contact.body_b], at.delta_angle_b);
+  const Pose<Real> b_in_a{to_a * at.a_to_b, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
+  const Real margin =
       speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
-  at.manifold = collide_shapes(w, contact, b_in_a, reach, l1_norm(at.closed));
+  at.manifold = collide_shapes(w, contact, b_in_a, margin, l1_norm(at.displacement));
   return at;
 }
 
@@ -51,21 +52,22 @@ template <class Real>
 SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                          const ContactConstraint<Real>& c, Real dt) {
   const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
-  const Real half = Real(0.5) * dt, near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
+  const Real half = Real(0.5) * dt,
+             tolerance = Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed) * c.depenetration_speed;
   const Real along = half * dot(c.normal, b.velocity - a.velocity);
   bool lasts = false;
   Real deepest = 0;
   for (int i = 0; i < c.count; ++i) {
-    deepest = std::min(deepest, c.now[i]);
-    if (c.now[i] > near) continue;
+    deepest = std::min(deepest, c.current_separation[i]);
+    if (c.current_separation[i] > tolerance) continue;
     const Real change = along + half * (c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity);
-    if (std::abs(change) > near) return {};
+    if (std::abs(change) > tolerance) return {};
     lasts = true;
   }
   if (!lasts) return {};
   SpeculativeContact<Real> at = contact_at_middle(w, contact, half * (b.velocity - a.velocity), Real(0), dt);
   for (int i = 0; i < at.manifold.count; ++i)
-    if (at.manifold.points[i].separation < deepest - near) return {};
+    if (at.manifold.points[i].separation < deepest - tolerance) return {};
   return at;
 }
 
@@ -74,82 +76,83 @@ SpeculativeContact<Real> lasting_contact(const WorldData<Real>& w, const Contact
 // apart than their approach, unless the speculative margin is too small for it.
 template <class Real>
 bool may_arrive(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
-                Real near, Real dt) {
+                Real tolerance, Real dt) {
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Vec2<Real> closed = Real(0.5) * dt * (b.velocity - a.velocity);
+  const Vec2<Real> displacement = Real(0.5) * dt * (b.velocity - a.velocity);
   const Real turned = Real(0.5) * dt *
                       (std::abs(a.angular_velocity) * w.extents[contact.body_a] +
                        std::abs(b.angular_velocity) * w.extents[contact.body_b]);
   if (manifold.count == 0)
-    return l1_norm(closed) + turned >
-           Real(0.5 * tuning::kMaxSpeculativeApproach / tuning::kRecycleDistance) * near;
-  Real apart = manifold.points[0].separation;
-  if (manifold.count == 2) apart = std::min(apart, manifold.points[1].separation);
-  const Real along = dot(w.rotation[contact.body_a] * manifold.normal, closed);
-  return std::abs(along) <= near + turned && apart <= near + turned;
+    return l1_norm(displacement) + turned >
+           Real(0.5 * tuning::kMaxSpeculativeApproach / tuning::kRecycleDistance) * tolerance;
+  Real separation = manifold.points[0].separation;
+  if (manifold.count == 2) separation = std::min(separation, manifold.points[1].separation);
+  const Real along = dot(w.rotation[contact.body_a] * manifold.normal, displacement);
+  return std::abs(along) <= tolerance + turned && separation <= tolerance + turned;
 }
 
 }  // namespace
 
 template <class Real>
-bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
-                   ContactConstraint<Real>& c) {
+bool rebuild_lasting_contact(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
+                             ContactConstraint<Real>& c) {
   const SpeculativeContact<Real> lasting = lasting_contact(w, contact, c, dt);
   if (lasting.manifold.count == 0) return false;
-  const Real deepest = std::min({c.now[0], c.count == 2 ? c.now[1] : Real(0), Real(0)});
-  prepare_speculative_contact(w, contact, lasting, c, c.now);
+  const Real deepest =
+      std::min({c.current_separation[0], c.count == 2 ? c.current_separation[1] : Real(0), Real(0)});
+  prepare_speculative_contact(w, contact, lasting, c, c.current_separation);
   // The bodies' common rotation curves their paths about each other.
   const Real common = common_rotation(w, contact, centres_a_to_b(w, contact), Real(0.5) * dt);
-  const Real curve = Real(0.5) * common * common * dot(c.normal, lasting.between);
+  const Real curve = Real(0.5) * common * common * dot(c.normal, lasting.a_to_b);
   for (int i = 0; i < c.count; ++i) c.separation[i] += curve;
   // Extrapolated back to the start, points deviate from their tangents. An overlap that may be this deviation
   // is not pushed out.
   const auto bend = [&](int body, int shape, Real turn) {
     return Real(0.5) * turn * turn * std::max(w.extents[body] - w.forms[shape].radius, Real(0));
   };
-  const Real bends = bend(contact.body_a, contact.shape_a, lasting.turned_a) +
-                     bend(contact.body_b, contact.shape_b, lasting.turned_b);
+  const Real deviation = bend(contact.body_a, contact.shape_a, lasting.delta_angle_a) +
+                         bend(contact.body_b, contact.shape_b, lasting.delta_angle_b);
   for (int i = 0; i < c.count; ++i)
-    if (c.separation[i] < deepest) c.separation[i] = std::min(deepest, c.separation[i] + bends);
+    if (c.separation[i] < deepest) c.separation[i] = std::min(deepest, c.separation[i] + deviation);
   return true;
 }
 
 template <class Real>
-bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
-                   const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c) {
+bool rebuild_rotating_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                              const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c) {
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
-  const Vec2<Real> between = centres_a_to_b(w, contact);
-  const Real half = Real(0.5) * dt, turn = common_rotation(w, contact, between, half);
+  const Vec2<Real> a_to_b = centres_a_to_b(w, contact);
+  const Real half = Real(0.5) * dt, turn = common_rotation(w, contact, a_to_b, half);
   if (turn == 0) return false;
-  const Real near = Real(tuning::kRecycleDistance / tuning::kPushSpeed) * c.push_speed;
-  const Vec2<Real> closed = half * (b.velocity - a.velocity);
+  const Real tolerance = Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed) * c.depenetration_speed;
+  const Vec2<Real> displacement = half * (b.velocity - a.velocity);
   // Velocities lie along the last step's contact plane: they lag by up to three half steps behind the middle
   // of this one.
-  const Real explained = 3 * std::abs(turn) * l1_norm(closed) + near;
+  const Real explained = 3 * std::abs(turn) * l1_norm(displacement) + tolerance;
   const Rotation<Real> q = w.rotation[contact.body_a], turned = rotated_by(Rotation<Real>{1, 0}, turn);
   const Vec2<Real> before = q * manifold.normal, n = turned * before, t{n.y, -n.x};
   bool touches = false;
   for (int i = 0; i < manifold.count; ++i) {
-    if (manifold.points[i].separation > near) continue;
+    if (manifold.points[i].separation > tolerance) continue;
     const Vec2<Real> arm = q * manifold.points[i].point;
     const Real turning =
-        half * (cross(arm - between, before) * b.angular_velocity - cross(arm, before) * a.angular_velocity);
-    if (dot(n, closed) + turning < -explained) return false;
+        half * (cross(arm - a_to_b, before) * b.angular_velocity - cross(arm, before) * a.angular_velocity);
+    if (dot(n, displacement) + turning < -explained) return false;
     touches = true;
   }
   if (!touches) return false;
   // The contact lets the bodies slide, and keeps them from approaching.
-  const Vec2<Real> round = turned * between - between;
-  const Real slides = dot(t, closed - round);
-  // Arms that are off by `slides` let a body sink by 2 turn slides in a step.
-  if (std::abs(turn * slides) > Real(0.25) * near) {
-    const SpeculativeContact<Real> at = contact_at_middle(w, contact, round + slides * t, turn, dt);
+  const Vec2<Real> chord = turned * a_to_b - a_to_b;
+  const Real slip = dot(t, displacement - chord);
+  // Arms that are off by `slip` let a body sink by 2 turn slip in a step.
+  if (std::abs(turn * slip) > Real(0.25) * tolerance) {
+    const SpeculativeContact<Real> at = contact_at_middle(w, contact, chord + slip * t, turn, dt);
     if (at.manifold.count > 0) {
-      prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, c.now);
+      prepare_contact(w, contact, at.manifold, at.rotation, at.a_to_b, c, c.current_separation);
       return true;
     }
   }
-  prepare_contact(w, contact, manifold, rotated_by(q, turn), turned * between, c, c.now);
+  prepare_contact(w, contact, manifold, rotated_by(q, turn), turned * a_to_b, c, c.current_separation);
   return true;
 }
 
@@ -159,29 +162,30 @@ SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const Contac
   if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
     return {};
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
-  const Real near = Real(tuning::kRecycleDistance) * smaller;
-  if (!may_arrive(w, contact, manifold, near, dt)) return {};
+  const Real tolerance = Real(tuning::kRecycleDistance) * smaller;
+  if (!may_arrive(w, contact, manifold, tolerance, dt)) return {};
   const Vec2<Real> relative = w.motion[contact.body_b].velocity - w.motion[contact.body_a].velocity;
   SpeculativeContact<Real> at = contact_at_middle(w, contact, Real(0.5) * dt * relative, Real(0), dt);
   bool touches = false;
   const Vec2<Real> n = at.rotation * at.manifold.normal;
   for (int i = 0; i < at.manifold.count; ++i) {
     const ContactManifoldPoint<Real>& point = at.manifold.points[i];
-    if (point.separation > near) continue;
+    if (point.separation > tolerance) continue;
     const Vec2<Real> arm = at.rotation * point.point;
-    const Real closed =
-        dot(n, at.closed) + cross(arm - at.between, n) * at.turned_b - cross(arm, n) * at.turned_a;
-    if (std::abs(closed) > near || point.separation < -near) return {};
+    const Real change = dot(n, at.displacement) + cross(arm - at.a_to_b, n) * at.delta_angle_b -
+                        cross(arm, n) * at.delta_angle_a;
+    if (std::abs(change) > tolerance || point.separation < -tolerance) return {};
     touches = true;
   }
   return touches ? at : SpeculativeContact<Real>{};
 }
 
-#define PLUMB_FOR(Real)                                                                                      \
-  template bool renew_lasting(const WorldData<Real>&, const ContactRecord&, Real, ContactConstraint<Real>&); \
-  template bool renew_turning(const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&,    \
-                              Real, ContactConstraint<Real>&);                                               \
-  template SpeculativeContact<Real> arriving_contact(const WorldData<Real>&, const ContactRecord&,           \
+#define PLUMB_FOR(Real)                                                                                 \
+  template bool rebuild_lasting_contact(const WorldData<Real>&, const ContactRecord&, Real,             \
+                                        ContactConstraint<Real>&);                                      \
+  template bool rebuild_rotating_contact(const WorldData<Real>&, const ContactRecord&,                  \
+                                         const ContactManifold<Real>&, Real, ContactConstraint<Real>&); \
+  template SpeculativeContact<Real> arriving_contact(const WorldData<Real>&, const ContactRecord&,      \
                                                      const ContactManifold<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -11,15 +11,15 @@ namespace plumb {
 /// its corner. Those of the middle leave an error of second order; with those of the start, forces would lag
 /// by half a step.
 template <class Real>
-bool renew_lasting(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
-                   ContactConstraint<Real>& c);
+bool rebuild_lasting_contact(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
+                             ContactConstraint<Real>& c);
 
 /// Rebuilds a contact with points whose bodies rotate together (common_rotation.h), unless they approach by
 /// more than their rotation explains. Returns false, and changes nothing, if they do, or if no point touches.
 /// `manifold`: at the start of the step. The new impulses are written to `c.now`.
 template <class Real>
-bool renew_turning(const WorldData<Real>& w, const ContactRecord& contact,
-                   const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c);
+bool rebuild_rotating_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                              const ContactManifold<Real>& manifold, Real dt, ContactConstraint<Real>& c);
 
 /// Returns the contact with a surface that a loaded body slides onto, at the middle of the step: it then
 /// supports the body together with the lasting contacts of that time. Without points if there is none.

@@ -19,13 +19,13 @@ void update_touching(WorldData<Real>& w, ContactConstraint<Real>& c, bool touchi
   const ContactRecord& contact = w.contacts[c.contact];
   set_touching(w, c.contact, touching);
   c.touching = touching;
-  c.watched = watch_of(contact, c);
-  c.peak_impulse[0] = c.peak_impulse[1] = c.step_impulse = 0;
-  if (c.watched == Watch::Off) c.approach[0] = c.approach[1] = 0;
+  c.tracking = tracking_of(contact, c);
+  c.max_normal_impulse[0] = c.max_normal_impulse[1] = c.step_impulse = 0;
+  if (c.tracking == ImpactTracking::Off) c.approach[0] = c.approach[1] = 0;
 }
 
 // Contacts per block of a shared loop: 10 to 100 us of work.
-constexpr int kNearOfBlock = 128, kContactsOfBlock = 128;
+constexpr int kNontouchingPerBlock = 128, kContactsPerBlock = 128;
 
 // Cuts the graph's colours into blocks.
 template <class Real>
@@ -34,18 +34,18 @@ void find_contact_runs(WorldData<Real>& w) {
   runs.clear();
   // This comes first: if memory runs out, no changes of any run have been recorded.
   std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
-  resize_with_growth(changes, static_cast<int>(w.near.size() + w.graph.size()));
+  resize_with_growth(changes, static_cast<int>(w.nontouching_contacts.size() + w.graph.size()));
   std::fill(changes.begin(), changes.end(), std::uint8_t{0});
   std::vector<std::uint8_t>& faces = w.scratch.separating_faces;
   if (static_cast<int>(faces.size()) < w.contacts.size()) {
     ensure_capacity(faces, static_cast<std::size_t>(w.contacts.size()));
     faces.resize(static_cast<std::size_t>(w.contacts.size()), kNoFace);
   }
-  int place = static_cast<int>(w.near.size());
+  int place = static_cast<int>(w.nontouching_contacts.size());
   w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
     const int count = static_cast<int>(colour.size());
-    for (int first = 0; first < count; first += kContactsOfBlock) {
-      const int size = std::min(kContactsOfBlock, count - first);
+    for (int first = 0; first < count; first += kContactsPerBlock) {
+      const int size = std::min(kContactsPerBlock, count - first);
       append(runs, ContactRun<Real>{colour.data() + first, size, place});
       place += size;
     }
@@ -54,13 +54,13 @@ void find_contact_runs(WorldData<Real>& w) {
 
 // Stores the new impulses of a run's rebuilt contacts.
 template <class Real>
-void settle_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
+void store_rebuilt_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
   std::uint8_t* const changes = w.scratch.contact_changes.data() + run.first_index;
   for (int i = 0; i < run.count; ++i) {
-    if ((changes[i] & kRenewed) == 0) continue;
+    if ((changes[i] & kRebuilt) == 0) continue;
     ContactConstraint<Real>& c = run.first[i];
-    c.normal_impulse[0] = c.now[0], c.normal_impulse[1] = c.now[1];
-    if ((changes[i] & (kEnded | kAsked)) == 0 && begin_contact_step(w, c, dt)) changes[i] |= kBounces;
+    c.normal_impulse[0] = c.current_separation[0], c.normal_impulse[1] = c.current_separation[1];
+    if ((changes[i] & (kEnded | kNeedsPreSolve)) == 0 && begin_contact_step(w, c, dt)) changes[i] |= kBounces;
   }
 }
 
@@ -69,17 +69,18 @@ template <class Real>
 void update_each(WorldData<Real>& w, Real dt, Real h) {
   Scratch<Real>& scratch = w.scratch;
   find_contact_runs(w);
-  const int near = static_cast<int>(w.near.size()), near_blocks = (near + kNearOfBlock - 1) / kNearOfBlock;
+  const int nontouching_count = static_cast<int>(w.nontouching_contacts.size()),
+            nontouching_blocks = (nontouching_count + kNontouchingPerBlock - 1) / kNontouchingPerBlock;
   const std::vector<ContactRun<Real>>& runs = scratch.contact_runs;
-  const int blocks = near_blocks + static_cast<int>(runs.size());
+  const int blocks = nontouching_blocks + static_cast<int>(runs.size());
   scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
-  scratch.found_pressed.begin(blocks);
+  scratch.found_loaded.begin(blocks);
   std::uint8_t* const changes = scratch.contact_changes.data();
   // By run: the union of its contacts' changes.
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
   scratch.has_contact_load.assign(w.bodies.size(), 0);
-  const auto carry = [&](int block) {
+  const auto recycle = [&](int block) {
     const ContactRun<Real> run = runs[block];
     for (int i = 0; i < run.count; ++i) {
       const int change = recycle_contact(w, run.first[i], dt);
@@ -89,37 +90,38 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
     }
   };
   const auto update = [&](int block) {
-    if (block < near_blocks) {
-      const int first = block * kNearOfBlock, count = std::min(kNearOfBlock, near - first);
-      const int* const ids = w.near.data() + first;
+    if (block < nontouching_blocks) {
+      const int first = block * kNontouchingPerBlock,
+                count = std::min(kNontouchingPerBlock, nontouching_count - first);
+      const int* const ids = w.nontouching_contacts.data() + first;
       for (int i = 0; i < count; ++i) {
         prefetch_contacts(w, i, count, [&](int k) { return ids[k]; });
         changes[first + i] = static_cast<std::uint8_t>(update_nontouching(w, block, ids[i], dt, h));
       }
       return;
     }
-    const int all = any[block - near_blocks];
-    if ((all & (kStale | kLeft)) == 0) return;
-    const ContactRun<Real> run = runs[block - near_blocks];
-    int places[kContactsOfBlock], count = 0;
+    const int all = any[block - nontouching_blocks];
+    if ((all & (kStale | kLeftFatAabb)) == 0) return;
+    const ContactRun<Real> run = runs[block - nontouching_blocks];
+    int places[kContactsPerBlock], count = 0;
     for (int i = 0; i < run.count; ++i)
-      if ((changes[run.first_index + i] & (kStale | kLeft)) != 0) places[count++] = i;
+      if ((changes[run.first_index + i] & (kStale | kLeftFatAabb)) != 0) places[count++] = i;
     for (int i = 0; i < count; ++i) {
       prefetch_contacts(w, i, count, [&](int k) { return run.first[places[k]].contact; });
       std::uint8_t& change = changes[run.first_index + places[i]];
       change = static_cast<std::uint8_t>(rebuild_contact(w, block, run.first[places[i]], change, dt, h));
-      any[block - near_blocks] |= change;
+      any[block - nontouching_blocks] |= change;
     }
   };
-  const auto settle = [&](int block) {
-    if ((any[block] & kRenewed) != 0) settle_impulses(w, runs[block], dt);
+  const auto store = [&](int block) {
+    if ((any[block] & kRebuilt) != 0) store_rebuilt_impulses(w, runs[block], dt);
   };
   const int run_count = static_cast<int>(runs.size());
-  const Crew::Alone alone(w.crew, w.has_rules());
-  w.crew.session([&] {
-    w.crew.blocks(run_count, carry);
-    w.crew.blocks(blocks, update);
-    w.crew.blocks(run_count, settle);
+  const LoopScheduler::SerialGuard serial(w.scheduler, w.has_rules());
+  w.scheduler.session([&] {
+    w.scheduler.blocks(run_count, recycle);
+    w.scheduler.blocks(blocks, update);
+    w.scheduler.blocks(run_count, store);
   });
 }
 
@@ -129,16 +131,16 @@ void invalidate_all(WorldData<Real>& w) {
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
     for (int i = 0; i < run.count; ++i) {
       ContactConstraint<Real>& c = run.first[i];
-      if ((w.scratch.contact_changes[run.first_index + i] & kRenewed) != 0)
-        c.normal_impulse[0] = c.now[0], c.normal_impulse[1] = c.now[1];
+      if ((w.scratch.contact_changes[run.first_index + i] & kRebuilt) != 0)
+        c.normal_impulse[0] = c.current_separation[0], c.normal_impulse[1] = c.current_separation[1];
       c.recycle_budget = -1;
     }
   }
 }
 
-// Asks the user's hook about contacts with new points, on the calling thread and in their order.
+// Calls the user's pre-solve hook for contacts with new points, on the calling thread and in their order.
 template <class Real>
-void ask_hook(WorldData<Real>& w, Real dt) {
+void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
   if (!w.pre_solve) return;
   w.scratch.begun_contacts.for_each([&](BegunContact<Real>& begun) {
     if (!begun.needs_pre_solve) return;
@@ -148,7 +150,7 @@ void ask_hook(WorldData<Real>& w, Real dt) {
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
     for (int i = 0; i < run.count; ++i) {
       std::uint8_t& change = w.scratch.contact_changes[run.first_index + i];
-      if ((change & kAsked) == 0) continue;
+      if ((change & kNeedsPreSolve) == 0) continue;
       ContactConstraint<Real>& c = run.first[i];
       if (!w.pre_solve(c.contact, c)) {
         change |= kEnded;
@@ -167,28 +169,28 @@ void collect_changes(WorldData<Real>& w) {
     if (begun.disabled) return;
     const ContactConstraint<Real>& c = begun.constraint;
     if (begun.bounces) append(scratch.bounce_candidates, c.contact);
-    if (begun.pressing) note_pressed(w, c.body_a, c.body_b);
+    if (begun.loaded) mark_loaded(w, c.body_a, c.body_b);
   });
-  scratch.found_pressed.for_each(
-      [&](const std::pair<int, int>& bodies) { note_pressed(w, bodies.first, bodies.second); });
+  scratch.found_loaded.for_each(
+      [&](const std::pair<int, int>& bodies) { mark_loaded(w, bodies.first, bodies.second); });
   scratch.found_impacts.for_each(
       [&](const ExpectedImpact<Real>& impact) { append(scratch.expected_impacts, impact); });
   const std::vector<std::uint8_t>& changes = scratch.contact_changes;
-  for (std::size_t i = 0; i < w.near.size(); ++i) {
-    if ((changes[i] & kLost) != 0) append(scratch.lost_contacts, w.near[i]);
-    if ((changes[i] & kTouchChange) != 0) append(scratch.parted_contacts, w.near[i]);
+  for (std::size_t i = 0; i < w.nontouching_contacts.size(); ++i) {
+    if ((changes[i] & kSeparated) != 0) append(scratch.separated_contacts, w.nontouching_contacts[i]);
+    if ((changes[i] & kTouchChange) != 0) append(scratch.bounced_contacts, w.nontouching_contacts[i]);
   }
-  constexpr int kNoted = kTouchChange | kLost | kEnded | kBounces;
+  constexpr int kCollected = kTouchChange | kSeparated | kEnded | kBounces;
   for (std::size_t block = 0; block < scratch.contact_runs.size(); ++block) {
     const ContactRun<Real>& run = scratch.contact_runs[block];
     // Rebuilt contacts may bounce, too.
-    if ((scratch.block_firsts[block] & (kNoted | kRenewed)) == 0) continue;
+    if ((scratch.block_firsts[block] & (kCollected | kRebuilt)) == 0) continue;
     for (int i = 0; i < run.count; ++i) {
       const int change = changes[run.first_index + i];
-      if ((change & kNoted) == 0) continue;
+      if ((change & kCollected) == 0) continue;
       const int id = run.first[i].contact;
       if ((change & kTouchChange) != 0) append(scratch.touch_changes, id);
-      if ((change & kLost) != 0) append(scratch.lost_contacts, id);
+      if ((change & kSeparated) != 0) append(scratch.separated_contacts, id);
       if ((change & kEnded) != 0) append(scratch.ended_contacts, id);
       if ((change & kBounces) != 0) append(scratch.bounce_candidates, id);
     }
@@ -197,16 +199,16 @@ void collect_changes(WorldData<Real>& w) {
 
 // Leaves predicted impacts that do not happen in free flight to the solver.
 template <class Real>
-void settle_expected_impacts(WorldData<Real>& w, Real dt) {
+void resolve_expected_impacts(WorldData<Real>& w, Real dt) {
   decide_expected_impacts(w, dt);
-  w.scratch.left_impacts.clear();
+  w.scratch.solver_impacts.clear();
   for (ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
     ContactConstraint<Real>& c = impact.constraint;
     if (impact.in_graph) {
-      if (!impact.left) append(w.scratch.ended_contacts, c.contact);
-    } else if (impact.left) {
+      if (!impact.left_to_solver) append(w.scratch.ended_contacts, c.contact);
+    } else if (impact.left_to_solver) {
       if (begin_contact_step(w, c, dt)) append(w.scratch.bounce_candidates, c.contact);
-      append(w.scratch.left_impacts, c);
+      append(w.scratch.solver_impacts, c);
     } else {
       wake_body(w, c.body_a), wake_body(w, c.body_b);
     }
@@ -215,22 +217,22 @@ void settle_expected_impacts(WorldData<Real>& w, Real dt) {
 
 // Moves a contact that has got its first points to the graph.
 template <class Real>
-void enter(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+void add_to_graph(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   const int id = c.contact;
   const bool touching = has_touched(c);
   begin_contact(w, id, c);
   if (touching || w.contacts[id].touching) update_touching(w, constraint_of(w, w.contacts[id]), touching);
 }
 
-// Begins the step of contacts whose bodies this update has woken: within the step, an impact may throw a
-// sleeping body at a neighbour.
+// Begins the step of contacts whose bodies this update has woken: within the step, an
+// impact may push a woken body into a neighbour.
 template <class Real>
-void begin_unparked(WorldData<Real>& w, Real dt) {
-  for (const int id : w.scratch.unparked) {
+void begin_woken_contacts(WorldData<Real>& w, Real dt) {
+  for (const int id : w.scratch.woken_contacts) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
     if (begin_contact_step(w, constraint_of(w, w.contacts[id]), dt)) append(w.scratch.bounce_candidates, id);
   }
-  w.scratch.unparked.clear();
+  w.scratch.woken_contacts.clear();
 }
 
 }  // namespace
@@ -238,53 +240,53 @@ void begin_unparked(WorldData<Real>& w, Real dt) {
 template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
-  scratch.lost_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
-  scratch.bounce_candidates.clear(), scratch.parted_contacts.clear(), scratch.unparked.clear();
+  scratch.separated_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
+  scratch.bounce_candidates.clear(), scratch.bounced_contacts.clear(), scratch.woken_contacts.clear();
   clear_expected_impacts(w);
-  if (w.near.empty() && w.graph.empty()) return;
+  if (w.nontouching_contacts.empty() && w.graph.empty()) return;
   try {
     update_each(w, dt, h);
-    ask_hook(w, dt);
+    call_pre_solve_hook(w, dt);
     collect_changes(w);
   } catch (...) {
     invalidate_all(w);
     throw;
   }
-  settle_expected_impacts(w, dt);
+  resolve_expected_impacts(w, dt);
   for (const int id : scratch.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     update_touching(w, c, !c.touching);
   }
-  for (const int id : scratch.parted_contacts) set_touching(w, id, false);
-  for (const int id : scratch.lost_contacts) destroy_contact(w, id);
+  for (const int id : scratch.bounced_contacts) set_touching(w, id, false);
+  for (const int id : scratch.separated_contacts) destroy_contact(w, id);
   for (const int id : scratch.ended_contacts) end_contact(w, id);
   scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
     if (begun.disabled) {
       set_touching(w, begun.constraint.contact, false);
     } else {
-      enter(w, begun.constraint);
+      add_to_graph(w, begun.constraint);
     }
   });
-  for (const ContactConstraint<Real>& c : scratch.left_impacts) enter(w, c);
-  begin_unparked(w, dt);
+  for (const ContactConstraint<Real>& c : scratch.solver_impacts) add_to_graph(w, c);
+  begin_woken_contacts(w, dt);
 }
 
 template <class Real>
 void report_impacts(WorldData<Real>& w) {
-  const auto struck = [](const ContactConstraint<Real>& c) {
-    return c.peak_impulse[0] > 0 || (c.count == 2 && c.peak_impulse[1] > 0);
+  const auto had_impact = [](const ContactConstraint<Real>& c) {
+    return c.max_normal_impulse[0] > 0 || (c.count == 2 && c.max_normal_impulse[1] > 0);
   };
   for (const int id : w.scratch.bounce_candidates) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
-    if (struck(c)) set_touching(w, id, true);
+    if (had_impact(c)) set_touching(w, id, true);
   }
   if (!w.reports_hits) return;
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const ContactRecord& contact = w.contacts[c.contact];
     if (!contact.hit_events) return;
     const int hardest = c.count == 2 && c.approach[1] < c.approach[0] ? 1 : 0;
-    if (c.peak_impulse[hardest] == 0 || c.approach[hardest] > -least_hit_speed(w, c)) return;
+    if (c.max_normal_impulse[hardest] == 0 || c.approach[hardest] > -min_hit_speed(w, c)) return;
     set_touching(w, c.contact, true);
     const ContactReading reading = reading_of(w, contact, c);
     w.event_buffer().hits.push_back({reading.shape_a, reading.shape_b, reading.points[hardest],

@@ -15,12 +15,12 @@ template <class Real>
 bool is_mostly_apart(const WorldData<Real>& w) {
   constexpr std::size_t kSample = 512;
   const std::size_t stride = w.move_buffer.size() / kSample + 1;
-  int looked = 0, alone = 0;
-  for (std::size_t i = 0; i < w.move_buffer.size(); i += stride, ++looked) {
+  int samples = 0, isolated = 0;
+  for (std::size_t i = 0; i < w.move_buffer.size(); i += stride, ++samples) {
     const ShapeRecord<Real>& record = w.shapes[w.move_buffer[i]];
-    alone += static_cast<int>(record.moved && w.bodies[record.body].first_contact == kNone);
+    isolated += static_cast<int>(record.moved && w.bodies[record.body].first_contact == kNone);
   }
-  return 8 * alone >= 7 * looked;
+  return 8 * isolated >= 7 * samples;
 }
 
 // If most moved shapes had no contact, finds in one self-overlap pass which proxies of the dynamic tree
@@ -36,33 +36,33 @@ bool mark_self_overlaps(WorldData<Real>& w) {
 
 // Prefetch distances in pairs and in shapes: entries of the pair set are scattered, and records of a million
 // moved shapes exceed the cache.
-constexpr int kAhead = 8;
+constexpr int kPairsAhead = 8;
 constexpr std::size_t kShapesAhead = 32;
 
 template <class Real>
-[[gnu::always_inline]] inline void ask_for_moved(const WorldData<Real>& w, std::size_t i) {
+[[gnu::always_inline]] inline void prefetch_moved_shape(const WorldData<Real>& w, std::size_t i) {
   if (i + kShapesAhead < w.move_buffer.size()) __builtin_prefetch(&w.shapes[w.move_buffer[i + kShapesAhead]]);
 }
 
 // Moved shapes per block of a shared loop: about 30 us of work.
-constexpr int kMovedOfBlock = 64;
+constexpr int kMovedPerBlock = 64;
 
 // Maximum number of moved shapes of one body that share a search, and of their pairs that are stored until it
 // ends.
-constexpr int kTogether = 8, kHeld = 256;
+constexpr int kMaxGroup = 8, kMaxGroupPairs = 256;
 
 // Consecutive shapes of the move buffer that belong to one dynamic body, with the box around their fat AABBs.
 template <class Real>
-struct MovedTogether {
+struct MovedGroup {
   int count = 0;
-  int shapes[kTogether];
-  Aabb<Real> boxes[kTogether];
+  int shapes[kMaxGroup];
+  Aabb<Real> fat_aabbs[kMaxGroup];
   Aabb<Real> around{};
 };
 
 // Returns true if two moved shapes may share a search.
 template <class Real>
-bool moves_with(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
+bool may_share_search(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int next) {
   const ShapeRecord<Real>& other = w.shapes[next];
   return other.body == shape.body && other.moved && other.proxy != kNone &&
          effective_mask(other.filter) == effective_mask(shape.filter);
@@ -71,17 +71,17 @@ bool moves_with(const WorldData<Real>& w, const ShapeRecord<Real>& shape, int ne
 // Collects the shapes of one body, starting at an index of the move buffer, as long as one search in the box
 // around them enters fewer nodes than one search for each, estimated by their perimeters.
 template <class Real>
-MovedTogether<Real> moved_together(const WorldData<Real>& w, std::size_t first, std::size_t last) {
-  MovedTogether<Real> out;
+MovedGroup<Real> collect_group(const WorldData<Real>& w, std::size_t first, std::size_t last) {
+  MovedGroup<Real> out;
   const ShapeRecord<Real>& record = w.shapes[w.move_buffer[first]];
-  for (std::size_t i = first; i < last && out.count < kTogether; ++i) {
+  for (std::size_t i = first; i < last && out.count < kMaxGroup; ++i) {
     const int shape = w.move_buffer[i];
-    if (i > first && !moves_with(w, record, shape)) break;
+    if (i > first && !may_share_search(w, record, shape)) break;
     const Aabb<Real>& box = w.dynamic_tree.box(w.shapes[shape].proxy);
     const Aabb<Real> around = i > first ? merged(out.around, box) : box;
     if (i > first && around.half_perimeter() > out.around.half_perimeter() + box.half_perimeter()) break;
     out.around = around;
-    out.shapes[out.count] = shape, out.boxes[out.count] = box;
+    out.shapes[out.count] = shape, out.fat_aabbs[out.count] = box;
     ++out.count;
   }
   return out;
@@ -90,11 +90,11 @@ MovedTogether<Real> moved_together(const WorldData<Real>& w, std::size_t first, 
 // Finds the pairs of several shapes of a dynamic body in one search of each tree, in the order in which one
 // search for each shape would find them. Returns false, without a result, if there are too many.
 template <class Real, class Found>
-bool find_pairs_together(const WorldData<Real>& w, const MovedTogether<Real>& moved, const Found& found) {
-  struct Held {
+bool find_group_pairs(const WorldData<Real>& w, const MovedGroup<Real>& moved, const Found& found) {
+  struct Candidate {
     int place, other;
   };
-  Held held[kHeld];
+  Candidate candidates[kMaxGroupPairs];
   int count = 0;
   const ShapeRecord<Real>& record = w.shapes[moved.shapes[0]];
   const std::uint32_t mask = effective_mask(record.filter);
@@ -103,46 +103,47 @@ bool find_pairs_together(const WorldData<Real>& w, const MovedTogether<Real>& mo
       if (w.shapes[other].body == record.body) return true;
       const Aabb<Real>& box = tree.box(proxy);
       for (int i = 0; i < moved.count; ++i) {
-        if (!box.overlaps(moved.boxes[i])) continue;
-        if (count < kHeld) held[count] = {i, other};
+        if (!box.overlaps(moved.fat_aabbs[i])) continue;
+        if (count < kMaxGroupPairs) candidates[count] = {i, other};
         ++count;
       }
-      return count <= kHeld;
+      return count <= kMaxGroupPairs;
     });
   };
   search(w.dynamic_tree);
   search(w.static_tree);
-  if (count > kHeld) return false;
+  if (count > kMaxGroupPairs) return false;
   for (int i = 0; i < moved.count; ++i)
     for (int k = 0; k < count; ++k)
-      if (held[k].place == i) found(moved.shapes[i], held[k].other);
+      if (candidates[k].place == i) found(moved.shapes[i], candidates[k].other);
   return true;
 }
 
 // Finds the new pairs of a block of moved shapes.
 template <class Real>
-void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
+void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool has_static) {
   BlockLists<std::pair<int, int>>& found = w.scratch.found_pairs_of;
   // Of two moved shapes, only one reports the pair.
   const auto note = [&](int shape, int other) {
     if (other != shape && !(w.shapes[other].moved && other < shape)) found.add(block, {shape, other});
   };
-  const std::size_t first = static_cast<std::size_t>(block) * kMovedOfBlock,
-                    last = std::min(first + kMovedOfBlock, w.move_buffer.size());
+  const std::size_t first = static_cast<std::size_t>(block) * kMovedPerBlock,
+                    last = std::min(first + kMovedPerBlock, w.move_buffer.size());
   for (std::size_t i = first; i < last; ++i) {
-    ask_for_moved(w, i);
+    prefetch_moved_shape(w, i);
     const int shape = w.move_buffer[i];
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone) continue;  // destroyed meanwhile
     // Without static shapes every proxy is in the dynamic tree, so one without an overlap can be skipped
     // without reading its body.
-    if (marked && !grounds && w.scratch.has_overlap[record.proxy] == 0) continue;
+    if (marked && !has_static && w.scratch.has_overlap[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
     const std::uint32_t mask = effective_mask(record.filter);
     if (mask == 0) continue;
-    if (!marked && type == BodyType::Dynamic && i + 1 < last && moves_with(w, record, w.move_buffer[i + 1])) {
-      const MovedTogether<Real> moved = moved_together(w, i, last);
-      if (moved.count > 1 && find_pairs_together(w, moved, note)) {
+    if (!marked && type == BodyType::Dynamic && i + 1 < last &&
+        may_share_search(w, record, w.move_buffer[i + 1])) {
+      const MovedGroup<Real> moved = collect_group(w, i, last);
+      if (moved.count > 1 && find_group_pairs(w, moved, note)) {
         i += static_cast<std::size_t>(moved.count - 1);
         continue;
       }
@@ -157,7 +158,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
     if (type == BodyType::Dynamic) w.static_tree.query(box, mask, visit);
   }
   // Most pairs have their contact already.
-  found.template filter<kAhead>(
+  found.template filter<kPairsAhead>(
       block, [&](const std::pair<int, int>& pair) { w.pairs.prefetch(pair.first, pair.second); },
       [&](const std::pair<int, int>& pair) {
         return !w.pairs.contains(pair.first, pair.second) && may_collide(w, pair.first, pair.second);
@@ -166,14 +167,15 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool grounds) {
 
 // Predicts fat AABBs for this step for bodies that calls have created or moved.
 template <class Real>
-void make_room_ahead(WorldData<Real>& w, Real dt) {
+void predict_fat_aabbs(WorldData<Real>& w, Real dt) {
   for (const int shape : w.move_buffer) {
     const ShapeRecord<Real>& record = w.shapes[shape];
     if (!record.moved || record.proxy == kNone || !w.is_dynamic(record.body)) continue;
     const SolverBody<Real>& motion = w.motion[record.body];
-    const Real extent = w.extents[record.body], turned = dt * std::abs(motion.angular_velocity) * extent;
+    const Real extent = w.extents[record.body],
+               rotation_distance = dt * std::abs(motion.angular_velocity) * extent;
     if (w.dynamic_tree.box(record.proxy)
-            .contains(predicted_aabb(w.boxes[shape], dt * motion.velocity, turned, extent)))
+            .contains(predicted_aabb(w.tight_aabbs[shape], dt * motion.velocity, rotation_distance, extent)))
       continue;
     w.dynamic_tree.enlarge(record.proxy, fat_aabb(w, shape, dt));
     w.enlarged[record.body] = 1;
@@ -185,12 +187,12 @@ void make_room_ahead(WorldData<Real>& w, Real dt) {
 template <class Real>
 void find_pairs(WorldData<Real>& w, Real dt) {
   if (w.move_buffer.empty()) return;
-  make_room_ahead(w, dt);
+  predict_fat_aabbs(w, dt);
   const bool marked = mark_self_overlaps(w);
-  const bool grounds = w.static_tree.size() > 0;
-  const int blocks = static_cast<int>((w.move_buffer.size() + kMovedOfBlock - 1) / kMovedOfBlock);
+  const bool has_static = w.static_tree.size() > 0;
+  const int blocks = static_cast<int>((w.move_buffer.size() + kMovedPerBlock - 1) / kMovedPerBlock);
   w.scratch.found_pairs_of.begin(blocks);
-  w.crew.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, grounds); });
+  w.scheduler.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, has_static); });
   w.scratch.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
     // If a shape was created in the slot of a destroyed one that had moved, it is listed twice, and finds its
     // pairs twice.
@@ -199,7 +201,7 @@ void find_pairs(WorldData<Real>& w, Real dt) {
   });
   // Clear the flags last: if memory runs out above, these pairs are searched again.
   for (std::size_t i = 0; i < w.move_buffer.size(); ++i) {
-    ask_for_moved(w, i);
+    prefetch_moved_shape(w, i);
     w.shapes[w.move_buffer[i]].moved = false;
   }
   w.move_buffer.clear();

@@ -9,12 +9,13 @@
 
 namespace plumb {
 
-/// Returns true if two shapes are farther apart than `reach` (m) along the normal of a face, as numbered in
+/// Returns true if two shapes are farther apart than `margin` (m) along the normal of a face, as numbered in
 /// ContactManifold. A face that separated two shapes in the last step mostly still does. The possible
-/// rounding error of the manifold is added: whatever face is tried, a manifold within `reach` is never
+/// rounding error of the manifold is added: whatever face is tried, a manifold within `margin` is never
 /// missed.
 template <class Real>
-bool are_separated_by(const WorldData<Real>& w, const ContactRecord& contact, std::uint8_t face, Real reach) {
+bool are_separated_by(const WorldData<Real>& w, const ContactRecord& contact, std::uint8_t face,
+                      Real margin) {
   const bool of_b = face >= kMaxCorners;
   const int edge = of_b ? face - kMaxCorners : face;
   const Convex<Real> own = w.convex(of_b ? contact.shape_b : contact.shape_a),
@@ -23,7 +24,7 @@ bool are_separated_by(const WorldData<Real>& w, const ContactRecord& contact, st
   if (own.count < 2 || edge >= own.count) return false;
   const int body = of_b ? contact.body_b : contact.body_a, others = of_b ? contact.body_a : contact.body_b;
   const Corner<Real>& corner = own.corners[edge];
-  const Vec2<Real> between = (w.position[others] - w.position[body]).template as<Real>();
+  const Vec2<Real> to_other = (w.position[others] - w.position[body]).template as<Real>();
   const Vec2<Real> normal = w.rotation[body] * corner.normal,
                    from_other = w.rotation[others].inverse() * normal;
   Real least = dot(from_other, other.corners[0].point);
@@ -31,10 +32,10 @@ bool are_separated_by(const WorldData<Real>& w, const ContactRecord& contact, st
     const Real along = dot(from_other, other.corners[i].point);
     least = along < least ? along : least;
   }
-  const Real apart = dot(normal, between) + least - dot(corner.normal, corner.point);
+  const Real apart = dot(normal, to_other) + least - dot(corner.normal, corner.point);
   const Real rounding =
-      16 * std::numeric_limits<Real>::epsilon() * (w.extents[body] + w.extents[others] + l1_norm(between));
-  return apart - (own.radius + other.radius) > reach + rounding;
+      16 * std::numeric_limits<Real>::epsilon() * (w.extents[body] + w.extents[others] + l1_norm(to_other));
+  return apart - (own.radius + other.radius) > margin + rounding;
 }
 
 }  // namespace plumb

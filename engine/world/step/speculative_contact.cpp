@@ -8,33 +8,33 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
-#include "engine/world/state/seams.h"
+#include "engine/world/state/internal_edges.h"
 
 namespace plumb {
 namespace {
 
 // Returns an upper bound of the speed of a body's points, m/s.
 template <class Real>
-Real fastest(Vec2<Real> velocity, Real turning) {
-  return std::abs(velocity.x) + std::abs(velocity.y) + turning;
+Real max_point_speed(Vec2<Real> velocity, Real rotation_speed) {
+  return std::abs(velocity.x) + std::abs(velocity.y) + rotation_speed;
 }
 
 // Returns an upper bound of the speed of a body's points relative to its centre of mass, m/s.
 template <class Real>
-Real turning(const WorldData<Real>& w, int body) {
+Real rotation_speed(const WorldData<Real>& w, int body) {
   return std::abs(w.motion[body].angular_velocity) * w.extents[body];
 }
 
 // Returns true if continuous collision will treat the body as fast.
 template <class Real>
 bool is_fast(const WorldData<Real>& w, int body, Real dt) {
-  return w.is_dynamic(body) && dt * fastest(w.motion[body].velocity, turning(w, body)) >
+  return w.is_dynamic(body) && dt * max_point_speed(w.motion[body].velocity, rotation_speed(w, body)) >
                                    Real(tuning::kFastFraction) * w.bodies[body].half_width;
 }
 
 // Returns true if the body is in free flight, as far as this is known before the step is solved.
 template <class Real>
-bool flies(const WorldData<Real>& w, int body) {
+bool is_unsupported(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
   return w.scratch.has_contact_load[body] == 0;
@@ -45,53 +45,55 @@ template <class Real>
 Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double dt) {
   const SolverBody<Real>& motion = w.motion[body];
   const Rotation<Real> q = w.rotation[body];
-  const Vec2d curve = flies(w, body) ? (0.5 * dt * dt) * free_acceleration(w, body) : Vec2d{};
+  const Vec2d curve = is_unsupported(w, body) ? (0.5 * dt * dt) * free_acceleration(w, body) : Vec2d{};
   return {w.position[body] - origin, dt * motion.velocity.template as<double>(),
           Rotation<double>{static_cast<double>(q.c), static_cast<double>(q.s)},
           dt * static_cast<double>(motion.angular_velocity), curve};
 }
 
-// Returns true if the bodies' displacement `closed` and rotations may carry a point across its contact plane.
+// Returns true if the bodies' relative displacement and rotations may carry a point across its contact plane.
 // A point that nearly touches must cross the plane by more than a recycled manifold tolerates; otherwise it
 // rests.
 template <class Real>
-bool crosses(const WorldData<Real>& w, const ContactRecord& contact, const ContactManifold<Real>& manifold,
-             Vec2<Real> closed, Real turn_a, Real turn_b, Real smaller) {
-  const Real touching = Real(tuning::kRecycleDistance) * smaller;
+bool may_cross_plane(const WorldData<Real>& w, const ContactRecord& contact,
+                     const ContactManifold<Real>& manifold, Vec2<Real> displacement, Real angle_a,
+                     Real angle_b, Real smaller) {
+  const Real tolerance = Real(tuning::kRecycleDistance) * smaller;
   const Rotation<Real> q = w.rotation[contact.body_a];
   const Vec2<Real> n = q * manifold.normal;
-  const Vec2<Real> between = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
+  const Vec2<Real> a_to_b = (w.position[contact.body_b] - w.position[contact.body_a]).template as<Real>();
   // Bound of the distance of a rotating point from its tangent.
-  const Real bend =
-      Real(0.5) * (turn_a * turn_a * w.extents[contact.body_a] + turn_b * turn_b * w.extents[contact.body_b]);
+  const Real tangent_deviation = Real(0.5) * (angle_a * angle_a * w.extents[contact.body_a] +
+                                              angle_b * angle_b * w.extents[contact.body_b]);
   // Manifolds omit points beyond the speculative margin, which is limited. With larger displacements any
   // point of the shape may come first.
-  const Real turned =
-      std::abs(turn_a) * w.extents[contact.body_a] + std::abs(turn_b) * w.extents[contact.body_b];
-  const bool any_point =
-      std::abs(closed.x) + std::abs(closed.y) + turned > Real(tuning::kMaxSpeculativeApproach) * smaller;
+  const Real rotation_distance =
+      std::abs(angle_a) * w.extents[contact.body_a] + std::abs(angle_b) * w.extents[contact.body_b];
+  const bool any_point = std::abs(displacement.x) + std::abs(displacement.y) + rotation_distance >
+                         Real(tuning::kMaxSpeculativeApproach) * smaller;
   for (int i = 0; i < manifold.count; ++i) {
     const Vec2<Real> arm = q * manifold.points[i].point;
-    const Real open = manifold.points[i].separation;
-    const Real turning = any_point ? -turned : cross(arm - between, n) * turn_b - cross(arm, n) * turn_a;
-    const Real end = open + dot(n, closed) + turning;
-    if (end < (open > touching ? bend : -touching)) return true;
+    const Real separation = manifold.points[i].separation;
+    const Real rotational =
+        any_point ? -rotation_distance : cross(arm - a_to_b, n) * angle_b - cross(arm, n) * angle_a;
+    const Real end = separation + dot(n, displacement) + rotational;
+    if (end < (separation > tolerance ? tangent_deviation : -tolerance)) return true;
   }
   return false;
 }
 
 // Returns true if shapes without contact points must be searched for an impact.
 template <class Real>
-bool comes_from_afar(const WorldData<Real>& w, const ContactRecord& contact, Real smaller, Real dt) {
+bool needs_impact_search(const WorldData<Real>& w, const ContactRecord& contact, Real smaller, Real dt) {
   const int a = contact.body_a, b = contact.body_b;
-  const Real closing =
-      dt * fastest(w.motion[b].velocity - w.motion[a].velocity, turning(w, a) + turning(w, b));
-  const Real guessed = Real(tuning::kMaxSpeculativeApproach) * smaller;
-  if (!(closing > guessed) || w.forms[contact.shape_a].chain) return false;
-  if (!w.boxes[contact.shape_a].grown(closing).overlaps(w.boxes[contact.shape_b])) return false;
+  const Real approach = dt * max_point_speed(w.motion[b].velocity - w.motion[a].velocity,
+                                             rotation_speed(w, a) + rotation_speed(w, b));
+  const Real max_predicted = Real(tuning::kMaxSpeculativeApproach) * smaller;
+  if (!(approach > max_predicted) || w.forms[contact.shape_a].chain) return false;
+  if (!w.tight_aabbs[contact.shape_a].grown(approach).overlaps(w.tight_aabbs[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
-  // Two bodies of similar size, neither of them fast, approach by no more than twice `guessed`.
-  return closing > 2 * guessed || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
+  // Two bodies of similar size, neither of them fast, approach by no more than twice `max_predicted`.
+  return approach > 2 * max_predicted || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
 }
 
 // Returns the speculative contact at a fraction of the step.
@@ -101,11 +103,11 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
                                                 double fraction, Real smaller, double dt) {
   const Pose<double> at_a = pose_at(sweep_a, fraction), at_b = pose_at(sweep_b, fraction);
   const Rotation<double> to_a = at_a.rotation.inverse(), q = at_b.rotation;
-  const Vec2d between = at_b.position - at_a.position;
+  const Vec2d a_to_b = at_b.position - at_a.position;
   const auto rounded = [](const Rotation<double>& r) {
     return Rotation<Real>{static_cast<Real>(r.c), static_cast<Real>(r.s)};
   };
-  const Pose<Real> b_in_a{(to_a * between).template as<Real>(),
+  const Pose<Real> b_in_a{(to_a * a_to_b).template as<Real>(),
                           rounded({to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s})};
   SpeculativeContact<Real> at;
   const auto moved = [](const Sweep<double>& sweep) {
@@ -119,12 +121,12 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
   // continue.
   for (int i = 0; i < at.manifold.count; ++i)
     if (at.manifold.points[i].separation < -Real(tuning::kImpactTolerance) * smaller) return {};
-  at.outlook = Outlook::Meets;
+  at.prediction = ImpactPrediction::Hit;
   at.rotation = rounded(at_a.rotation);
-  at.between = between.template as<Real>();
-  at.closed = (between - (sweep_b.start - sweep_a.start)).template as<Real>();
-  at.turned_a = static_cast<Real>(fraction * sweep_a.delta_angle),
-  at.turned_b = static_cast<Real>(fraction * sweep_b.delta_angle);
+  at.a_to_b = a_to_b.template as<Real>();
+  at.displacement = (a_to_b - (sweep_b.start - sweep_a.start)).template as<Real>();
+  at.delta_angle_a = static_cast<Real>(fraction * sweep_a.delta_angle),
+  at.delta_angle_b = static_cast<Real>(fraction * sweep_b.delta_angle);
   const auto velocity = [&](const Sweep<double>& sweep) {
     return sweep.motion + (2 * fraction) * sweep.curve;
   };
@@ -140,12 +142,14 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
                                                   Real substep) {
   const int a = contact.body_a, b = contact.body_b;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
-  if (closest.count == 0 && !comes_from_afar(w, contact, smaller, dt)) return {};
+  if (closest.count == 0 && !needs_impact_search(w, contact, smaller, dt)) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_overlap(w, a, b))) return {};
   // Keep the manifold of two bodies of a pile: they push each other off the trajectories that a search for
   // the time of impact would follow.
-  if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) && !(flies(w, a) && flies(w, b))) return {};
+  if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) &&
+      !(is_unsupported(w, a) && is_unsupported(w, b)))
+    return {};
   const double time = static_cast<double>(dt);
   const Sweep<double> sweep_a = sweep_of(w, a, w.position[a], time),
                       sweep_b = sweep_of(w, b, w.position[a], time);
@@ -154,16 +158,17 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
     const auto displacement = [&](const Sweep<double>& sweep) {
       return ahead * (sweep.motion + ahead * sweep.curve);
     };
-    if (!crosses(w, contact, closest, (displacement(sweep_b) - displacement(sweep_a)).template as<Real>(),
-                 static_cast<Real>(ahead * sweep_a.delta_angle),
-                 static_cast<Real>(ahead * sweep_b.delta_angle), smaller))
+    if (!may_cross_plane(w, contact, closest,
+                         (displacement(sweep_b) - displacement(sweep_a)).template as<Real>(),
+                         static_cast<Real>(ahead * sweep_a.delta_angle),
+                         static_cast<Real>(ahead * sweep_b.delta_angle), smaller))
       return {};
   }
   // Search to rounding: with a coarser tolerance, a shape that passes at a smaller distance would count as
   // hit.
   const ImpactResult<Real> impact = time_of_impact(w.convex(contact.shape_a), sweep_a,
                                                    w.convex(contact.shape_b), sweep_b, Real(0), Real(0));
-  if (impact.state == ImpactResult<Real>::State::Separated) return {.outlook = Outlook::Misses};
+  if (impact.state == ImpactResult<Real>::State::Separated) return {.prediction = ImpactPrediction::Miss};
   if (impact.state != ImpactResult<Real>::State::Hit) return {};
   return speculative_contact_at(w, contact, sweep_a, sweep_b, impact.exact_fraction, smaller, time);
 }
@@ -172,15 +177,16 @@ template <class Real>
 void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                  const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
                                  Real (&impulse)[2]) {
-  prepare_contact(w, contact, at.manifold, at.rotation, at.between, c, impulse);
-  const Real closed = dot(c.normal, at.closed);
+  prepare_contact(w, contact, at.manifold, at.rotation, at.a_to_b, c, impulse);
+  const Real along_normal = dot(c.normal, at.displacement);
   for (int i = 0; i < c.count; ++i)
-    c.separation[i] -= closed + (c.arm_b[i] * at.turned_b - c.arm_a[i] * at.turned_a);
+    c.separation[i] -= along_normal + (c.arm_b[i] * at.delta_angle_b - c.arm_a[i] * at.delta_angle_a);
 }
 
 template <class Real>
-void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
-                     const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]) {
+void prepare_impact_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                            const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
+                            Real (&impulse)[2]) {
   prepare_speculative_contact(w, contact, at, c, impulse);
   for (int i = 0; i < c.count; ++i) c.separation[i] = std::max(c.separation[i], Real(0));
 }
@@ -191,8 +197,9 @@ void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
   template void prepare_speculative_contact(const WorldData<Real>&, const ContactRecord&,                  \
                                             const SpeculativeContact<Real>&, ContactConstraint<Real>&,     \
                                             Real(&)[2]);                                                   \
-  template void prepare_meeting(const WorldData<Real>&, const ContactRecord&,                              \
-                                const SpeculativeContact<Real>&, ContactConstraint<Real>&, Real(&)[2]);
+  template void prepare_impact_contact(const WorldData<Real>&, const ContactRecord&,                       \
+                                       const SpeculativeContact<Real>&, ContactConstraint<Real>&,          \
+                                       Real(&)[2]);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -11,22 +11,22 @@
 namespace plumb {
 
 /// Prediction for two separated shapes whose bodies keep their present velocities through the step.
-enum class Outlook : std::uint8_t {
-  Unsearched,  ///< no contact plane would be crossed, or the shapes touch already
-  Misses,      ///< a plane would be crossed, but the shapes pass each other
-  Meets,       ///< they touch
+enum class ImpactPrediction : std::uint8_t {
+  NotSearched,  ///< no contact plane would be crossed, or the shapes touch already
+  Miss,         ///< a plane would be crossed, but the shapes pass each other
+  Hit,          ///< they touch
 };
 
-/// Speculative contact at the time of impact, set for Outlook::Meets.
+/// Speculative contact at the time of impact, set for ImpactPrediction::Hit.
 template <class Real>
 struct SpeculativeContact {
-  Outlook outlook = Outlook::Unsearched;
-  ContactManifold<Real> manifold{};  ///< at the impact, in the frame of a
-  Rotation<Real> rotation{};         ///< of a at the impact
-  Vec2<Real> between{};              ///< m, from a's centre of mass to b's at the impact
-  Vec2<Real> closed{};               ///< m, change of `between` since the step's start
-  Real turned_a = 0, turned_b = 0;   ///< rad, rotations until the impact
-  Vec2<Real> velocity{};             ///< m/s, of b's centre of mass relative to a's, at the impact
+  ImpactPrediction prediction = ImpactPrediction::NotSearched;
+  ContactManifold<Real> manifold{};           ///< at the impact, in the frame of a
+  Rotation<Real> rotation{};                  ///< of a at the impact
+  Vec2<Real> a_to_b{};                        ///< m, from a's centre of mass to b's at the impact
+  Vec2<Real> displacement{};                  ///< m, change of `a_to_b` since the step's start
+  Real delta_angle_a = 0, delta_angle_b = 0;  ///< rad, rotations until the impact
+  Vec2<Real> velocity{};                      ///< m/s, of b's centre of mass relative to a's, at the impact
 };
 
 /// Finds the speculative contact of two shapes with the current manifold `closest`. The plane through the
@@ -51,10 +51,10 @@ template <class Real>
 Real speculative_margin(const SolverBody<Real>& a, const SolverBody<Real>& b, Real extent_a, Real extent_b,
                         Real dt) {
   const Real smaller = std::min(extent_a, extent_b);
-  const Real closing = dt * (l1_norm(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
-                             std::abs(b.angular_velocity) * extent_b);
+  const Real approach = dt * (l1_norm(b.velocity - a.velocity) + std::abs(a.angular_velocity) * extent_a +
+                              std::abs(b.angular_velocity) * extent_b);
   return Real(tuning::kSpeculativeMargin) * smaller +
-         std::min(closing, Real(tuning::kMaxSpeculativeApproach) * smaller);
+         std::min(approach, Real(tuning::kMaxSpeculativeApproach) * smaller);
 }
 
 /// Builds a speculative constraint at the predicted impact, with the present separations. Writes the impulses
@@ -68,7 +68,8 @@ void prepare_speculative_contact(const WorldData<Real>& w, const ContactRecord& 
 /// to the step's start, would be inside of the other shape, its overlap there is not real and must not be
 /// pushed out.
 template <class Real>
-void prepare_meeting(const WorldData<Real>& w, const ContactRecord& contact,
-                     const SpeculativeContact<Real>& at, ContactConstraint<Real>& c, Real (&impulse)[2]);
+void prepare_impact_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                            const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
+                            Real (&impulse)[2]);
 
 }  // namespace plumb

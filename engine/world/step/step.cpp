@@ -17,23 +17,23 @@
 namespace plumb {
 namespace {
 
-// kSubstepGrowth: maximum ratio of a substep to the last one. kSubstepsMost: maximum factor on the requested
-// substeps for keeping this ratio. A pyramid of 12 rows rests under steps of random lengths from 1 to 10 as
-// under equal ones. With a ratio of 1.1 it creeps ten times as fast; without a bound it explodes at lengths
-// of 1 and 3 in turn. A step over 60 times as long as the last disturbs resting bodies.
-constexpr double kSubstepGrowth = 1.02;
-constexpr int kSubstepsMost = 16;
+// kMaxSubstepGrowth: maximum ratio of a substep to the last one. kMaxSubstepFactor: maximum factor on the
+// requested substeps for keeping this ratio. A pyramid of 12 rows rests under steps of random lengths from 1
+// to 10 as under equal ones. With a ratio of 1.1 it creeps ten times as fast; without a bound it explodes at
+// lengths of 1 and 3 in turn. A step over 60 times as long as the last disturbs resting bodies.
+constexpr double kMaxSubstepGrowth = 1.02;
+constexpr int kMaxSubstepFactor = 16;
 
 // While this guard is alive, events go into the current step's buffer. Events raised between two steps are
 // reported with the later step.
 template <class Real>
-struct Stepping {
-  explicit Stepping(WorldData<Real>& world) : w(world) {
+struct StepGuard {
+  explicit StepGuard(WorldData<Real>& world) : w(world) {
     std::swap(w.events, w.pending);
     w.pending.clear();
     w.stepping = true;
   }
-  ~Stepping() {
+  ~StepGuard() {
     w.stepping = false;
     end_use(w);
   }
@@ -43,7 +43,7 @@ struct Stepping {
 // Restores a consistent state after an interrupted step: rotations match angles, and fat AABBs contain their
 // shapes.
 template <class Real>
-void make_good(WorldData<Real>& w) {
+void restore_consistency(WorldData<Real>& w) {
   w.topology_changed = true;  // islands and articulated bodies are found again
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     c.hardness =
@@ -62,8 +62,8 @@ void make_good(WorldData<Real>& w) {
     }
     for (int shape = w.bodies[body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
       const int proxy = w.shapes[shape].proxy;
-      w.boxes[shape] = tight_aabb(w, shape);
-      if (proxy == kNone || w.dynamic_tree.box(proxy).contains(w.boxes[shape])) continue;
+      w.tight_aabbs[shape] = tight_aabb(w, shape);
+      if (proxy == kNone || w.dynamic_tree.box(proxy).contains(w.tight_aabbs[shape])) continue;
       w.dynamic_tree.enlarge(proxy, fat_aabb(w, shape, Real(0)));
       w.enlarged[body] = 1;
       try {
@@ -80,24 +80,25 @@ void make_good(WorldData<Real>& w) {
 // steps would add energy. Overlaps at rest scale with h^2 and would change, too. Hence h may grow only
 // slowly. Solvers without warm starting, or that iterate to convergence, do not need this.
 template <class Real>
-int substeps_of(const WorldData<Real>& w, double dt, int asked) {
+int substeps_of(const WorldData<Real>& w, double dt, int requested) {
   const bool starts_warm = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!starts_warm || !(w.last_h > 0) || (w.graph.empty() && w.joint_set.active_count() == 0)) return asked;
-  const double longest = kSubstepGrowth * w.last_h;
-  if (dt <= longest * asked) return asked;
-  const double wanted = std::ceil(dt / longest), most = double(kSubstepsMost) * asked;
-  return static_cast<int>(std::min(wanted, most));
+  if (!starts_warm || !(w.last_h > 0) || (w.graph.empty() && w.joint_set.active_count() == 0))
+    return requested;
+  const double longest = kMaxSubstepGrowth * w.last_h;
+  if (dt <= longest * requested) return requested;
+  const double wanted = std::ceil(dt / longest), maximum = double(kMaxSubstepFactor) * requested;
+  return static_cast<int>(std::min(wanted, maximum));
 }
 
 // Minimum number of awake bodies, contacts and joints for a step to be shared by threads. Below it, waking a
 // second thread costs about as much as the work that it takes over (docs/decisions/threads.md).
-constexpr std::size_t kSharedWork = 256;
+constexpr std::size_t kMinSharedWork = 256;
 
 template <class Real>
 bool is_worth_sharing(const WorldData<Real>& w) {
-  return w.awake.size() + w.near.size() + w.graph.size() +
+  return w.awake.size() + w.nontouching_contacts.size() + w.graph.size() +
              static_cast<std::size_t>(w.joint_set.active_count()) >=
-         kSharedWork;
+         kMinSharedWork;
 }
 
 // Measures the wall time of each stage, if the world is profiled.
@@ -129,28 +130,28 @@ template <class Real>
 void step_world(WorldData<Real>& w, double dt, int substeps) {
   apply_mass_changes(w);
   // RAII guard: resets `stepping` even if a stage throws.
-  const Stepping<Real> stepping(w);
+  const StepGuard<Real> stepping(w);
   StageClock<Real> clock(w);
   if (w.settings.quarantine && w.loads.used()) quarantine_overloaded(w, dt);
-  w.crew.set_busy(w.crew.threads() > 1 && is_worth_sharing(w));
+  w.scheduler.set_busy(w.scheduler.threads() > 1 && is_worth_sharing(w));
   find_pairs(w, static_cast<Real>(dt)), clock.end(WorldStage::BroadPhase);
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
   update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
   try {
-    w.crew.session([&] { solve_motion(w, h, substeps); });
+    w.scheduler.session([&] { solve_motion(w, h, substeps); });
     w.last_h = h;
     clock.end(WorldStage::Solver);
     report_impacts(w), clock.end(WorldStage::Events);
-    w.crew.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
+    w.scheduler.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
     clock.end(WorldStage::Finalize);
     {
-      const Crew::Alone alone(w.crew, w.calls_user_code());
-      w.crew.session([&] { solve_continuous(w, static_cast<Real>(dt)); });
+      const LoopScheduler::SerialGuard serial(w.scheduler, w.calls_user_code());
+      w.scheduler.session([&] { solve_continuous(w, static_cast<Real>(dt)); });
     }
     clock.end(WorldStage::Continuous);
   } catch (...) {
-    make_good(w);
+    restore_consistency(w);
     throw;
   }
   break_joints(w, h);

@@ -29,7 +29,7 @@ struct Squeeze {
     row.linear_a = -normal, row.linear_b = normal;
     row.bias = bias;
     row.impulse = &impulses[system.rows.size()];
-    row.one_sided = true;
+    row.unilateral = true;
     row.block = static_cast<int>(system.rows.size());
     system.rows.push_back(row);
   }
@@ -42,10 +42,10 @@ struct Squeeze {
 TEST(DirectRows, ContradictionsAreSeenBesideAnImpact) {
   for (const float speed : {0.0f, 30.0f, 3000.0f}) {
     Squeeze squeezed(speed, false);
-    EXPECT_FALSE(squeezed.system.find(squeezed.bodies, true)) << speed;
-    EXPECT_TRUE(squeezed.system.contradicted()) << speed;
+    EXPECT_FALSE(squeezed.system.solve_impulses(squeezed.bodies, true)) << speed;
+    EXPECT_TRUE(squeezed.system.is_infeasible()) << speed;
     Squeeze pushed(speed, true);
-    ASSERT_TRUE(pushed.system.find(pushed.bodies, true)) << speed;
+    ASSERT_TRUE(pushed.system.solve_impulses(pushed.bodies, true)) << speed;
     pushed.system.apply(pushed.bodies);
     EXPECT_NEAR(pushed.bodies[1].velocity.x, kPush, 1e-6);
     EXPECT_NEAR(pushed.bodies[1].velocity.y, 0, 1e-6 * speed);

@@ -19,25 +19,25 @@ struct Line {
       c.body_a = i, c.body_b = i + 1;
       c.normal = {1, 0};
       c.count = 1, c.restitution = 1;
-      c.separation[0] = c.now[0] = gap;
+      c.separation[0] = c.current_separation[0] = gap;
       c.mass[0] = 1 / (bodies[i].inverse_mass + bodies[i + 1].inverse_mass);
-      bounces.push_back({.contact = &c, .strikes = {i == 1}});
-      bounces.back().speed[0] = 1;
+      bounces.push_back({.contact = &c, .has_impact = {i == 1}});
+      bounces.back().end_speed[0] = 1;
     }
   }
 
   int resolve() {
     const ContactStep<double> step{.h = 0.01, .inverse_h = 100};
-    if (!find_impacts(bodies.data(), bounces, room)) return 0;
-    link_contacts(bodies.data(), bounces, room);
-    return propagate_impacts(bodies.data(), rotations.data(), bounces, step, room);
+    if (!find_impacts(bodies.data(), bounces, scratch)) return 0;
+    link_contacts(bodies.data(), bounces, scratch);
+    return propagate_impacts(bodies.data(), rotations.data(), bounces, step, scratch);
   }
 
   std::vector<SolverBody<double>> bodies;
   std::vector<Rotation<double>> rotations;
   std::vector<ContactConstraint<double>> contacts;
   std::vector<RestitutionContact<double>> bounces;
-  ImpactScratch<double> room;
+  ImpactScratch<double> scratch;
 };
 
 TEST(BounceCrowds, HandAnImpactThroughALineInARoundForEachContact) {
@@ -64,8 +64,8 @@ TEST(BounceCrowds, LeaveAnImpactElsewhereAsItIsAlone) {
   line.bodies[a].velocity = {1, 0};
   ContactConstraint<double> pair = line.contacts[1];
   pair.body_a = a, pair.body_b = a + 1;
-  line.bounces.push_back({.contact = &pair, .strikes = {true}});
-  line.bounces.back().speed[0] = 1;
+  line.bounces.push_back({.contact = &pair, .has_impact = {true}});
+  line.bounces.back().end_speed[0] = 1;
   line.resolve();
   EXPECT_EQ(line.bodies[a].velocity.x, 0);
   EXPECT_EQ(line.bodies[a + 1].velocity.x, 1);
@@ -83,7 +83,7 @@ TEST(BounceCrowds, LeaveToTheConstraintsWhatAFirstRoundWouldNotSolve) {
   Line line(60000, 0);
   for (int i = 1; i <= 60000; ++i) {
     line.bodies[i].velocity = {i % 2 == 1 ? 1.0 : -1.0, 0};
-    line.bounces[i].strikes[0] = i % 2 == 1;
+    line.bounces[i].has_impact[0] = i % 2 == 1;
   }
   EXPECT_EQ(line.resolve(), 0);
   for (int i = 1; i <= 60000; ++i) ASSERT_EQ(line.bodies[i].velocity.x, i % 2 == 1 ? 1 : -1);

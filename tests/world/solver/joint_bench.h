@@ -51,9 +51,9 @@ struct JointBench {
     s.softness = softness<Real>(hertz, damping_ratio, h);
     s.warm_start = last_h > 0 ? static_cast<Real>(h / last_h) : 1;
     last_h = h;
-    Crew crew;
+    LoopScheduler scheduler;
     if (side_by_side) {
-      joints.prepare(bodies(), s, apart, &crew);
+      joints.prepare(bodies(), s, apart, &scheduler);
     } else {
       joints.prepare(bodies(), s);
     }
@@ -64,7 +64,7 @@ struct JointBench {
       move(s.h);
       joints.relax(bodies(), s);
     }
-    if (side_by_side) joints.finish(bodies(), &crew);
+    if (side_by_side) joints.finish(bodies(), &scheduler);
     finish();
   }
   void run(double time, double dt) {

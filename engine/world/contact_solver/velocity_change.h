@@ -8,13 +8,13 @@ namespace plumb {
 /// Updates a position by h times the change of velocity since `velocity_before` and `spin_before`
 /// (position-based dynamics).
 template <class Real>
-void follow(SolverBody<Real>& motion, Rotation<Real>& rotation, Vec2<Real> velocity_before, Real spin_before,
-            Real h) {
+void move_by_velocity_change(SolverBody<Real>& motion, Rotation<Real>& rotation, Vec2<Real> velocity_before,
+                             Real spin_before, Real h) {
   motion.delta_position += h * (motion.velocity - velocity_before);
-  const Real turn = h * (motion.angular_velocity - spin_before);
-  if (turn == 0) return;
-  motion.delta_angle += turn;
-  rotation = rotated_by(rotation, turn);
+  const Real delta_angle = h * (motion.angular_velocity - spin_before);
+  if (delta_angle == 0) return;
+  motion.delta_angle += delta_angle;
+  rotation = rotated_by(rotation, delta_angle);
 }
 
 }  // namespace plumb

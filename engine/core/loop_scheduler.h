@@ -8,26 +8,26 @@
 
 namespace plumb {
 
-/// Order in which a loop's blocks are begun. Every order gives the same bits; tests use the others.
+/// Order in which a loop's blocks are begun. Every order gives the same bits; only tests change it.
 enum class LoopOrder { Ascending, Descending, Shuffled };
 
-/// The threads that share the loops of a world's step: the calling one, and those of the world's own pool or
-/// of a game's task system. A loop is divided into blocks that do not depend on the number of threads. A
-/// block writes only data that no other block of the loop reads or writes; order-dependent results are
-/// collected block by block (block_lists.h).
-/// Loops run within sessions. A session's body runs once, on the first thread to arrive, and the others take
-/// part in its loops. So no thread waits for one that does not arrive, whatever the task system does. The
-/// body must not call user code, which belongs on the calling thread.
-class Crew {
+/// Runs the loops of a world's step in parallel (parallel for): on the calling thread, and on those of the
+/// world's own pool or of a game's task system. A loop is divided into blocks that do not depend on the
+/// number of threads. A block writes only data that no other block of the loop reads or writes;
+/// order-dependent results are collected block by block (block_lists.h). Loops run within sessions. A
+/// session's body runs once, on the first thread to arrive, and the others take part in its loops. So no
+/// thread waits for one that does not arrive, whatever the task system does. The body must not call user
+/// code, which must run on the calling thread.
+class LoopScheduler {
  public:
-  static constexpr int kMostThreads = 64;
+  static constexpr int kMaxThreads = 64;
 
-  Crew();
-  ~Crew();
-  Crew(const Crew&) = delete;
-  Crew& operator=(const Crew&) = delete;
+  LoopScheduler();
+  ~LoopScheduler();
+  LoopScheduler(const LoopScheduler&) = delete;
+  LoopScheduler& operator=(const LoopScheduler&) = delete;
 
-  /// Sets the number of threads, 1 to kMostThreads, and starts a pool. Throws std::system_error if the system
+  /// Sets the number of threads, 1 to kMaxThreads, and starts a pool. Throws std::system_error if the system
   /// has no more threads, and then changes nothing.
   void set_threads(int threads);
   int threads() const { return threads_; }
@@ -35,24 +35,26 @@ class Crew {
   /// `set_threads` does.
   void set_tasks(const TaskSystem& tasks);
   void set_order(LoopOrder order) { order_ = order; }
-  /// Shares all loops, however small: for tests.
+  /// Sets whether all loops are shared, however small: for tests.
   void set_eager(bool eager) { eager_ = eager; }
 
   /// Sets whether the work of the next sessions is worth several threads.
   void set_busy(bool busy) { busy_ = busy; }
   /// Returns true if loops are shared now.
-  bool shares() const { return (busy_ || eager_) && threads_ > 1 && !alone_; }
+  bool shares() const { return (busy_ || eager_) && threads_ > 1 && !serial_; }
 
-  /// While this guard is alive and `wanted`, the calling thread runs all loops by itself.
-  class Alone {
+  /// Runs all loops on the calling thread while this guard is alive, if `wanted`.
+  class SerialGuard {
    public:
-    Alone(Crew& crew, bool wanted) : crew_(crew), before_(crew.alone_) { crew.alone_ = before_ || wanted; }
-    ~Alone() { crew_.alone_ = before_; }
-    Alone(const Alone&) = delete;
-    Alone& operator=(const Alone&) = delete;
+    SerialGuard(LoopScheduler& scheduler, bool wanted) : scheduler_(scheduler), before_(scheduler.serial_) {
+      scheduler.serial_ = before_ || wanted;
+    }
+    ~SerialGuard() { scheduler_.serial_ = before_; }
+    SerialGuard(const SerialGuard&) = delete;
+    SerialGuard& operator=(const SerialGuard&) = delete;
 
    private:
-    Crew& crew_;
+    LoopScheduler& scheduler_;
     bool before_;
   };
 
@@ -61,7 +63,7 @@ class Crew {
   template <class Body>
   void session(Body&& body) {
     if (!shares() || in_session()) return body();
-    open([](void* b) { (*static_cast<std::remove_reference_t<Body>*>(b))(); }, address(body));
+    run_session([](void* b) { (*static_cast<std::remove_reference_t<Body>*>(b))(); }, address(body));
   }
 
   /// Calls `run(block)` for each block from 0 to count - 1, and returns after all have ended. If some throw,
@@ -71,9 +73,9 @@ class Crew {
   void blocks(int count, Run&& run) {
     if (count <= 0) return;
     if (count == 1) return run(0);
-    if (!shares()) return in_turn(count, run);
+    if (!shares()) return run_serial(count, run);
     session([&] {
-      share(
+      run_shared(
           count, [](void* r, int block) { (*static_cast<std::remove_reference_t<Run>*>(r))(block); },
           address(run));
     });
@@ -97,17 +99,18 @@ class Crew {
     return const_cast<void*>(static_cast<const void*>(std::addressof(it)));
   }
   template <class Run>
-  void in_turn(int count, Run& run) {
-    for (int i = 0; i < count; ++i) run(order_ == LoopOrder::Ascending ? i : place(i, count));
+  void run_serial(int count, Run& run) {
+    for (int i = 0; i < count; ++i) run(order_ == LoopOrder::Ascending ? i : block_at(i, count));
   }
-  void renew(int threads, const TaskSystem& tasks);
-  int place(int nth, int count) const;
+  void restart(int threads, const TaskSystem& tasks);
+  /// Returns the block that comes at `nth` place of `count` in the order of the loop.
+  int block_at(int nth, int count) const;
   bool in_session() const;
-  void open(void (*body)(void*), void* data);
-  void share(int count, void (*run)(void*, int), void* data);
+  void run_session(void (*body)(void*), void* data);
+  void run_shared(int count, void (*run)(void*, int), void* data);
 
   int threads_ = 1;
-  bool busy_ = false, eager_ = kUsualThreads > 1, alone_ = false;
+  bool busy_ = false, eager_ = kUsualThreads > 1, serial_ = false;
   LoopOrder order_ = LoopOrder::Ascending;
   TaskSystem tasks_;                ///< a game's
   std::unique_ptr<Shared> shared_;  ///< null with one thread

@@ -10,9 +10,9 @@ namespace plumb {
 /// are those of the manifold, after its bodies have moved by at most `displacement` (m). A manifold of two
 /// points far apart is not changed.
 template <class Real>
-ContactManifold<Real> correct_at_seams(const WorldData<Real>& w, const ContactRecord& contact,
-                                       const Pose<Real>& b_in_a, Real margin,
-                                       const ContactManifold<Real>& manifold, Real displacement = 0);
+ContactManifold<Real> correct_internal_edges(const WorldData<Real>& w, const ContactRecord& contact,
+                                             const Pose<Real>& b_in_a, Real margin,
+                                             const ContactManifold<Real>& manifold, Real displacement = 0);
 
 /// Returns the point about which impulses between two bodies do not rotate them relative to each other, in
 /// a's frame: the mean of their centres of mass, weighted by inverse inertia.
@@ -37,7 +37,8 @@ ContactManifold<Real> collide_shapes(const WorldData<Real>& w, const ContactReco
       w.forms[contact.shape_a].chain
           ? collide_chain_segment(shape_a, chain[-1].point, chain[2].point, shape_b, b_in_a, margin, pivot)
           : collide_convex(shape_a, shape_b, b_in_a, margin, pivot);
-  return manifold.count > 0 ? correct_at_seams(w, contact, b_in_a, margin, manifold, displacement) : manifold;
+  return manifold.count > 0 ? correct_internal_edges(w, contact, b_in_a, margin, manifold, displacement)
+                            : manifold;
 }
 
 }  // namespace plumb

@@ -13,14 +13,15 @@ namespace plumb {
 /// translation: if a long blade is welded to a small hub, the hub has 0.92 of the mobility in the stiffest
 /// direction, but 0.5 of the trace.
 template <class Real>
-struct JointLoad {
+struct MobilityFraction {
   Real a = 0, b = 0;
 };
 
-/// Returns the load of a point, whose two rows have a closed form.
+/// Returns the fractions of a point, whose two rows have a closed form.
 template <class Real>
-[[gnu::always_inline]] inline JointLoad<Real> point_load(const JointVelocities<Real>& v, Vec2<Real> arm_a,
-                                                         Vec2<Real> arm_b) {
+[[gnu::always_inline]] inline MobilityFraction<Real> point_mobility_fraction(const JointVelocities<Real>& v,
+                                                                             Vec2<Real> arm_a,
+                                                                             Vec2<Real> arm_b) {
   const PointResponse<Real> k = point_response(v, arm_a, arm_b);
   if (!(k.determinant > 0))
     return {v.m_a + v.i_a > 0 ? Real(1) : Real(0), v.m_b + v.i_b > 0 ? Real(1) : Real(0)};
@@ -32,55 +33,55 @@ template <class Real>
   const Real s_xy = (k.yy * a_xy - k.xy * a_yy) / k.determinant,
              s_yx = (k.xx * a_xy - k.xy * a_xx) / k.determinant;
   const Real mean = Real(0.5) * (s_xx + s_yy), half = Real(0.5) * (s_xx - s_yy);
-  const Real apart = std::sqrt(std::max(half * half + s_xy * s_yx, Real(0)));
-  const auto share = [](Real value) { return std::min(std::max(value, Real(0)), Real(1)); };
-  return {share(mean + apart), share(1 - (mean - apart))};
+  const Real difference = std::sqrt(std::max(half * half + s_xy * s_yx, Real(0)));
+  const auto fraction = [](Real value) { return std::min(std::max(value, Real(0)), Real(1)); };
+  return {fraction(mean + difference), fraction(1 - (mean - difference))};
 }
 
-/// Returns the load of any rows. Redundant rows count once.
+/// Returns the fractions of any rows. Redundant rows count once.
 template <class Real, int N>
-JointLoad<Real> joint_load(const JointRow<Real> (&rows)[N], const JointVelocities<Real>& v) {
+MobilityFraction<Real> mobility_fraction(const JointRow<Real> (&rows)[N], const JointVelocities<Real>& v) {
   static_assert(N <= 3, "two bodies move against each other in three ways");
-  double k[N][N], share[N][N];  // J M^-1 J^T; of a
+  double k[N][N], fraction[N][N];  // J M^-1 J^T; of a
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j <= i; ++j) {
       const JointRow<Real>&r = rows[i], &s = rows[j];
       const double of_a = v.m_a * dot(r.linear_a, s.linear_a) + v.i_a * (r.angular_a * s.angular_a);
       const double of_b = v.m_b * dot(r.linear_b, s.linear_b) + v.i_b * (r.angular_b * s.angular_b);
-      share[i][j] = share[j][i] = of_a;
+      fraction[i][j] = fraction[j][i] = of_a;
       k[i][j] = k[j][i] = of_a + of_b;
     }
   }
-  // Gauss-Jordan elimination turns the share into S = K^-1 K_a. Rows that depend on those before them are
+  // Gauss-Jordan elimination turns `fraction` into S = K^-1 K_a. Rows that depend on those before them are
   // left out.
   double diagonal[N];
   for (int i = 0; i < N; ++i) diagonal[i] = k[i][i];
   int rank = 0;
   for (int i = 0; i < N; ++i) {
     // Fraction of the diagonal up to which a pivot is rounding: the diagonal has single precision.
-    constexpr double kNothing = 1e-6;
-    const bool counts = k[i][i] > kNothing * diagonal[i];
-    const double inverse = counts ? 1 / k[i][i] : 0;
-    rank += counts ? 1 : 0;
+    constexpr double kPivotTolerance = 1e-6;
+    const bool independent = k[i][i] > kPivotTolerance * diagonal[i];
+    const double inverse = independent ? 1 / k[i][i] : 0;
+    rank += independent ? 1 : 0;
     for (int j = i + 1; j < N; ++j) k[i][j] *= inverse;
-    for (int j = 0; j < N; ++j) share[i][j] *= inverse;
+    for (int j = 0; j < N; ++j) fraction[i][j] *= inverse;
     for (int row = 0; row < N; ++row) {
       if (row == i) continue;
       const double factor = k[row][i];
       for (int j = i + 1; j < N; ++j) k[row][j] -= factor * k[i][j];
-      for (int j = 0; j < N; ++j) share[row][j] -= factor * share[i][j];
+      for (int j = 0; j < N; ++j) fraction[row][j] -= factor * fraction[i][j];
     }
   }
   double first = 0, second = 0, third = 0;  // elementary symmetric sums of the eigenvalues of S
   for (int i = 0; i < N; ++i) {
-    first += share[i][i];
-    for (int j = 0; j < i; ++j) second += share[i][i] * share[j][j] - share[i][j] * share[j][i];
+    first += fraction[i][i];
+    for (int j = 0; j < i; ++j) second += fraction[i][i] * fraction[j][j] - fraction[i][j] * fraction[j][i];
   }
   if constexpr (N == 3) {
-    const auto minor = [&share](int i, int j) {
-      return share[1][i] * share[2][j] - share[1][j] * share[2][i];
+    const auto minor = [&fraction](int i, int j) {
+      return fraction[1][i] * fraction[2][j] - fraction[1][j] * fraction[2][i];
     };
-    third = share[0][0] * minor(1, 2) - share[0][1] * minor(0, 2) + share[0][2] * minor(0, 1);
+    third = fraction[0][0] * minor(1, 2) - fraction[0][1] * minor(0, 2) + fraction[0][2] * minor(0, 1);
   }
   // Squares all eigenvalues four times (Dandelin and Graeffe's method): the sum of their 16th powers is
   // within a root of 1.07 of the largest. Relative to their sum, so that nothing is lost of small ones.

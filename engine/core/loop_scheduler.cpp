@@ -1,4 +1,4 @@
-#include "engine/core/crew.h"
+#include "engine/core/loop_scheduler.h"
 
 #include <numeric>
 #include <system_error>
@@ -18,7 +18,7 @@
 
 namespace plumb {
 
-int Crew::place(int nth, int count) const {
+int LoopScheduler::block_at(int nth, int count) const {
   switch (order_) {
     case LoopOrder::Ascending:
       return nth;
@@ -33,68 +33,68 @@ int Crew::place(int nth, int count) const {
   return static_cast<int>((stride * nth + count / 3) % count);
 }
 
-void Crew::set_threads(int threads) {
-  if (threads != threads_) renew(threads, tasks_);
+void LoopScheduler::set_threads(int threads) {
+  if (threads != threads_) restart(threads, tasks_);
 }
 
-void Crew::set_tasks(const TaskSystem& tasks) { renew(threads_, tasks); }
+void LoopScheduler::set_tasks(const TaskSystem& tasks) { restart(threads_, tasks); }
 
 #ifdef PLUMB_NO_THREADS
 
 // Without thread support, one thread runs all loops, without sessions.
-struct Crew::Shared {};
+struct LoopScheduler::Shared {};
 
-void Crew::renew(int threads, const TaskSystem& tasks) {
+void LoopScheduler::restart(int threads, const TaskSystem& tasks) {
   if (threads > 1) throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
   tasks_ = tasks;
 }
-bool Crew::in_session() const { return false; }
-void Crew::open(void (*body)(void*), void* data) { body(data); }
-void Crew::share(int count, void (*run)(void*, int), void* data) {
-  for (int i = 0; i < count; ++i) run(data, place(i, count));
+bool LoopScheduler::in_session() const { return false; }
+void LoopScheduler::run_session(void (*body)(void*), void* data) { body(data); }
+void LoopScheduler::run_shared(int count, void (*run)(void*, int), void* data) {
+  for (int i = 0; i < count; ++i) run(data, block_at(i, count));
 }
 
 #else
 
 namespace {
 
-// While this guard is alive, the thread has the floating-point environment of another thread: rounding mode
-// and treatment of denormals.
-class Computing {
+// Gives this thread the floating-point environment (rounding mode, treatment of denormals) of another thread
+// while the guard is alive.
+class FenvGuard {
  public:
-  explicit Computing(const std::fenv_t& as) {
-    std::fegetenv(&own_);
+  explicit FenvGuard(const std::fenv_t& as) {
+    std::fegetenv(&previous_);
     std::fesetenv(&as);
   }
-  ~Computing() { std::fesetenv(&own_); }
-  Computing(const Computing&) = delete;
-  Computing& operator=(const Computing&) = delete;
+  ~FenvGuard() { std::fesetenv(&previous_); }
+  FenvGuard(const FenvGuard&) = delete;
+  FenvGuard& operator=(const FenvGuard&) = delete;
 
  private:
-  std::fenv_t own_;
+  std::fenv_t previous_;
 };
 
 // Number of polls before a thread that waits for another thread's last block yields the processor: about 10
 // us, longer than nearly all blocks take.
-constexpr int kLooksAtLast = 500;
+constexpr int kMaxSpins = 500;
 
 }  // namespace
 
-struct Crew::Shared {
-  /// The blocks that a thread claims first, so that a later loop finds their data in its cache; after them it
-  /// claims blocks of other threads. One cache line each.
-  struct alignas(64) Share {
-    Claims claims;
+struct LoopScheduler::Shared {
+  /// Blocks that a thread claims first, so that later loops find their data in its cache. After them it
+  /// claims blocks of other threads. One cache line per thread.
+  struct alignas(64) ThreadBlocks {
+    AtomicBlockRange range;
   };
 
-  explicit Shared(int threads) : shares(std::make_unique<Share[]>(threads)), count(threads) {}
+  explicit Shared(int threads) : thread_blocks(std::make_unique<ThreadBlocks[]>(threads)), count(threads) {}
 
-  // Runs blocks of the loop until all are claimed.
-  void take_part(int own) {
+  // Runs blocks of the loop until all are claimed, first those of the thread `own`.
+  void run_claimed(int own) {
     int finished = 0;
     for (int i = 0; i < count; ++i) {
-      Claims& claims = shares[(own + i) % count].claims;
-      for (int block = claims.claim(); block >= 0; block = claims.claim()) {
+      AtomicBlockRange& range = thread_blocks[(own + i) % count].range;
+      for (int block = range.claim(); block >= 0; block = range.claim()) {
         run_block(block);
         ++finished;
       }
@@ -104,39 +104,39 @@ struct Crew::Shared {
 
   void run_block(int block) {
     try {
-      run(data, crew->place(block, blocks));
+      run(data, scheduler->block_at(block, blocks));
     } catch (...) {
-      const MutexLock lock(failing);
-      const int place = crew->place(block, blocks);
-      if (failure != nullptr && failed_block < place) return;
+      const MutexLock lock(failure_mutex);
+      const int index = scheduler->block_at(block, blocks);
+      if (failure != nullptr && failed_block < index) return;
       failure = std::current_exception();
-      failed_block = place;
+      failed_block = index;
     }
   }
 
   // The task of another thread.
-  void join_as_caller_computes(int own) {
-    const Computing computing(environment);
+  void join_with_callers_fenv(int own) {
+    const FenvGuard guard(environment);
     join(own);
   }
 
   // Runs the session if this is the first thread to arrive; otherwise takes part in its loops.
   void join(int own) {
-    if (!led.exchange(true, std::memory_order_acq_rel)) {
+    if (!has_leader.exchange(true, std::memory_order_acq_rel)) {
       leader = own;
       try {
         body(body_data);
       } catch (...) {
         body_failure = std::current_exception();
       }
-      closed.store(true, std::memory_order_release);
+      ended.store(true, std::memory_order_release);
       next_loop();
       return;
     }
     for (;;) {
       const int seen = loop.load(std::memory_order_acquire);
-      take_part(own);
-      if (closed.load(std::memory_order_acquire)) return;
+      run_claimed(own);
+      if (ended.load(std::memory_order_acquire)) return;
       wait_for_change(loop, seen);
     }
   }
@@ -146,8 +146,8 @@ struct Crew::Shared {
     loop.notify_all();
   }
 
-  const Crew* crew = nullptr;
-  std::unique_ptr<Share[]> shares;
+  const LoopScheduler* scheduler = nullptr;
+  std::unique_ptr<ThreadBlocks[]> thread_blocks;
   int count;  ///< of threads
   std::optional<ThreadPool> pool;
   TaskSystem tasks;
@@ -159,24 +159,24 @@ struct Crew::Shared {
   std::exception_ptr body_failure;
   std::fenv_t environment{};  ///< the environment in which the calling thread computes
   int leader = 0;
-  std::atomic<bool> led{false}, closed{false};
+  std::atomic<bool> has_leader{false}, ended{false};
   alignas(64) std::atomic<int> loop{0};  ///< changes with each loop, and at the end
 
   // The loop, valid while a block of it is claimed.
   void (*run)(void*, int) = nullptr;
   void* data = nullptr;
   int blocks = 0;
-  Mutex failing;
+  Mutex failure_mutex;
   std::exception_ptr failure;
   int failed_block = 0;
   alignas(64) std::atomic<int> done{0};  ///< blocks
 };
 
-void Crew::renew(int threads, const TaskSystem& tasks) {
+void LoopScheduler::restart(int threads, const TaskSystem& tasks) {
   std::unique_ptr<Shared> shared;
   if (threads > 1) {
     shared = std::make_unique<Shared>(threads);
-    shared->crew = this, shared->tasks = tasks;
+    shared->scheduler = this, shared->tasks = tasks;
     if (tasks.start == nullptr) {
       shared->pool.emplace(threads - 1);
       shared->tasks = shared->pool->tasks();
@@ -186,16 +186,16 @@ void Crew::renew(int threads, const TaskSystem& tasks) {
   threads_ = threads, tasks_ = tasks;
 }
 
-bool Crew::in_session() const { return shared_ != nullptr && shared_->open; }
+bool LoopScheduler::in_session() const { return shared_ != nullptr && shared_->open; }
 
-void Crew::open(void (*body)(void*), void* data) {
+void LoopScheduler::run_session(void (*body)(void*), void* data) {
   Shared& s = *shared_;
   s.body = body, s.body_data = data, s.body_failure = nullptr;
-  s.led.store(false, std::memory_order_relaxed), s.closed.store(false, std::memory_order_relaxed);
+  s.has_leader.store(false, std::memory_order_relaxed), s.ended.store(false, std::memory_order_relaxed);
   std::fegetenv(&s.environment);
   s.open = true;
   void* const started = s.tasks.start(
-      s.tasks.user, [](void* all, int item) { static_cast<Shared*>(all)->join_as_caller_computes(item + 1); },
+      s.tasks.user, [](void* all, int item) { static_cast<Shared*>(all)->join_with_callers_fenv(item + 1); },
       &s, threads_ - 1);
   s.join(0);
   s.tasks.finish(s.tasks.user, started);
@@ -203,20 +203,20 @@ void Crew::open(void (*body)(void*), void* data) {
   if (s.body_failure != nullptr) std::rethrow_exception(std::exchange(s.body_failure, nullptr));
 }
 
-void Crew::share(int count, void (*run)(void*, int), void* data) {
+void LoopScheduler::run_shared(int count, void (*run)(void*, int), void* data) {
   Shared& s = *shared_;
   s.run = run, s.data = data, s.blocks = count;
   s.done.store(0, std::memory_order_relaxed);
   for (int i = 0; i < threads_; ++i) {
-    const auto bound = [&](int share) {
-      return static_cast<std::uint32_t>(static_cast<long long>(count) * share / threads_);
+    const auto bound = [&](int thread) {
+      return static_cast<std::uint32_t>(static_cast<long long>(count) * thread / threads_);
     };
-    s.shares[i].claims.publish(bound(i), bound(i + 1));
+    s.thread_blocks[i].range.publish(bound(i), bound(i + 1));
   }
   s.next_loop();
-  s.take_part(s.leader);
-  for (int looks = 0; s.done.load(std::memory_order_acquire) != count; ++looks) {
-    if (looks < kLooksAtLast) {
+  s.run_claimed(s.leader);
+  for (int spins = 0; s.done.load(std::memory_order_acquire) != count; ++spins) {
+    if (spins < kMaxSpins) {
       pause();
     } else {
       std::this_thread::yield();
@@ -227,7 +227,7 @@ void Crew::share(int count, void (*run)(void*, int), void* data) {
 
 #endif
 
-Crew::Crew() = default;
-Crew::~Crew() = default;
+LoopScheduler::LoopScheduler() = default;
+LoopScheduler::~LoopScheduler() = default;
 
 }  // namespace plumb
