@@ -109,7 +109,7 @@ template <class Number, class Real, class Pair, class Contact, class Mask>
   const Number by_both =
       k_p * (c.inverse_pp * k_p + c.inverse_pq * k_q) + k_q * (c.inverse_pq * k_p + c.inverse_qq * k_q);
   const Number by_p = k_p * k_p * c.mass[0], by_q = k_q * k_q * c.mass[1];
-  // What is left is at least the mobility along t without rotation: for two points close together the inverse
+  // The rest is at least the mobility along t without rotation: for two points close together the inverse
   // is dominated by rounding.
   constexpr Real kMinFraction = Real(1) / 64;
   const Number linear_fraction = c.tangent_mass * (pair.a.inverse_mass + pair.b.inverse_mass);
