@@ -237,8 +237,8 @@ void store(WorldData<Real>& w, std::span<const ArticulatedLink> tree, Vec2<Real>
     SolverBody<Real>& motion = w.motion[link.body];
     motion.velocity = link.velocity.template as<Real>();
     motion.angular_velocity = static_cast<Real>(link.spin);
-    motion.delta_position = link.moved.template as<Real>();
-    motion.delta_angle = static_cast<Real>(link.turned);
+    motion.delta_position = link.delta_position.template as<Real>();
+    motion.delta_angle = static_cast<Real>(link.delta_angle);
     w.rotation[link.body] = {static_cast<Real>(link.rotation.c), static_cast<Real>(link.rotation.s)};
   }
 }
