@@ -263,8 +263,9 @@ void BasicWorld<Real>::on_pre_solve(std::function<bool(const ContactReading&)> h
   }
   // The data outlive the hook, and stay in place when the world is moved.
   WorldData<Real>* w = &*data_;
-  data_->pre_solve = [w, hook = std::move(hook)](int contact, ContactConstraint<Real>& constraint) {
-    return hook(reading_of(*w, w->contacts[contact], constraint));
+  data_->pre_solve = [w, hook = std::move(hook)](const ContactRecord& contact,
+                                                 const ContactConstraint<Real>& constraint) {
+    return hook(reading_of(*w, contact, constraint));
   };
 }
 

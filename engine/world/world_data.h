@@ -451,15 +451,19 @@ struct WorldData {
                                  ///< or a body woke or fell asleep
   Scratch<Real> scratch;
 
-  /// Called for contacts of shapes with `pre_solve` after their manifold was computed; false disables one in
-  /// this step.
-  std::function<bool(int contact, ContactConstraint<Real>& constraint)> pre_solve;
+  /// Called for contacts of shapes with `pre_solve` after their manifold was computed, and for impacts found
+  /// by continuous collision alone; false disables one in this step.
+  std::function<bool(const ContactRecord& contact, const ContactConstraint<Real>& constraint)> pre_solve;
 
   /// Called for pairs of shapes whose fat AABBs begin to overlap; false: no contact.
   std::function<bool(int shape_a, int shape_b)> filter;
 
   /// The user's own combine rules, instead of those of the settings.
   CombineFunction friction_rule = nullptr, restitution_rule = nullptr;
+
+  /// Shapes whose contact the pre-solve hook has disabled in this step, and shapes for whose impact
+  /// continuous collision has called it without that. Scratch data of a step.
+  PairSet disabled_pairs, enabled_pairs;
 
   /// Returns true if the user's own code computes coefficients; only the calling thread may call that code.
   bool has_rules() const { return friction_rule != nullptr || restitution_rule != nullptr; }

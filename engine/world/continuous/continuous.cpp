@@ -6,6 +6,8 @@
 
 #include "engine/core/capacity.h"
 #include "engine/geometry/convex_bounds.h"
+#include "engine/world/continuous/common_motion.h"
+#include "engine/world/continuous/impact_hook.h"
 #include "engine/world/continuous/joined_stops.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bodies.h"
@@ -93,8 +95,7 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
   for (const auto& [shape, other] : pairs) {
     const int other_index = w.scratch.swept_index_of[w.shapes[other].body];
     const SweptBody& other_swept = w.scratch.swept_bodies[other_index];
-    if (other_swept.stopped || have_same_pusher(w, swept, other_swept.body) ||
-        other_swept.pushed_by == swept.body)
+    if (other_swept.stopped || move_as_one(w, swept, other_swept.body) || other_swept.pushed_by == swept.body)
       continue;
     // A kinematic body is not stopped, but pushes this one along.
     const bool pushes = !w.is_dynamic(other_swept.body);
@@ -185,8 +186,44 @@ bool lift(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
   return true;
 }
 
+// Maximum number of bodies that move together. Each one that is added has all of them searched again, so that
+// a crushed heap costs at most this many searches per body; beyond it, bodies are stopped.
+constexpr std::size_t kMaxGroup = 32;
+
+// Lets two dynamic bodies in contact, whose inner cores meet, move on as one, with all bodies connected to
+// them by joints and those that already move with them. Stopping them would take away the motion that they
+// have in common, in each step anew if they begin it that deep in each other. Returns false if they may not.
+template <class Real>
+bool continue_together(WorldData<Real>& w, const ToiEvent& next, int other_index, ImpactSearch& search) {
+  if (other_index == kNone || constraint_between(w, next.shape, next.other) == nullptr) return false;
+  std::vector<int>& members = w.scratch.stopped;
+  members.clear();
+  const auto add = [&](int index) {
+    if (members.size() <= kMaxGroup && std::find(members.begin(), members.end(), index) == members.end())
+      append(members, index);
+  };
+  for (const int index : {next.swept_body, other_index}) {
+    const int group = w.scratch.swept_bodies[index].group;
+    if (group == kNone) {
+      for_each_jointed(w, index, search.dt, add);
+      continue;
+    }
+    const int count = static_cast<int>(w.scratch.swept_bodies.size());
+    for (int i = 0; i < count; ++i)
+      if (w.scratch.swept_bodies[i].group == group) add(i);
+  }
+  if (members.size() > kMaxGroup || !may_move_together(w, members)) return false;
+  move_together(w, members, next.fraction);
+  for (const int index : members) insert_swept_aabb(w, w.scratch.swept_bodies[index]);
+  for (const int index : members) {
+    schedule_toi_event(w, index, next.fraction, search);
+    schedule_others_toi_events(w, index, next.fraction, search);
+  }
+  return true;
+}
+
 // Processes the next event. A stale one, of a body whose motion has changed since it was found, is dropped or
-// searched again.
+// searched again; so is one that the pre-solve hook disables.
 template <class Real>
 void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
@@ -194,7 +231,8 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
   const int other_body = w.shapes[next.other].body;
   SweptBody* other = moving_swept_body(w, other_body, search.dt);
   SweptBody& swept = swept_bodies[next.swept_body];
-  if (other != nullptr && other->version != next.other_version) {
+  if ((other != nullptr && other->version != next.other_version) ||
+      is_disabled_impact(w, swept, next.shape, other, next.other, next.fraction)) {
     schedule_toi_event(w, next.swept_body, next.fraction, search);
     return;
   }
@@ -224,6 +262,7 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
     return;
   }
   if (lift(w, next, search)) return;
+  if (continue_together(w, next, other_index, search)) return;
   const int pushed_by = swept.pushed_by;
   if (pushed_by != kNone && other != nullptr && !by_kinematic && other->pushed_by == kNone &&
       !other->squeezed) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/geometry/aabb.h"
+#include "engine/world/continuous/impact_hook.h"
 #include "engine/world/continuous/swept_boxes.h"
 #include "engine/world/continuous/swept_pair.h"
 #include "engine/world/state/constants.h"
@@ -83,6 +84,7 @@ const ContactConstraint<Real>* constraint_between(const WorldData<Real>& w, int 
 template <class Real>
 void update_earliest_impact(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
                             ToiEvent& first) {
+  if (is_disabled_pair(w, pair.shape, pair.other)) return;
   const double fraction = fraction_of_impact(w, path, pair);
   if (fraction < first.fraction)
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;
@@ -108,13 +110,15 @@ void find_impact_in_contacts(const WorldData<Real>& w, const SweptBody& swept, d
   });
 }
 
-/// Returns true if the same kinematic body pushes both, or one is the pusher.
+/// Returns true if two bodies move as one: in the same group, pushed by the same kinematic body, or one by
+/// the other.
 template <class Real>
-bool have_same_pusher(const WorldData<Real>& w, const SweptBody& swept, int other) {
-  if (swept.pushed_by == kNone) return false;
+bool move_as_one(const WorldData<Real>& w, const SweptBody& swept, int other) {
+  if (swept.pushed_by == kNone && swept.group == kNone) return false;
   if (swept.pushed_by == other) return true;
   const SweptBody* other_swept = find_swept_body(w, other);
-  return other_swept != nullptr && other_swept->pushed_by == swept.pushed_by;
+  return other_swept != nullptr && other_swept->pushed_by == swept.pushed_by &&
+         other_swept->group == swept.group;
 }
 
 /// Finds the first impact by queries of the trees, because there are no contacts along a path that an impact
@@ -123,7 +127,8 @@ template <class Real>
 void find_impact_in_trees(const WorldData<Real>& w, const SweptPath& path, ToiEvent& first) {
   const int body = path.swept.body;
   const bool as_solved = !path.swept.changed;
-  const bool in_contact = as_solved || (path.swept.lifts > 0 && path.swept.impacts == 0);
+  const bool in_contact =
+      as_solved || path.swept.group != kNone || (path.swept.lifts > 0 && path.swept.impacts == 0);
   const Aabb<Real> swept_aabb = swept_aabb_of(w, path.swept);
   const RelativeMotionTest<Real> motion_test(w, body);
   const SweptAabbTest<Real> aabb_test(w, path.swept, path.search.dt);
@@ -132,7 +137,7 @@ void find_impact_in_trees(const WorldData<Real>& w, const SweptPath& path, ToiEv
     if (w.forms[shape].sensor || mask == 0) continue;
     const auto visit = [&](int other, int) {
       const int other_body = w.shapes[other].body;
-      if (!may_create_contact(w, shape, other) || have_same_pusher(w, path.swept, other_body)) return true;
+      if (!may_create_contact(w, shape, other) || move_as_one(w, path.swept, other_body)) return true;
       if (as_solved && !path.swept.expected && !motion_test.may_be_blocked_by(other_body)) return true;
       if (aabb_test.cannot_collide(shape, other)) return true;
       const auto* const contact = in_contact ? constraint_between(w, shape, other) : nullptr;

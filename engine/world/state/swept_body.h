@@ -21,6 +21,7 @@ struct SweptBody {
   int lifts = 0;                 ///< times it was lifted off a surface that it rests on
   int version = 0;               ///< counts changes of the trajectory
   int pushed_by = -1;            ///< kinematic body that it moves with until the step's end; -1: none
+  int group = -1;                ///< swept bodies with the same one move together (common_motion.h); -1: none
 
   Vec2d step_start{};  ///< m, centre of mass at the step's start
   double from = 0;     ///< fraction of the step
@@ -124,7 +125,7 @@ struct SweptBody {
     const Rotation<double> new_rotation = rotation_at(fraction);
     delta_angle_before += elapsed_fraction(fraction) * delta_angle;
     start = new_start, rotation = new_rotation, from = fraction;
-    changed = true;
+    changed = true, group = -1;
     ++version;
   }
 };

@@ -138,13 +138,22 @@ void invalidate_all(WorldData<Real>& w) {
   }
 }
 
+// Calls the user's pre-solve hook for a contact. Returns false if the hook disables it in this step.
+template <class Real>
+bool passes_pre_solve_hook(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  const ContactRecord& contact = w.contacts[c.contact];
+  if (w.pre_solve(contact, c)) return true;
+  w.disabled_pairs.insert(contact.shape_a, contact.shape_b);
+  return false;
+}
+
 // Calls the user's pre-solve hook for contacts with new points, on the calling thread and in their order.
 template <class Real>
 void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
   if (!w.pre_solve) return;
   w.scratch.begun_contacts.for_each([&](BegunContact<Real>& begun) {
     if (!begun.needs_pre_solve) return;
-    begun.disabled = !w.pre_solve(begun.constraint.contact, begun.constraint);
+    begun.disabled = !passes_pre_solve_hook(w, begun.constraint);
     if (!begun.disabled) begun.bounces = begin_contact_step(w, begun.constraint, dt);
   });
   for (const ContactRun<Real>& run : w.scratch.contact_runs) {
@@ -152,7 +161,7 @@ void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
       std::uint8_t& change = w.scratch.contact_changes[run.first_index + i];
       if ((change & kNeedsPreSolve) == 0) continue;
       ContactConstraint<Real>& c = run.first[i];
-      if (!w.pre_solve(c.contact, c)) {
+      if (!passes_pre_solve_hook(w, c)) {
         change |= kEnded;
       } else if (begin_contact_step(w, c, dt)) {
         change |= kBounces;
@@ -243,6 +252,8 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   scratch.separated_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
   scratch.bounce_candidates.clear(), scratch.bounced_contacts.clear(), scratch.woken_contacts.clear();
   clear_expected_impacts(w);
+  if (w.disabled_pairs.size() > 0) w.disabled_pairs.clear();
+  if (w.enabled_pairs.size() > 0) w.enabled_pairs.clear();
   if (w.nontouching_contacts.empty() && w.graph.empty()) return;
   try {
     update_each(w, dt, h);

@@ -147,7 +147,13 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     clock.end(WorldStage::Finalize);
     {
       const LoopScheduler::SerialGuard serial(w.scheduler, w.calls_user_code());
-      w.scheduler.session([&] { solve_continuous(w, static_cast<Real>(dt)); });
+      const auto solve = [&] { solve_continuous(w, static_cast<Real>(dt)); };
+      // The pre-solve hook is called between loops, on the calling thread; each loop has its own session.
+      if (w.pre_solve) {
+        solve();
+      } else {
+        w.scheduler.session(solve);
+      }
     }
     clock.end(WorldStage::Continuous);
   } catch (...) {

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "tests/world/support.h"
+
+/// What continuous collision must not stop: bodies that the pre-solve hook lets pass, and the common motion
+/// of bodies that are inside each other.
+namespace plumb {
+namespace {
+
+template <class Real>
+class PassingThrough : public testing::Test {};
+using Precisions = testing::Types<float, double>;
+TYPED_TEST_SUITE(PassingThrough, Precisions);
+
+TYPED_TEST(PassingThrough, AHookThatAnswersFalseStopsNoFastBody) {
+  for (const double speed : {1.6, 2.0, 5.0, 20.0, 200.0}) {
+    for (const BodyType type : {BodyType::Static, BodyType::Kinematic, BodyType::Dynamic}) {
+      BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+      world.create_body({.type = type}, ShapeDefinition{.geometry = Box{60, 0.1}, .pre_solve = true});
+      const BodyId disc = world.create_body({.position = {0, -1.03}, .velocity = {0, speed}},
+                                            ShapeDefinition{.geometry = Circle{0.05}});
+      world.on_pre_solve([](const ContactReading&) { return false; });
+      const int steps = static_cast<int>(3 / speed * 60) + 2;
+      run(world, steps);
+      EXPECT_NEAR(world.position(disc).y, -1.03 + speed * steps / 60, 1e-4 * (1 + speed)) << speed;
+      EXPECT_EQ(world.velocity(disc).y, TypeParam(speed)) << speed;
+    }
+  }
+}
+
+// A step moves the disc by 1/3 m, so that it has no contact before the step of its impact.
+TYPED_TEST(PassingThrough, AnImpactFoundWithinAStepIsAskedAboutAtItsPose) {
+  BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+  world.create_body({.type = BodyType::Static},
+                    ShapeDefinition{.geometry = Box{60, 0.01}, .pre_solve = true});
+  world.create_body({.position = {3, -1.1}, .velocity = {0, 20}}, ShapeDefinition{.geometry = Circle{0.05}});
+  int calls = 0;
+  world.on_pre_solve([&](const ContactReading& contact) {
+    ++calls;
+    EXPECT_EQ(contact.count, 1);
+    EXPECT_NEAR(std::abs(contact.normal.y), 1, 1e-6);
+    EXPECT_NEAR(contact.separations[0], 0, 2e-4);  // stops are at kImpactTolerance times the radius
+    EXPECT_NEAR(contact.points[0].x, 3, 1e-6);
+    EXPECT_NEAR(contact.points[0].y, -0.005, 2e-4);
+    EXPECT_NEAR(contact.approach, -20, 1e-5);
+    return false;
+  });
+  run(world, 4);
+  EXPECT_EQ(calls, 1);
+}
+
+TYPED_TEST(PassingThrough, AOneWayPlatformLetsSmallJumpersRiseToTheirFullHeight) {
+  for (const double radius : {0.5, 0.2, 0.1}) {
+    for (const double jump : {7.0, 9.0, 12.0}) {
+      BasicWorld<TypeParam> world({.sleeping = false});
+      const BodyId scenery = world.create_body({.type = BodyType::Static});
+      world.create_shape(scenery, {.geometry = Box{40, 2}, .position = {0, -1}});
+      const ShapeId platform =
+          world.create_shape(scenery, {.geometry = Box{4, 0.2}, .position = {0, 2}, .pre_solve = true});
+      const BodyId player =
+          world.create_body({.position = {0, radius}, .velocity = {0, jump}}, {.geometry = Circle{radius}});
+      world.on_pre_solve([&](const ContactReading& contact) {
+        const double up = contact.shape_a == platform ? contact.normal.y : -contact.normal.y;
+        return up > 0.5 && world.velocity(player).y <= 0.01;
+      });
+      double top = 0;
+      for (int i = 0; i < 180; ++i) {
+        world.step();
+        top = std::max(top, world.position(player).y);
+      }
+      // Between two steps it rises by at most g dt^2 / 8 above the higher one.
+      EXPECT_NEAR(top, radius + jump * jump / (2 * kGravity), 1e-3) << radius << " " << jump;
+      EXPECT_NEAR(world.position(player).y, 2.1 + radius, 1e-3) << radius << " " << jump;
+    }
+  }
+}
+
+// A ball that lands faster than its contact can see must still be held from above.
+TYPED_TEST(PassingThrough, AHookThatAnswersTrueHoldsFastBodies) {
+  for (const double speed : {5.0, 50.0, 500.0}) {
+    BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+    world.create_body({.type = BodyType::Static},
+                      ShapeDefinition{.geometry = Box{60, 0.01}, .pre_solve = true});
+    const BodyId disc = world.create_body({.position = {0, 2.03}, .velocity = {0, -speed}},
+                                          ShapeDefinition{.geometry = Circle{0.05}});
+    world.on_pre_solve([](const ContactReading&) { return true; });
+    run(world, 120);
+    EXPECT_NEAR(world.position(disc).y, 0.055, 1e-3) << speed;
+  }
+}
+
+TYPED_TEST(PassingThrough, TheHookIsCalledOnTheCallingThread) {
+  const auto hash_with = [](int threads) {
+    BasicWorld<TypeParam> world({.sleeping = false, .threads = threads});
+    world.create_body({.type = BodyType::Static},
+                      ShapeDefinition{.geometry = Box{900, 0.05}, .pre_solve = true});
+    for (int i = 0; i < 400; ++i)
+      world.create_body({.position = {0.5 * i - 100, 1 + 0.01 * i}, .velocity = {0, -20 - 0.1 * i}},
+                        ShapeDefinition{.geometry = Circle{0.1}});
+    const std::thread::id caller = std::this_thread::get_id();
+    world.on_pre_solve([&](const ContactReading& contact) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      return std::fmod(contact.points[0].x + 100, 2) < 1;
+    });
+    run(world, 60);
+    return world.hash();
+  };
+  EXPECT_EQ(hash_with(1), hash_with(2));
+}
+
+Polygon pentagon() { return {{{-0.5, -0.5}, {0.5, -0.5}, {0.7, 0}, {0, 0.6}, {-0.7, 0}}}; }
+
+template <class Real>
+Vec2d common_centre(const BasicWorld<Real>& world, const std::vector<BodyId>& bodies) {
+  double mass = 0;
+  Vec2d sum{};
+  for (const BodyId body : bodies) mass += world.mass(body), sum += world.mass(body) * world.centre(body);
+  return (1 / mass) * sum;
+}
+
+// In steps of dt velocities gain g dt before positions move: within g t dt / 2 of g t^2 / 2.
+TYPED_TEST(PassingThrough, BodiesCreatedInsideEachOtherFallTogether) {
+  BasicWorld<TypeParam> world;
+  const std::vector<BodyId> pair{world.create_body({}, ShapeDefinition{.geometry = Circle{0.5}}),
+                                 world.create_body({}, ShapeDefinition{.geometry = pentagon()})};
+  const double start = common_centre(world, pair).y;
+  run(world, 120);
+  EXPECT_NEAR(common_centre(world, pair).y - start, -kGravity * 4 / 2, kGravity * 2 / 120);
+}
+
+TYPED_TEST(PassingThrough, BodiesInsideEachOtherKeepTheirCommonMotion) {
+  for (const double speed : {0.1, 1.0, 10.0, 100.0}) {
+    for (const double angle : {0.0, 0.3}) {
+      BasicWorld<TypeParam> world({.gravity = {0, 0}});
+      const ShapeDefinition shape{.geometry = pentagon()};
+      const std::vector<BodyId> pair{
+          world.create_body({.velocity = {speed, 0}}, shape),
+          world.create_body({.position = {-0.024, -0.11}, .angle = -1.476 - angle, .velocity = {speed, 0}},
+                            shape)};
+      const Vec2d start = common_centre(world, pair);
+      run(world, 120);
+      const Vec2d moved = common_centre(world, pair) - start;
+      EXPECT_NEAR(moved.x, 2 * speed, 1e-3 * (1 + speed));
+      EXPECT_NEAR(moved.y, 0, 1e-3 * (1 + speed));
+    }
+  }
+}
+
+TYPED_TEST(PassingThrough, JoinedBodiesInsideEachOtherFallFreely) {
+  BasicWorld<TypeParam> world;
+  const std::vector<BodyId> pair{world.create_body({}, ShapeDefinition{.geometry = Circle{0.5}}),
+                                 world.create_body({}, ShapeDefinition{.geometry = pentagon()})};
+  world.create_joint(pair[0], pair[1], {.kind = RevoluteDefinition{}, .collide = true});
+  const double start = common_centre(world, pair).y;
+  run(world, 60);
+  EXPECT_NEAR(common_centre(world, pair).y - start, -kGravity / 2, kGravity / 60);
+}
+
+}  // namespace
+}  // namespace plumb
