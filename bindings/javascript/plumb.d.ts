@@ -246,7 +246,7 @@ export interface Events {
   sensorBegin: {sensor: Shape; visitor: Shape}[];
   sensorEnd: {sensor: Shape; visitor: Shape}[];
   broken: Joint[];
-  /** N, N m: reactions over the last substep */
+  /** N, N m: mean reactions over the last step */
   loaded: {joint: Joint; force: number; torque: number}[];
   fellAsleep: Body[];
   woke: Body[];

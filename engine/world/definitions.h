@@ -86,7 +86,7 @@ struct BodyDefinition {
 struct JointDefinition {
   JointKind kind = RevoluteDefinition{};
   bool collide = false;     ///< the joined bodies may collide
-  double break_force = 0;   ///< N, 0: never
+  double break_force = 0;   ///< N, mean of a step; 0: never
   double break_torque = 0;  ///< N m, 0: never
   std::uint64_t user_data = 0;
   double report_force = 0;   ///< N, load above which an event is raised in each step; 0: never

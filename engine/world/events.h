@@ -34,7 +34,7 @@ struct JointEvent {
 /// The load of a joint exceeded its report threshold.
 struct JointLoadEvent {
   JointId joint{};
-  double force = 0, torque = 0;  ///< N, N m: reaction over the last substep
+  double force = 0, torque = 0;  ///< N, N m: mean reaction over the step
 };
 
 /// Quantity of a body that was not finite or exceeded 1e12. `None`: the program disabled the body.

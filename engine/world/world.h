@@ -25,7 +25,7 @@ struct WorldData;
 
 /// Measurements of a joint.
 struct JointReading {
-  double force = 0, torque = 0;                ///< N, N m: reaction over the last substep
+  double force = 0, torque = 0;                ///< N, N m: mean reaction over the last step
   double linear_error = 0, angular_error = 0;  ///< m, rad: position error of the rigid rows
   double angle = 0;                            ///< rad, of b relative to a, from the reference angle
   double translation = 0;                      ///< m, along the axis (prismatic, wheel)

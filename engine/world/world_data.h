@@ -307,10 +307,10 @@ struct FeedbackRow {
 /// Articulated bodies that are moved as such; kept until contacts or joints change.
 template <class Real>
 struct HingeTrees {
-  std::vector<ArticulatedLink> links;  ///< tree by tree, parents first
-  std::vector<Vec2<Real>*> impulses;   ///< of the links' hinges, in the joint set; the roots have none
-  std::vector<int> offsets;            ///< first link (root) of each tree, and the end
-  std::vector<char> is_link;           ///< by body: it is a link
+  std::vector<ArticulatedLink> links;       ///< tree by tree, parents first
+  std::vector<HingeResults<Real>> results;  ///< of the links' hinges, in the joint set; the roots have none
+  std::vector<int> offsets;                 ///< first link (root) of each tree, and the end
+  std::vector<char> is_link;                ///< by body: it is a link
   int hinge_count = 0;
 
   bool empty() const { return hinge_count == 0; }

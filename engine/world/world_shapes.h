@@ -208,7 +208,6 @@ template <class Real>
 JointReading BasicWorld<Real>::read(JointId joint) const {
   WorldData<Real>& w = *data_;
   const int slot = w.joints[index_of(joint)].slot;
-  const Real rate = w.last_h > 0 ? static_cast<Real>(1 / w.last_h) : Real(0);
   // The positions already include the motion of the last step.
   SolverBodies<Real> bodies = w.solver_bodies();
   const auto [a, b] = w.joint_set.bodies(slot);
@@ -216,8 +215,8 @@ JointReading BasicWorld<Real>::read(JointId joint) const {
   for (const int body : {a, b}) w.motion[body].delta_position = {}, w.motion[body].delta_angle = 0;
   const JointError<Real> error = w.joint_set.error(slot, bodies);
   JointReading reading;
-  reading.force = static_cast<double>(w.joint_set.force(slot, rate));
-  reading.torque = static_cast<double>(w.joint_set.torque(slot, rate));
+  reading.force = static_cast<double>(w.joint_set.force(slot));
+  reading.torque = static_cast<double>(w.joint_set.torque(slot));
   reading.linear_error = static_cast<double>(error.linear);
   reading.angular_error = static_cast<double>(error.angular);
   const auto is = [&]<class... Kinds>() {

@@ -326,6 +326,19 @@ class JointedRound {
     }
   }
 
+  // Adds the impulses of the joints' rows, times `scale`, to their joints.
+  void add_joint_impulses(double scale) {
+    std::size_t next = 0;
+    for (const int part : scratch_.active_joints) {
+      ImpactJoint& joint = scratch_.joints[part];
+      for (int i = 0; i < joint.rows; ++i, ++next) {
+        const BoundedRow& row = system_.rows[next];
+        joint.impulse += (scale * row.impulse) * row.linear_b;
+        joint.moment += scale * row.impulse * (row.angular_b - cross(joint.arm, row.linear_b));
+      }
+    }
+  }
+
   // Solves the rows from the velocities before the round.
   void solve() {
     for (std::size_t i = 0; i < scratch_.links.size(); ++i) {
@@ -355,6 +368,7 @@ class JointedRound {
       read_impulses(first);
     }
     const Real scale = energy_scale(work_before<Real>(points_), work_after<Real>(motion_, points_));
+    add_joint_impulses(scale);
     if (scale == 1) return;
     for (ImpactPoint<Real>& at : points_) at.impulse *= scale, at.friction *= scale;
     for (const auto& link : scratch_.links) {

@@ -40,6 +40,9 @@ struct ImpactJoint {
   int first_row = 0, rows = 0;  ///< in `ImpactScratch::rows`
   bool rows_ready = false;      ///< its rows are those of the present substep
   int next = -1;                ///< joint of the same group, in `ImpactScratch::joints`
+  Vec2d arm{};                  ///< m, of b's anchor in the present substep
+  Vec2d impulse{};              ///< N s, on b, in the impacts of the step
+  double moment = 0;            ///< N m s, of it about b's anchor
 };
 
 /// Scratch memory of `propagate_impacts`, kept to avoid allocations. A group is a set of bodies connected by

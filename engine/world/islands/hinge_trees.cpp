@@ -97,7 +97,7 @@ class TreeBuilder {
     ArticulatedLink link;
     link.body = root;
     link.is_dynamic = w_.is_dynamic(root);
-    add(link, nullptr);
+    add(link, {});
     if (link.is_dynamic) {
       link_index_[root] = 0;
     } else {
@@ -117,9 +117,9 @@ class TreeBuilder {
   }
 
  private:
-  void add(const ArticulatedLink& link, Vec2<Real>* impulse) {
+  void add(const ArticulatedLink& link, const HingeResults<Real>& results) {
     trees_.links.push_back(link);
-    trees_.impulses.push_back(impulse);
+    trees_.results.push_back(results);
     if (link.is_dynamic) trees_.is_link[link.body] = 1;
   }
 
@@ -137,7 +137,7 @@ class TreeBuilder {
     link.parent_anchor = at_b ? hinge.anchor_a : hinge.anchor_b;
     link_index_[body] = static_cast<int>(trees_.links.size()) - first_;
     ++trees_.hinge_count;
-    add(link, hinge.impulse);
+    add(link, hinge.results);
   }
 
   // Computes the lengths of the last tree's links.
@@ -199,7 +199,7 @@ void load_body(const WorldData<Real>& w, ArticulatedLink& link) {
 }
 
 template <class Real>
-void load_hinges(WorldData<Real>& w, std::span<ArticulatedLink> tree, Vec2<Real>* const* impulses,
+void load_hinges(WorldData<Real>& w, std::span<ArticulatedLink> tree, const HingeResults<Real>* results,
                  double scale) {
   for (std::size_t i = 0; i < tree.size(); ++i) {
     ArticulatedLink& link = tree[i];
@@ -207,7 +207,7 @@ void load_hinges(WorldData<Real>& w, std::span<ArticulatedLink> tree, Vec2<Real>
     const ArticulatedLink& parent = tree[link.parent];
     link.gap = (w.position[link.body] - w.position[parent.body]) - parent.rotation * link.parent_anchor +
                link.rotation * link.anchor;
-    link.impulse = (scale * link.sign) * impulses[i]->template as<double>();
+    link.impulse = (scale * link.sign) * results[i].impulse->template as<double>();
   }
 }
 
@@ -229,10 +229,14 @@ void load_increments(WorldData<Real>& w) {
 }
 
 template <class Real>
-void store(WorldData<Real>& w, std::span<const ArticulatedLink> tree, Vec2<Real>* const* impulses) {
+void store(WorldData<Real>& w, std::span<const ArticulatedLink> tree, const HingeResults<Real>* results,
+           double inverse_dt) {
   for (std::size_t i = 0; i < tree.size(); ++i) {
     const ArticulatedLink& link = tree[i];
-    if (link.joint >= 0) *impulses[i] = (link.sign * link.impulse).template as<Real>();
+    if (link.joint >= 0) {
+      *results[i].impulse = (link.sign * link.impulse).template as<Real>();
+      *results[i].force = (inverse_dt * link.sign * link.step_impulse).template as<Real>();
+    }
     if (!link.is_dynamic) continue;
     SolverBody<Real>& motion = w.motion[link.body];
     motion.velocity = link.velocity.template as<Real>();
@@ -251,7 +255,7 @@ void find_hinge_trees(WorldData<Real>& w) {
   w.topology_changed = false;
   w.scratch.islands_known = false;
   HingeTrees<Real>& trees = w.scratch.trees;
-  trees.links.clear(), trees.impulses.clear(), trees.offsets.clear();
+  trees.links.clear(), trees.results.clear(), trees.offsets.clear();
   trees.is_link.assign(w.bodies.size(), 0);
   trees.hinge_count = 0;
   w.joint_set.clear_external();
@@ -271,10 +275,10 @@ void move_hinge_trees(WorldData<Real>& w, double h, int substeps) {
   for (std::size_t i = 0; i + 1 < trees.offsets.size(); ++i) {
     const std::span<ArticulatedLink> tree{trees.links.data() + trees.offsets[i],
                                           trees.links.data() + trees.offsets[i + 1]};
-    Vec2<Real>* const* impulses = trees.impulses.data() + trees.offsets[i];
-    load_hinges(w, tree, impulses, warm_start);
+    const HingeResults<Real>* results = trees.results.data() + trees.offsets[i];
+    load_hinges(w, tree, results, warm_start);
     integrate_tree(tree, h, substeps);
-    store<Real>(w, tree, impulses);
+    store<Real>(w, tree, results, 1 / (h * substeps));
   }
 }
 

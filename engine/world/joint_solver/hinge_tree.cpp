@@ -349,7 +349,10 @@ class TreeIntegrator {
     loaded = loaded || result.inertia_raised;
     integrate_positions(tree_, t);
     energy_unchecked_ = energy_unchecked_ || loaded, inertia_raised_ = loaded;
-    for (ArticulatedLink& link : tree_) link.impulse = (1 / force_fraction) * link.accumulated_impulse;
+    for (ArticulatedLink& link : tree_) {
+      link.impulse = (1 / force_fraction) * link.accumulated_impulse;
+      link.step_impulse += link.accumulated_impulse;
+    }
     // A rotating base does work on the tree.
     energy_limit_ += work + fraction * dot(tree_[1].impulse, base_velocity(tree_) - frame_);
     velocity_lag_ = 0.5 * fraction;
@@ -367,8 +370,10 @@ class TreeIntegrator {
     if (energy_unchecked_)
       limit_energy(tree_, frame_, energy_limit_), energy_limit_ = kinetic_energy(tree_, frame_);
     // Half of the impulse acts before the motion, half after.
-    for (ArticulatedLink& link : tree_)
+    for (ArticulatedLink& link : tree_) {
       link.impulse = 0.5 * link.impulse + (0.5 / velocity_lag_) * link.accumulated_impulse;
+      link.step_impulse += link.accumulated_impulse;
+    }
     velocity_lag_ = 0, energy_unchecked_ = inertia_raised_ = false;
   }
 
@@ -390,7 +395,7 @@ class TreeIntegrator {
 void integrate_tree(std::span<ArticulatedLink> tree, double h, int substeps) {
   const int subdivisions = subdivisions_of(tree, h);
   const double fraction = 1.0 / subdivisions;
-  for (ArticulatedLink& link : tree) link.delta_position = {}, link.delta_angle = 0;
+  for (ArticulatedLink& link : tree) link.delta_position = {}, link.delta_angle = 0, link.step_impulse = {};
   update_arms(tree);
   TreeIntegrator integrator(tree, h);
   for (int left = subdivisions * substeps; left > 0; --left) integrator.advance(fraction);

@@ -41,6 +41,7 @@ struct ArticulatedLink {
   Vec2d impulse{};   ///< N s, on the body by its hinge, in a substep
 
   // Results.
+  Vec2d step_impulse{};    ///< N s, on the body by its hinge, in the whole step
   Vec2d delta_position{};  ///< m
   double delta_angle = 0;  ///< rad
 

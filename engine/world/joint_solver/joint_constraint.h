@@ -43,6 +43,8 @@ struct JointConstraint {
   /// A plain revolute joint, which may be left to another solver.
   static constexpr bool kPlainHinge = std::is_same_v<Rows, HingeRows<Real>>;
   static constexpr bool kHasRows = kAxial + kBlock > 0;
+  /// Exerts a torque about b's anchor.
+  static constexpr bool kHasTorque = Rows::kAngular || kHasRows;
   static constexpr bool kSoftPoint = Rows::kPoint && Rows::kSoft;
   static constexpr bool kHasRules = Rows::kAngular || kAxial > 0 || kSoftPoint;
   /// A joint that may have springs.
@@ -62,6 +64,8 @@ struct JointConstraint {
   [[no_unique_address]] If<kPulley, Vec2<Real>, 5> offset_a{};
   [[no_unique_address]] If<kHasRows, Vec2<Real>, 6> arm_b{};
   [[no_unique_address]] If<kPlainHinge, bool, 7> external{};  ///< solved elsewhere
+  Vec2<Real> mean_force{};                                    ///< N, on b: sum of the step's impulses over dt
+  [[no_unique_address]] If<kHasTorque, Real, 9> mean_torque{};  ///< N m, about the end of `arm_b`
   Rows kind{};
   using Angle = std::conditional_t<kIsLanes<Real>, LaneAngles<Real>, JointAngle>;
   [[no_unique_address]] If<kAngle != AngleUse::None, Angle, 0> angle{};
@@ -123,6 +127,7 @@ struct JointConstraint {
   void begin_step(const SolverBodies<Real>& bodies, const Step& step) {
     if constexpr (kPlainHinge)
       if (external) return;
+    clear_load();
     offset = find_offset(bodies, b);
     if constexpr (kPulley) offset_a = find_offset_a(bodies);
     if constexpr (kAngle != AngleUse::None) count_turns(bodies, step.h);
@@ -298,6 +303,7 @@ struct JointConstraint {
                                     const Step& step) {
     evaluate(now, v, step, JointTime::SubstepEnds);
     solve_coordinates(v, step, kRelax, under_relaxation);
+    add_load(step);
   }
 
   /// Returns the pose.
@@ -348,22 +354,33 @@ struct JointConstraint {
     return {at, rows};
   }
 
-  /// Returns the linear impulse on b, and the angular one about the end of `arm_b`.
-  std::pair<Vec2<Real>, Real> reaction() const {
-    Vec2<Real> linear{};
-    Real angular_impulse = 0;
-    if constexpr (Rows::kAngular) angular_impulse += angular.impulse();
-    if constexpr (kHasRows) {
-      const auto count = [&](const JointRow<Real>& row, Real impulse) {
-        linear += impulse * row.linear_b;
-        angular_impulse += impulse * (row.angular_b - cross(arm_b, row.linear_b));
-      };
-      for (const auto& coordinate : axial) count(coordinate.row, coordinate.impulse());
+  /// Adds the impulses of a substep, at its end, to the load of the step.
+  [[gnu::always_inline]] void add_load(const Step& step) {
+    add_load_along(
+        step, [&](const auto& count) __attribute__((always_inline)) {
+          if constexpr (kHasRows) {
+            for (int i = 0; i < kAxial; ++i) count(arm_b, axial[i].row, axial[i].impulse());
+            if constexpr (kBlock > 0)
+              for (int i = 0; i < kBlock; ++i) count(arm_b, block.row[i], block.impulse[i]);
+          }
+        });
+  }
+  /// Does the same along the rows of another pose.
+  void add_load(const Step& step, const JointRows<Real>& at) {
+    add_load_along(step, [&](const auto& count) {
+      for (int i = 0; i < kAxial; ++i) count(at.arm_b, at.axial[i], axial[i].impulse());
       if constexpr (kBlock > 0)
-        for (int i = 0; i < kBlock; ++i) count(block.row[i], block.impulse[i]);
-    }
-    if constexpr (Rows::kPoint) linear += point.impulse;
-    return {linear, angular_impulse};
+        for (int i = 0; i < kBlock; ++i) count(at.arm_b, at.block[i], block.impulse[i]);
+    });
+  }
+  /// Adds an impulse on b, with its moment about b's anchor.
+  void add_impulse(Vec2<Real> impulse, Real moment, const Step& step) {
+    mean_force += step.inverse_dt * impulse;
+    if constexpr (kHasTorque) mean_torque += step.inverse_dt * moment;
+  }
+  void clear_load() {
+    mean_force = {};
+    if constexpr (kHasTorque) mean_torque = 0;
   }
 
   /// Scales all impulses.
@@ -378,6 +395,7 @@ struct JointConstraint {
   /// Clears impulses, counts and rows. A failed step may have left NaNs, which remain NaN when multiplied by
   /// 0, and whose sign depends on how many joints were solved side by side.
   void reset() {
+    clear_load();
     if constexpr (kHasRows) arm_b = {};
     if constexpr (Rows::kAngular) angular.reset();
     for (auto& coordinate : axial) coordinate.reset();
@@ -393,6 +411,7 @@ struct JointConstraint {
   /// Clears impulses but keeps counted turns, because a pose does not contain them.
   void reset_impulses() {
     scale(0);
+    clear_load();
     if constexpr (kRatchet) memory = {};
   }
   /// Sets the bodies' own angles, rad, with their turns, for gears that are not counted yet.
@@ -427,9 +446,28 @@ struct JointConstraint {
       pair(point.point.arm_a, one.point.point.arm_a), pair(point.point.arm_b, one.point.point.arm_b);
     }
     if constexpr (kSoftPoint) pair(point.drift, one.point.drift);
+    pair(mean_force, one.mean_force);
+    if constexpr (kHasTorque) visit(mean_torque, one.mean_torque);
   }
 
  private:
+  /// Adds the impulses to the load: linear, and angular about the end of `arm`. `rows(count)` calls
+  /// `count(arm, row, impulse)` for each axial and block row.
+  template <class RowsOf>
+  [[gnu::always_inline]] void add_load_along(const Step& step, const RowsOf& rows) {
+    Vec2<Real> linear{};
+    Real moment = 0;
+    if constexpr (Rows::kAngular) moment += angular.impulse();
+    rows([&](const Vec2<Real>& arm, const JointRow<Real>& row, Real impulse) __attribute__((always_inline)) {
+      linear += impulse * row.linear_b;
+      moment += impulse * (row.angular_b - cross(arm, row.linear_b));
+    });
+    if constexpr (Rows::kPoint) linear += point.impulse;
+    const Real rate = step.inverse_dt;
+    mean_force.x += rate * linear.x, mean_force.y += rate * linear.y;
+    if constexpr (kHasTorque) mean_torque += rate * moment;
+  }
+
   [[gnu::always_inline]] void solve_angular(JointVelocities<Real>& v, JointPass which) {
     if constexpr (Rows::kAngular) angular.solve(v, which);
   }

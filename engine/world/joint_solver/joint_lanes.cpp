@@ -264,6 +264,7 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         };
         visit_inputs(block.joint, *block.from[0], in_lanes(block.from, load));
         block.joint.under_relaxation = 1;
+        block.joint.clear_load();
         const LanePairs<Number> pairs(block, bodies, true);
         const JointMotion<Number> motion = pairs.motion(bodies);
         // Evaluates twice if the joints are under-relaxed: the factor follows from their rows, and their

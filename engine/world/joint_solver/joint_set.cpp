@@ -43,12 +43,12 @@ void reload(Parts& parts, int joint) {
   });
 }
 
-/// Visits the point impulse of a revolute joint, in either of its forms.
+/// Visits the point impulse and the load of a revolute joint, in either of its forms.
 template <class Parts, class F>
 void hinge_impulse(Parts& parts, int joint, F&& f) {
   parts.at(joint, [&]<class Constraint>(Constraint& constraint) {
     if constexpr (std::is_same_v<typename Constraint::Definition, RevoluteDefinition>)
-      f(constraint.point.impulse);
+      f(constraint.point.impulse, constraint.mean_force);
   });
 }
 
@@ -249,8 +249,9 @@ void JointSet<Real>::change(int joint, const JointKind& definition) {
     reload(p, joint);
     return;
   }
-  Vec2<Real> impulse{};
-  hinge_impulse(p, joint, [&](Vec2<Real>& now) { impulse = now; });
+  Vec2<Real> impulse{}, force{};
+  hinge_impulse(p, joint,
+                [&](const Vec2<Real>& now, const Vec2<Real>& mean) { impulse = now, force = mean; });
   p.mark_colour(s, false);
   try {
     p.reserve_constraint(form_of(definition), s);
@@ -261,7 +262,7 @@ void JointSet<Real>::change(int joint, const JointKind& definition) {
   p.erase_constraint(joint);
   s.definition = definition;
   p.create(joint);
-  hinge_impulse(p, joint, [&](Vec2<Real>& now) { now = impulse; });
+  hinge_impulse(p, joint, [&](Vec2<Real>& now, Vec2<Real>& mean) { now = impulse, mean = force; });
 }
 
 template <class Real>

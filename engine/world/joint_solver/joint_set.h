@@ -22,6 +22,7 @@ template <class Real>
 struct JointStep {
   Real h = 0;                 ///< s, of a substep
   Real inverse_h = 0;         ///< 1/s
+  Real inverse_dt = 0;        ///< 1/s, of the whole step: loads are means over it
   Softness<Real> softness{};  ///< of rigid rows
   /// h (c + h k) times the mobility, above which springs are held like rigid rows: `max_spring_stiffness`.
   Real max_stiffness = std::numeric_limits<Real>::infinity();
@@ -64,11 +65,18 @@ struct JointSolverRow {
       nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
 };
 
+/// Where the caller stores its results for a hinge. Valid until joints are added or removed.
+template <class Real>
+struct HingeResults {
+  Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep
+  Vec2<Real>* force = nullptr;    ///< N, on b, mean of the step
+};
+
 /// A plain revolute joint that the caller solves in the set's place.
 template <class Real>
 struct ExternalHinge {
-  Vec2d anchor_a{}, anchor_b{};   ///< m, from the centres of mass, in the bodies' frames
-  Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep; valid until joints are added or removed
+  Vec2d anchor_a{}, anchor_b{};  ///< m, from the centres of mass, in the bodies' frames
+  HingeResults<Real> results{};
 };
 
 /// All joints of a real-time world, solved by sequential impulses with soft constraints and relaxation ("TGS
@@ -80,6 +88,8 @@ struct ExternalHinge {
 /// Impulses therefore act at the bodies' present positions: joints conserve angular momentum to rounding, and
 /// a pendulum hardly loses energy. Nothing may move between `relax` and the next `warm_start`. None of the
 /// four allocates. Threads share them, colour by colour, with the same bits as one thread.
+/// The load of a joint is the mean over the step: the sum of the impulses of all substeps, divided by dt. An
+/// impulse at the end of a substep is that of the whole substep, because warm starting is part of it.
 template <class Real>
 class JointSet {
  public:
@@ -158,7 +168,7 @@ class JointSet {
   bool find_open(const SolverBodies<Real>& bodies, Real tolerance, std::vector<char>& open,
                  LoopScheduler* scheduler = nullptr);
 
-  // For solvers without relaxation. None of the three allocates.
+  // For solvers without relaxation. None of the four allocates.
   /// Evaluates all rows at the present poses, within a step.
   void evaluate(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
   /// Clears impulses: position-based solvers start each substep without any.
@@ -167,6 +177,18 @@ class JointSet {
   /// each joint in turn. Velocities remain the displacement since the substep's start over h. The rate of
   /// `step.softness` is 1 / h: errors are corrected completely.
   void project(const SolverBodies<Real>& bodies, Rotation<Real>* rotation, const JointStep<Real>& step);
+
+  /// Adds the impulses of a substep to the loads of all active joints. `relax` does this by itself.
+  void add_loads(const JointStep<Real>& step);
+
+  /// Adds the impulses of a substep to the load of a joint that is solved with its island, along its rows at
+  /// the present poses.
+  void add_load(int joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step);
+  /// Adds an impulse on b to a joint's load, N s, with its moment about b's anchor, N m s. Call after
+  /// `finish`.
+  void add_impulse(int joint, Vec2<Real> impulse, Real moment, const JointStep<Real>& step);
+  /// Returns the arm of b's anchor from b's centre of mass at the present poses, m; 0 without an anchor.
+  Vec2<Real> anchor_arm(int joint, const SolverBodies<Real>& bodies) const;
 
   /// Appends the rows of a joint at the present poses.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);
@@ -191,10 +213,10 @@ class JointSet {
   /// Takes back all joints that were left to the caller.
   void clear_external();
 
-  /// Returns the reaction force over the last substep, N: magnitude of the impulse on b, times 1 / h.
-  Real force(int joint, Real inverse_h) const;
-  /// Returns the reaction torque about b's anchor over the last substep, N m.
-  Real torque(int joint, Real inverse_h) const;
+  /// Returns the reaction force of the last step, N: magnitude of the mean force on b.
+  Real force(int joint) const;
+  /// Returns the reaction torque of the last step about b's anchor, N m: magnitude of its mean.
+  Real torque(int joint) const;
 
   /// Returns the error of the rigid rows and the limits at the present poses (`position` + `delta_position`,
   /// with `rotation`). Springs and motors have no error.

@@ -13,7 +13,9 @@ ExternalHinge<Real> JointSet<Real>::set_external(int joint) {
   const auto& definition = std::get<RevoluteDefinition>(slot.definition);
   auto& hinge = std::get<kHinge>(parts_->store)[slot.colour][slot.index];
   hinge.external = true;
-  return {definition.anchor_a - slot.centre_a, definition.anchor_b - slot.centre_b, &hinge.point.impulse};
+  return {definition.anchor_a - slot.centre_a,
+          definition.anchor_b - slot.centre_b,
+          {&hinge.point.impulse, &hinge.mean_force}};
 }
 
 template <class Real>

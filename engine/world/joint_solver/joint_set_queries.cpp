@@ -58,15 +58,18 @@ JointError<Real> error_of(const JointConstraint<Real, Kind>& constraint, const S
 }  // namespace
 
 template <class Real>
-Real JointSet<Real>::force(int joint, Real inverse_h) const {
-  const Vec2<Real> linear = parts_->at(joint, [](const auto& c) { return c.reaction(); }).first;
-  // In double, because the square of a large impulse overflows float.
-  return static_cast<Real>(std::sqrt(length_squared(linear.template as<double>())) * double(inverse_h));
+Real JointSet<Real>::force(int joint) const {
+  const Vec2<Real> mean = parts_->at(joint, [](const auto& c) { return c.mean_force; });
+  // In double, because the square of a large force overflows float.
+  return static_cast<Real>(std::sqrt(length_squared(mean.template as<double>())));
 }
 
 template <class Real>
-Real JointSet<Real>::torque(int joint, Real inverse_h) const {
-  return std::fabs(parts_->at(joint, [](const auto& c) { return c.reaction(); }).second) * inverse_h;
+Real JointSet<Real>::torque(int joint) const {
+  return parts_->at(joint, []<class Constraint>(const Constraint& c) -> Real {
+    if constexpr (Constraint::kHasTorque) return std::fabs(c.mean_torque);
+    return 0;
+  });
 }
 
 template <class Real>
@@ -114,16 +117,16 @@ Real JointSet<Real>::length(int joint, const SolverBodies<Real>& bodies) const {
       joint, [&](const auto& constraint) { return constraint.current(bodies).second.axial[0].residual; });
 }
 
-template float JointSet<float>::force(int, float) const;
-template float JointSet<float>::torque(int, float) const;
+template float JointSet<float>::force(int) const;
+template float JointSet<float>::torque(int) const;
 template JointError<float> JointSet<float>::error(int, const SolverBodies<float>&) const;
 template float JointSet<float>::angle(int, const SolverBodies<float>&) const;
 template JointStiffness JointSet<float>::stiffness(int, Vec2<float>, Vec2<float>,
                                                    const PairMobility<float>&) const;
 template float JointSet<float>::translation(int, const SolverBodies<float>&) const;
 template float JointSet<float>::length(int, const SolverBodies<float>&) const;
-template double JointSet<double>::force(int, double) const;
-template double JointSet<double>::torque(int, double) const;
+template double JointSet<double>::force(int) const;
+template double JointSet<double>::torque(int) const;
 template JointError<double> JointSet<double>::error(int, const SolverBodies<double>&) const;
 template double JointSet<double>::angle(int, const SolverBodies<double>&) const;
 template JointStiffness JointSet<double>::stiffness(int, Vec2<double>, Vec2<double>,

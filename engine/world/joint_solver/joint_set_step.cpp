@@ -60,6 +60,7 @@ template <class Joint, class Real>
         if constexpr (Joint::kPlainHinge) return joint.relax(motion_of(bodies, joint.a, joint.b), v, step);
         evaluate(joint, bodies, v, step, JointTime::SubstepEnds);
         joint.solve_coordinates(v, step, kRelax, joint.under_relaxation);
+        joint.add_load(step);
       });
   }
 }
@@ -197,6 +198,34 @@ void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<
 }
 
 template <class Real>
+void JointSet<Real>::add_loads(const JointStep<Real>& step) {
+  parts_->for_each_active([&](auto& joint) { joint.add_load(step); });
+}
+
+template <class Real>
+void JointSet<Real>::add_load(int joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step) {
+  parts_->at(joint, [&]<class Joint>(Joint& constraint) {
+    JointRows<Real> rows;
+    if constexpr (Joint::kHasRows) constraint.kind.evaluate(constraint.pose(bodies), rows);
+    constraint.add_load(step, rows);
+  });
+}
+
+template <class Real>
+void JointSet<Real>::add_impulse(int joint, Vec2<Real> impulse, Real moment, const JointStep<Real>& step) {
+  parts_->at(joint, [&](auto& constraint) { constraint.add_impulse(impulse, moment, step); });
+}
+
+template <class Real>
+Vec2<Real> JointSet<Real>::anchor_arm(int joint, const SolverBodies<Real>& bodies) const {
+  return parts_->at(joint, [&]<class Joint>(const Joint& constraint) {
+    JointRows<Real> rows;
+    constraint.kind.evaluate(constraint.pose(bodies), rows);
+    return Joint::kHasRows ? rows.arm_b : rows.point.arm_b;
+  });
+}
+
+template <class Real>
 void JointSet<Real>::finish(const SolverBodies<Real>& bodies, LoopScheduler* scheduler) {
   Parts& p = *parts_;
   const auto finish = [&](auto& blocks) {
@@ -245,6 +274,10 @@ void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Rea
   template void JointSet<R>::prepare(const SolverBodies<R>&, const JointStep<R>&, const std::vector<char>&, \
                                      LoopScheduler*);                                                       \
   template void JointSet<R>::evaluate(const SolverBodies<R>&, const JointStep<R>&);                         \
+  template void JointSet<R>::add_loads(const JointStep<R>&);                                                \
+  template void JointSet<R>::add_load(int, const SolverBodies<R>&, const JointStep<R>&);                    \
+  template void JointSet<R>::add_impulse(int, Vec2<R>, R, const JointStep<R>&);                             \
+  template Vec2<R> JointSet<R>::anchor_arm(int, const SolverBodies<R>&) const;                              \
   template void JointSet<R>::finish(const SolverBodies<R>&, LoopScheduler*);                                \
   template void JointSet<R>::warm_start(const SolverBodies<R>&, const JointStep<R>&, LoopScheduler*);       \
   template void JointSet<R>::solve(const SolverBodies<R>&, const JointStep<R>&, LoopScheduler*);            \

@@ -15,7 +15,10 @@ void project_positions(WorldData<Real>& w, double h, int substeps, int iteration
   const Real step = static_cast<Real>(h), inverse_h = static_cast<Real>(1 / h);
   const PositionStep<Real> contacts{
       .h = step, .inverse_h = inverse_h, .bounce_threshold = bounce_threshold(w, h * substeps)};
-  const JointStep<Real> joints{.h = step, .inverse_h = inverse_h, .softness = {inverse_h, 1, 0}};
+  const JointStep<Real> joints{.h = step,
+                               .inverse_h = inverse_h,
+                               .inverse_dt = static_cast<Real>(1 / (h * substeps)),
+                               .softness = {inverse_h, 1, 0}};
   const SolverBodies<Real> bodies = w.solver_bodies();
   Rotation<Real>* rotation = w.rotation.data();
   const bool jointed = w.joint_set.active_count() > 0;
@@ -32,6 +35,7 @@ void project_positions(WorldData<Real>& w, double h, int substeps, int iteration
       project_contacts(bodies.motion, rotation, w.graph, contacts, friction);
       enforce_motion_locks(w);
     }
+    if (jointed) w.joint_set.add_loads(joints);
     correct(contacts);
     add_step_impulses(w);
   }

@@ -91,6 +91,7 @@ void append_joint_rows(void* world, ImpactJoint& joint) {
     scratch.rows.push_back(row);
   }
   joint.rows = static_cast<int>(scratch.rows.size()) - joint.first_row;
+  joint.arm = w.joint_set.anchor_arm(joint.slot, w.solver_bodies()).template as<double>();
 }
 
 // Returns true if any touching contact has no restitution. Its bodies may not be free after an impact.
@@ -170,6 +171,17 @@ bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
   return true;
 }
 
+template <class Real>
+void add_impact_loads(WorldData<Real>& w, const JointStep<Real>& step) {
+  if (!w.scratch.impacts.linked) return;  // no impacts in this step
+  for (const ImpactJoint& joint : w.scratch.impacts.joints)
+    if (joint.impulse != Vec2d{} || joint.moment != 0)
+      w.joint_set.add_impulse(joint.slot, joint.impulse.template as<Real>(), static_cast<Real>(joint.moment),
+                              step);
+}
+
+template void add_impact_loads(WorldData<float>&, const JointStep<float>&);
+template void add_impact_loads(WorldData<double>&, const JointStep<double>&);
 template bool propagate_impacts(WorldData<float>&, const ContactStep<float>&);
 template bool propagate_impacts(WorldData<double>&, const ContactStep<double>&);
 

@@ -15,4 +15,8 @@ void collect_restitution_contacts(WorldData<Real>& w);
 template <class Real>
 bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step);
 
+/// Adds the impulses that joints have passed on in the impacts of the step to their loads, at its end.
+template <class Real>
+void add_impact_loads(WorldData<Real>& w, const JointStep<Real>& step);
+
 }  // namespace plumb

@@ -19,6 +19,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
                                 .bounce_threshold = bounce_threshold(w, h * substeps)};
   const JointStep<Real> joints{.h = static_cast<Real>(h),
                                .inverse_h = inverse_h,
+                               .inverse_dt = static_cast<Real>(1 / (h * substeps)),
                                .softness = {0, 1, 0},
                                .max_stiffness = max_spring_stiffness<Real>(w.settings.iterations),
                                .stiff_rate = feedback_rate,
@@ -36,6 +37,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
       if (jointed) w.joint_set.solve(bodies, joints);
       iterate_contacts(bodies.motion, w.graph, contacts);
     }
+    if (jointed) w.joint_set.add_loads(joints);
     feed_back_errors(w, feedback_rate);
     integrate_positions(w, static_cast<Real>(h), Integrator::SemiImplicitEuler);
     stop_closed_gaps(bodies.motion, w.graph, contacts);

@@ -85,6 +85,14 @@ bool any_joint_iterated(const WorldData<Real>& w) {
   return static_cast<std::size_t>(w.joint_set.active_count()) > others;
 }
 
+// Adds the impulses of a substep to the loads of joints that are solved with their island.
+template <class Real>
+void add_island_loads(WorldData<Real>& w, const JointStep<Real>& step) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i)
+    for (const int joint : w.scratch.jointed_islands[i].joints)
+      w.joint_set.add_load(joint, w.solver_bodies(), step);
+}
+
 // Number of contacts with restitution in one task of a thread: some microseconds of work.
 constexpr int kBouncesPerTask = 128;
 
@@ -126,6 +134,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
       softness<Real>(tuning::kJointFrequencyRatio / h, tuning::kJointDampingRatio, h);
   JointStep<Real> joints{.h = static_cast<Real>(h),
                          .inverse_h = static_cast<Real>(1 / h),
+                         .inverse_dt = static_cast<Real>(1 / (h * substeps)),
                          .softness = rigid,
                          .max_stiffness = max_spring_stiffness<Real>(1),
                          .stiff_rate = rigid.bias_rate,
@@ -178,12 +187,14 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_direct_islands(w, contacts, false);
     soft_contacts.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps);
+    add_island_loads(w, joints);
     restore_deferred(std::span<Bounce>(w.scratch.restitution_contacts));
     contacts.warm_start = joints.warm_start = 1;
   }
   if (jointed) close_joint_gaps(w, h, substeps);
   soft_contacts.finish();
   if (jointed) w.joint_set.finish(bodies, &w.scheduler);
+  if (jointed) add_impact_loads(w, joints);
   finish_direct_islands(w);
 }
 

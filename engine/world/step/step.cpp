@@ -160,7 +160,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     restore_consistency(w);
     throw;
   }
-  break_joints(w, h);
+  break_joints(w);
   update_sensors(w), clock.end(WorldStage::Events);
   sleep_islands(w), clock.end(WorldStage::Sleep);
   w.time += dt;

@@ -39,8 +39,8 @@ void update_sensors(WorldData<Real>& w);
 template <class Real>
 void report_impacts(WorldData<Real>& w);
 
-/// Removes joints whose force or torque exceeds their limit, and reports loads.
+/// Removes joints whose mean force or torque in the step exceeds their limit, and reports loads.
 template <class Real>
-void break_joints(WorldData<Real>& w, double h);
+void break_joints(WorldData<Real>& w);
 
 }  // namespace plumb

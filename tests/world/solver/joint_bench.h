@@ -48,6 +48,7 @@ struct JointBench {
     JointStep<Real> s;
     s.h = static_cast<Real>(h);
     s.inverse_h = static_cast<Real>(1 / h);
+    s.inverse_dt = static_cast<Real>(1 / dt);
     s.softness = softness<Real>(hertz, damping_ratio, h);
     s.warm_start = last_h > 0 ? static_cast<Real>(h / last_h) : 1;
     last_h = h;

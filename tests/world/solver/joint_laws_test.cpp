@@ -145,8 +145,8 @@ void expect_finite(const JointKind& kind, double mass_a, double inertia_a, doubl
         << kind.index();
     EXPECT_LT(length_squared(m.velocity), 1e6) << kind.index();
   }
-  EXPECT_TRUE(std::isfinite(bench.joints.force(joint, 240))) << kind.index();
-  EXPECT_TRUE(std::isfinite(bench.joints.torque(joint, 240))) << kind.index();
+  EXPECT_TRUE(std::isfinite(bench.joints.force(joint))) << kind.index();
+  EXPECT_TRUE(std::isfinite(bench.joints.torque(joint))) << kind.index();
 }
 
 TEST(JointLaws, SingularPosesAndMassesStayFinite) {

@@ -178,7 +178,7 @@ TEST(JointState, SleepingJointsKeepTheirImpulsesAndDoNothing) {
   const int wall = bench.body({}, 0, 0), bar = bench.body({0, -1}, 0.5, 1);
   const int joint = bench.join(RevoluteDefinition{.anchor_b = {0, 1}}, wall, bar);
   bench.run(1, kStep);
-  const float force = bench.joints.force(joint, 240);
+  const float force = bench.joints.force(joint);
   EXPECT_NEAR(force, 20, 0.01);
   bench.joints.set_active(joint, false);
   EXPECT_EQ(bench.joints.active_count(), 0);
@@ -186,10 +186,10 @@ TEST(JointState, SleepingJointsKeepTheirImpulsesAndDoNothing) {
   bench.motion[bar].velocity = {1, 0};
   bench.run(0.5, kStep);
   EXPECT_EQ(bench.motion[bar].velocity.x, 1);  // free
-  EXPECT_EQ(bench.joints.force(joint, 240), force);
+  EXPECT_EQ(bench.joints.force(joint), force);
   bench.joints.set_active(joint, true);
   EXPECT_EQ(bench.joints.active_count(), 1);
-  EXPECT_EQ(bench.joints.force(joint, 240), force);
+  EXPECT_EQ(bench.joints.force(joint), force);
 }
 
 TEST(JointState, ChangesKeepImpulsesOfTheSameKind) {
@@ -201,15 +201,15 @@ TEST(JointState, ChangesKeepImpulsesOfTheSameKind) {
   braked.motor = Motor{0, 1};
   const int joint = bench.join(plain, wall, bar);
   bench.run(1, kStep);
-  const float force = bench.joints.force(joint, 240);
+  const float force = bench.joints.force(joint);
   bench.joints.change(joint, braked);
-  EXPECT_EQ(bench.joints.force(joint, 240), force);
+  EXPECT_EQ(bench.joints.force(joint), force);
   bench.joints.change(joint, plain);
-  EXPECT_EQ(bench.joints.force(joint, 240), force);
+  EXPECT_EQ(bench.joints.force(joint), force);
   bench.joints.change(joint, WeldDefinition{.anchor_b = {0, 1}});
-  EXPECT_EQ(bench.joints.force(joint, 240), 0);
+  EXPECT_EQ(bench.joints.force(joint), 0);
   bench.run(1, kStep);
-  EXPECT_NEAR(bench.joints.force(joint, 240), 20, 0.01);
+  EXPECT_NEAR(bench.joints.force(joint), 20, 0.01);
 }
 
 TEST(JointState, RefusalsChangeNothing) {
@@ -243,7 +243,7 @@ TEST(JointState, OtherSubstepsScaleTheImpulses) {
   bench.run(2, kStep);
   bench.substeps = 8;
   bench.step(kStep);
-  EXPECT_NEAR(bench.joints.force(joint, 480), 20, 1e-6);
+  EXPECT_NEAR(bench.joints.force(joint), 20, 1e-6);
   EXPECT_NEAR(bench.motion[bob].velocity.y, 0, 1e-9);
 }
 
@@ -285,8 +285,8 @@ void expect_same_continuation() {
   EXPECT_EQ(copy.joints.count(), bench.joints.count());
   for (int joint = 0; joint < bench.joints.slots(); ++joint) {
     if (!bench.joints.contains(joint)) continue;
-    EXPECT_EQ(copy.joints.force(joint, 240), bench.joints.force(joint, 240));
-    EXPECT_EQ(copy.joints.torque(joint, 240), bench.joints.torque(joint, 240));
+    EXPECT_EQ(copy.joints.force(joint), bench.joints.force(joint));
+    EXPECT_EQ(copy.joints.torque(joint), bench.joints.torque(joint));
   }
   for (JointBench<Real>* b : {&bench, &copy}) {
     b->run(0.5, kStep);

@@ -511,7 +511,7 @@ PLUMB_API plumb_chain_definition plumb_chain_get_definition(const plumb_world* w
 
 /* Measurements of a joint. */
 typedef struct plumb_joint_reading {
-  double force, torque;               /* N, N m: reaction over the last substep */
+  double force, torque;               /* N, N m: mean reaction over the last step */
   double linear_error, angular_error; /* m, rad: of the rigid rows */
   double angle;                       /* rad, of b relative to a minus the reference angle */
   double translation;                 /* m, along the axis (prismatic, wheel) */
@@ -563,7 +563,7 @@ typedef struct plumb_sensor_event {
 /* A joint that bore more than the load from which it reports. */
 typedef struct plumb_load_event {
   plumb_joint joint;
-  double force, torque; /* N, N m: reaction over the last substep */
+  double force, torque; /* N, N m: mean reaction over the step */
 } plumb_load_event;
 typedef struct plumb_quarantine_event {
   plumb_body body;
