@@ -102,7 +102,8 @@ using CombineFunction = double (*)(double a, double b);
 struct Thresholds {
   double hit = -1;     ///< approach speed at which hit events begin; default: the smaller extent per second
   double bounce = -1;  ///< approach speed below which nothing bounces; default: 4 steps of gravity
-  double sleep = -1;   ///< speed up to which a body may fall asleep; default: 0.05 of its extents per second
+  double sleep = -1;   ///< speed up to which a body may fall asleep; default: 0.05 of its extents per second,
+                       ///< and a displacement of 0.0025 of them, or less, in half a second
   friend bool operator==(const Thresholds&, const Thresholds&) = default;
 };
 

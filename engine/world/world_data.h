@@ -75,6 +75,12 @@ struct Load {
   Real torque = 0;     ///< N m
 };
 
+/// Pose of a body when its period of rest began: sleeping.h.
+struct RestStart {
+  Vec2d position{};  ///< m, of the centre of mass
+  double angle = 0;  ///< rad
+};
+
 /// Collision data of a shape, in the frame of its body's centre of mass.
 template <class Real>
 struct ShapeForm {
@@ -409,6 +415,7 @@ struct WorldData {
   std::vector<Rotation<Real>> rotation;
   std::vector<Vec2d> position;             ///< m, of the centres of mass
   LazyArray<Vec2d> position_compensation;  ///< m, Kahan compensation of the positions; in double only
+  LazyArray<RestStart> rest_starts;        ///< of bodies whose sleep timer runs; unused without sleeping
   std::vector<Real> extents;               ///< m, from the centre of mass to the farthest point
   std::vector<char> enlarged;              ///< a shape of it left its fat AABB in the last step
   std::vector<int> awake;

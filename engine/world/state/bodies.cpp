@@ -25,7 +25,7 @@ void reserve_body(WorldData<Real>& w, bool has_data) {
   ensure_capacity(w.extents, capacity), ensure_capacity(w.enlarged, capacity),
       ensure_capacity(w.awake, capacity);
   w.loads.reserve(size, false), w.body_data.reserve(size, has_data),
-      w.position_compensation.reserve(size, false);
+      w.position_compensation.reserve(size, false), w.rest_starts.reserve(size, w.settings.sleeping);
 }
 
 template <class T>
@@ -40,6 +40,7 @@ void reset_body_data(WorldData<Real>& w, int body) {
       resize_with_growth(w.position, size);
   resize_with_growth(w.extents, size), resize_with_growth(w.enlarged, size);
   w.loads.reset(body, size), w.body_data.reset(body, size), w.position_compensation.reset(body, size);
+  w.rest_starts.reset(body, size);
   w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
 }
 

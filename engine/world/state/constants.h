@@ -184,9 +184,27 @@ inline constexpr int kMaxImpactsPerStep = 256, kMaxBouncesPerStep = 16;
 /// spin by tens of radians per step lose a part of one step in 7 of 100 landings; with 8 in 1.
 inline constexpr int kMaxLandingsPerStep = 8;
 
-/// A body may fall asleep after its speed was below kSleepSpeed, in extents a second, for kSleepTime, s.
+/// A body may fall asleep after its speed was below kSleepSpeed, in extents a second, for kSleepTime, s, in
+/// which it also moved no farther than the next two constants allow. The speed limit is the quick test, and
+/// lets the jitter of contacts pass.
 inline constexpr double kSleepSpeed = 0.05;
 inline constexpr double kSleepTime = 0.5;
+
+/// Net displacement within kSleepTime, as a fraction of the extent, up to which a body is at rest: a
+/// twentieth of what kSleepSpeed lets pass. Slower drifts, belts and motors than 0.005 extents a second still
+/// stop. With a larger fraction faster ones stop too; a smaller one keeps small heaps awake that still
+/// settle: a pyramid of 20 rows of 0.1 m boxes sleeps after 6.6 s, with twice the fraction after 5.1 s.
+inline constexpr double kRestDisplacement = 0.0025;
+/// The same limit for bodies on which gravity acts, as a fraction of the free fall in kSleepTime: a body that
+/// begins to tip, roll or fall at more than this fraction of gravity is not at rest, whatever its size. It is
+/// the lower limit above an extent of 0.5 m on earth (1.2 mm). With ten times as much, large discs stay on
+/// slopes of 0.4 degrees (0.04 with this); with a tenth of it, a pyramid of 20 rows of 10 m boxes sleeps
+/// after 7.2 s in place of 2.9 s.
+inline constexpr double kRestFall = 0.001;
+/// Lowest limit, in roundings of the extent: by so much poses of resting bodies change by rounding alone. At
+/// 0.001 m/s^2 a float pyramid of 100 m boxes sleeps after 3.4 s without it, after 0.5 s with it. On earth it
+/// is below the other limits up to an extent of 1.2 km.
+inline constexpr double kRestRoundings = 8;
 
 /// Overlap, as a fraction of the smaller extent, above which no body falls asleep: deeper shapes are being
 /// pushed apart, and sleep would keep them deep. It is the largest overlap that the invariant monitor accepts

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/world/state/constants.h"
 #include "engine/world/world_data.h"
@@ -9,18 +11,23 @@
 /// at rest for long enough. It wakes as a whole.
 namespace plumb {
 
-/// Returns true if a body of this motion counts as at rest, so that its sleep timer runs: up to the speed
-/// `thresholds.sleep`, by default 0.05 extents a second. `extent` is the farthest distance of its shapes from
-/// the centre of mass, m; a body without shapes uses its radius of gyration. A body may be moved without a
-/// velocity, for example when a joint is closed: then its displacement in `dt`, s, counts as motion (with 0
-/// only its velocity does).
+/// Returns the length, m, by which rotations of a body count as motion: `extent`, the farthest distance of
+/// its shapes from the centre of mass; without shapes its radius of gyration.
+template <class Real>
+Real sleep_extent(const SolverBody<Real>& motion, Real extent) {
+  return extent == 0 && motion.inverse_inertia > 0 ? std::sqrt(motion.inverse_mass / motion.inverse_inertia)
+                                                   : extent;
+}
+
+/// Returns true if a body of this motion is slow enough to be at rest: up to the speed `thresholds.sleep`, by
+/// default 0.05 extents a second. A body may be moved without a velocity, for example when a joint is closed:
+/// then its displacement in `dt`, s, counts as motion (with 0 only its velocity does).
 template <class Real>
 bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const SolverBody<Real>& motion,
               Real extent, Real dt) {
   if (record.type == BodyType::Kinematic && (motion.velocity != Vec2<Real>{} || motion.angular_velocity != 0))
     return false;
-  if (extent == 0 && motion.inverse_inertia > 0)
-    extent = std::sqrt(motion.inverse_mass / motion.inverse_inertia);
+  extent = sleep_extent(motion, extent);
   const double set = w.settings.thresholds.sleep;
   const Real max_speed = set >= 0 ? static_cast<Real>(set) : Real(tuning::kSleepSpeed) * extent;
   const auto speed = [extent](Vec2<Real> linear, Real angular) {
@@ -28,6 +35,59 @@ bool is_still(const WorldData<Real>& w, const BodyRecord<Real>& record, const So
   };
   return record.may_sleep && speed(motion.velocity, motion.angular_velocity) <= max_speed &&
          (dt == 0 || speed(motion.delta_position, motion.delta_angle) <= max_speed * dt);
+}
+
+/// Returns the acceleration, m/s^2, that gravity would give a body by itself: 0 along locked axes.
+template <class Real>
+Vec2d gravity_on(const WorldData<Real>& w, const BodyRecord<Real>& record) {
+  if (record.type != BodyType::Dynamic) return {};
+  const Vec2d gravity = w.settings.gravity;
+  const double scale =
+      record.uncommon == kNone ? 1 : static_cast<double>(w.body_extras[record.uncommon].gravity_scale);
+  return {record.lock_x ? 0 : scale * gravity.x, record.lock_y ? 0 : scale * gravity.y};
+}
+
+/// Returns the displacement, m, up to which a slow body is at rest within kSleepTime (rotations count by
+/// `extent`): see kRestDisplacement and kRestFall. A speed that the user has set lowers it to what passes at
+/// that speed; as much as it is above the default speed, it raises the limit.
+template <class Real>
+double rest_limit(const WorldData<Real>& w, Vec2d gravity, double extent) {
+  constexpr double kTime = tuning::kSleepTime;
+  double limit = tuning::kRestDisplacement * extent;
+  if (gravity != Vec2d{}) limit = std::min(limit, tuning::kRestFall / 2 * kTime * kTime * length(gravity));
+  const double set = w.settings.thresholds.sleep;
+  if (set >= 0)
+    limit = std::min(limit, set * kTime) + kTime * std::max(0.0, set - tuning::kSleepSpeed * extent);
+  return std::max(
+      limit, tuning::kRestRoundings * static_cast<double>(std::numeric_limits<Real>::epsilon()) * extent);
+}
+
+/// Returns the sleep timer, s, of a body that is_still after a step of `dt`, s. The timer measures rest, not
+/// slowness: it restarts if the body has moved farther than `rest_limit` since it started or, once it exceeds
+/// kSleepTime, within the present period of that length. Displacements are signed, so that jitter cancels. A
+/// body that nothing holds and no `load` pushes is not at rest under gravity.
+template <class Real>
+[[gnu::noinline]] Real time_at_rest(const WorldData<Real>& w, int body, Real extent, Real dt,
+                                    const Load<Real>* load, RestStart& start) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  const SolverBody<Real>& motion = w.motion[body];
+  const Real before = record.sleep_time;
+  const Vec2d gravity = gravity_on(w, record);
+  if (record.constraints == 0 && gravity != Vec2d{} && (load == nullptr || load->force == Vec2<Real>{}))
+    return 0;
+  if (before == 0) {
+    start = {w.position[body] - motion.delta_position.template as<double>(),
+             record.angle - static_cast<double>(motion.delta_angle)};
+  }
+  const double size = static_cast<double>(sleep_extent(motion, extent));
+  const double moved =
+      length(w.position[body] - start.position) + size * std::abs(record.angle - start.angle);
+  if (moved > rest_limit(w, gravity, size)) return 0;
+  constexpr Real kTime = tuning::kSleepTime;
+  const Real time = before + dt;
+  // A period is over at kSleepTime, and then whenever the timer, set back by one period, reaches twice that.
+  if (time >= kTime && (before < kTime || time >= 2 * kTime)) start = {w.position[body], record.angle};
+  return time >= 2 * kTime ? std::max(kTime, time - kTime) : time;
 }
 
 /// Wakes a sleeping body and everything connected to it through dynamic bodies; a kinematic body wakes alone.
