@@ -80,6 +80,9 @@ class BoundedRows {
   /// the largest energy.
   bool is_significant(int row, double speed, double fraction) const;
 
+  /// Changes the bodies' velocities by an impulse along a row.
+  void apply_impulse(const BoundedRow& row, double impulse);
+
   /// Returns the fraction, 0 to 1, by which to scale these impulses so that they leave the bodies the least
   /// energy, given their velocities. Changes the velocities.
   double best_load_fraction(std::span<const double> impulses);
@@ -116,7 +119,6 @@ class BoundedRows {
   static constexpr int kRefinements = 2;
 
   double row_velocity(const BoundedRow& row) const;
-  void apply_impulse(const BoundedRow& row, double impulse);
   void compute_mobility();
   void compute_energy_scale();
   void index_blocks();

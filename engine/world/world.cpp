@@ -122,7 +122,7 @@ Vec2d BasicWorld<Real>::gravity() const {
 template <class Real>
 void BasicWorld<Real>::set_sleeping(bool on) {
   unlocked(*this);
-  data_->rest_starts.reserve(data_->bodies.size(), on);
+  data_->rest_displacements.reserve(data_->bodies.size(), on);
   data_->settings.sleeping = on;
   if (!on) wake_all();
 }

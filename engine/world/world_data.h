@@ -75,10 +75,11 @@ struct Load {
   Real torque = 0;     ///< N m
 };
 
-/// Pose of a body when its period of rest began: sleeping.h.
-struct RestStart {
-  Vec2d position{};  ///< m, of the centre of mass
-  double angle = 0;  ///< rad
+/// Displacement of a body since its period of rest began: sleeping.h. In single precision, because it is
+/// small.
+struct RestDisplacement {
+  Vec2<float> translation{};  ///< m
+  float rotation = 0;         ///< rad
 };
 
 /// Collision data of a shape, in the frame of its body's centre of mass.
@@ -413,11 +414,11 @@ struct WorldData {
   LazyArray<std::uint64_t> body_data;  ///< user data
   std::vector<SolverBody<Real>> motion;
   std::vector<Rotation<Real>> rotation;
-  std::vector<Vec2d> position;             ///< m, of the centres of mass
-  LazyArray<Vec2d> position_compensation;  ///< m, Kahan compensation of the positions; in double only
-  LazyArray<RestStart> rest_starts;        ///< of bodies whose sleep timer runs; unused without sleeping
-  std::vector<Real> extents;               ///< m, from the centre of mass to the farthest point
-  std::vector<char> enlarged;              ///< a shape of it left its fat AABB in the last step
+  std::vector<Vec2d> position;                     ///< m, of the centres of mass
+  LazyArray<Vec2d> position_compensation;          ///< m, Kahan compensation of the positions; in double only
+  LazyArray<RestDisplacement> rest_displacements;  ///< of bodies whose sleep timer runs; unused without sleep
+  std::vector<Real> extents;                       ///< m, from the centre of mass to the farthest point
+  std::vector<char> enlarged;                      ///< a shape of it left its fat AABB in the last step
   std::vector<int> awake;
   std::vector<int> mass_changed_bodies;  ///< their masses must be updated: mass.h
 

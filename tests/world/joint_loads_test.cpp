@@ -81,7 +81,7 @@ TEST_P(JointLoad, IsTheChangeOfMomentum) {
   }
 }
 
-// What stops a plate at once is broken by its impulse over dt, whatever the substeps are.
+// A joint that stops a plate at once breaks by its impulse over dt, for any number of substeps.
 TEST_P(JointLoad, BreaksIffTheImpulseOverTheStepIsTooLarge) {
   for (const auto& [name, kind] : holding_kinds()) {
     for (const double speed : {0.1, 10.0, 1000.0}) {
@@ -184,6 +184,33 @@ TEST_P(JointLoad, OfAChainAtRestIsTheWeightBelow) {
   for (int i = 0; i < 600; ++i) world.step(kDt, substeps());
   for (int i = 0; i < 4; ++i)
     EXPECT_NEAR(world.read(joints[i]).force, (4 - i) * 2 * kG, 0.01 * (4 - i) * 2 * kG) << i;
+}
+
+// Of any length and size: what closes the gaps of a joint that iterations leave open bears load, too.
+TEST(JointLoads, OfHangingChainsAreTheWeightsBelow) {
+  for (const int links : {2, 5, 6, 8, 12, 16, 17, 24}) {
+    for (const double size : {0.01, 0.1, 1.0, 30.0}) {
+      DoubleWorld world({.sleeping = false});
+      BodyId above = world.create_body({.type = BodyType::Static});
+      std::vector<JointId> joints;
+      double weight = 0;
+      for (int i = 0; i < links; ++i) {
+        const BodyId link =
+            world.create_body({.position = {0, -size * (i + 0.5)}}, {.geometry = Box{0.1 * size, size}});
+        joints.push_back(world.create_joint(
+            above, link,
+            {.kind =
+                 RevoluteDefinition{.anchor_a = {0, i == 0 ? 0 : -size / 2}, .anchor_b = {0, size / 2}}}));
+        weight += world.mass(link) * kG;
+        above = link;
+      }
+      for (int i = 0; i < 200; ++i) world.step(kDt);
+      for (int i = 0; i < links; ++i) {
+        const double below = weight * (links - i) / links;
+        EXPECT_NEAR(world.read(joints[i]).force / below, 1, 0.02) << links << " of " << size << " m, " << i;
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, JointLoad,

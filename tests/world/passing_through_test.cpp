@@ -7,8 +7,8 @@
 
 #include "tests/world/support.h"
 
-/// What continuous collision must not stop: bodies that the pre-solve hook lets pass, and the common motion
-/// of bodies that are inside each other.
+/// Tests that continuous collision does not stop bodies that the pre-solve hook lets pass, nor the common
+/// motion of bodies that are inside each other.
 namespace plumb {
 namespace {
 

@@ -218,7 +218,7 @@ TEST(SlowMotions, WorldsWithoutSleepKeepNoPeriods) {
     for (int i = 0; i < 10; ++i) add_box(*world, {3.0 * i, 0});
     world->step();
   }
-  EXPECT_EQ(save(on).size() - save(off).size(), 10 * 3 * sizeof(double));
+  EXPECT_EQ(save(on).size() - save(off).size(), 10 * 3 * sizeof(float));
 }
 
 }  // namespace

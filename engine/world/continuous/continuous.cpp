@@ -262,17 +262,19 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
     return;
   }
   if (lift(w, next, search)) return;
-  if (continue_together(w, next, other_index, search)) return;
   const int pushed_by = swept.pushed_by;
-  if (pushed_by != kNone && other != nullptr && !by_kinematic && other->pushed_by == kNone &&
-      !other->squeezed) {
+  const bool pushes_other = pushed_by != kNone && other != nullptr && !by_kinematic &&
+                            other->pushed_by == kNone && !other->squeezed;
+  const bool over_limit = swept.impacts >= tuning::kMaxImpactsPerStep && other != nullptr && !by_kinematic;
+  // From here on `swept` and `other` are invalid: bodies are added to the list.
+  if (continue_together(w, next, other_index, search)) return;
+  if (pushes_other) {
     // The pushed body pushes the other one along too.
     push_along(w, other_index, w.scratch.swept_index_of[pushed_by], next.fraction, search);
     schedule_toi_event(w, next.swept_body, next.fraction, search);
     return;
   }
   // The other body stops too, otherwise it would push this one further.
-  const bool over_limit = swept.impacts >= tuning::kMaxImpactsPerStep && other != nullptr && !by_kinematic;
   if (over_limit) stop_island(w, other_index, next.fraction, search);
   stop_island(w, next.swept_body, next.fraction, search);
 }

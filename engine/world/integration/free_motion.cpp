@@ -41,7 +41,8 @@ DampedMeans damped_means(double x) {
   return {1 - x * second, second};
 }
 
-// Returns the velocity increments and damping factors of a body for a time, s.
+}  // namespace
+
 template <class Real>
 VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time) {
   const BodyRecord<Real>& record = w.bodies[body];
@@ -62,6 +63,8 @@ VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body
   increment.locked_x = record.lock_x, increment.locked_y = record.lock_y;
   return increment;
 }
+
+namespace {
 
 template <class Real>
 void apply(const VelocityIncrement<Real>& increment, SolverBody<Real>& motion) {
@@ -287,13 +290,14 @@ Real bounce_threshold(const WorldData<Real>& w, double dt) {
                            std::sqrt(length_squared(w.settings.gravity)));
 }
 
-#define PLUMB_FOR(Real)                                                         \
-  template void prepare_integration(WorldData<Real>&, double, int, Integrator); \
-  template void integrate_velocities(WorldData<Real>&);                         \
-  template void integrate_and_warm_start(WorldData<Real>&);                     \
-  template void integrate_positions(WorldData<Real>&, Real, Integrator);        \
-  template void enforce_motion_locks(WorldData<Real>&);                         \
-  template Vec2d free_acceleration(const WorldData<Real>&, int);                \
+#define PLUMB_FOR(Real)                                                                        \
+  template VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>&, int, double); \
+  template void prepare_integration(WorldData<Real>&, double, int, Integrator);                \
+  template void integrate_velocities(WorldData<Real>&);                                        \
+  template void integrate_and_warm_start(WorldData<Real>&);                                    \
+  template void integrate_positions(WorldData<Real>&, Real, Integrator);                       \
+  template void enforce_motion_locks(WorldData<Real>&);                                        \
+  template Vec2d free_acceleration(const WorldData<Real>&, int);                               \
   template Real bounce_threshold(const WorldData<Real>&, double);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

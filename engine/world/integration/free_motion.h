@@ -6,6 +6,10 @@
 /// change the velocity, and the velocity moves the body.
 namespace plumb {
 
+/// Returns the changes of a body's velocities by gravity and loads in `time`, s, and its damping factors.
+template <class Real>
+VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time);
+
 /// Computes the velocity increments for substeps of length `h`, and resets displacements, at the step's
 /// start. With velocity Verlet, bodies without contact points and joints are moved along a parabola through
 /// the whole step.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/world/contact_solver/contact_pair.h"
+#include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/island_links.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
@@ -24,6 +26,10 @@ constexpr int kMaxLoops = 64;
 // were closed, propellers of long blades lost more than 2 % of their energy in 3 s with one substep per step
 // at 0.005; this was not measured with the present rule.
 constexpr double kMaxGap = 0.007;
+// Fraction of Coulomb's bound below which the friction of a contact counts as sticking: impulses that are at
+// the bound differ from it by rounding.
+constexpr float kStickFraction = 0.999f;
+
 // Rounds of closing.
 constexpr int kCloseRounds = 4;
 
@@ -43,8 +49,8 @@ enum class Level { Position, Velocity };
 template <class Real>
 class Mechanism {
  public:
-  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, double max_gap)
-      : w_(w), island_(island), h_(h), max_gap_(max_gap) {}
+  Mechanism(WorldData<Real>& w, JointedIsland<Real>& island, double h, int substeps, double max_gap)
+      : w_(w), island_(island), h_(h), substeps_(substeps), max_gap_(max_gap) {}
 
   // Returns true if the step has opened the joint. Costs much less than `collect`.
   bool has_opened(int joint) {
@@ -123,7 +129,8 @@ class Mechanism {
     island_.block_sizes.assign(island_.blocks.size(), 0);
     for (const BoundedRow& row : island_.system.rows) ++island_.block_sizes[row.block];
     for (std::size_t i = 0; i < island_.contacts.size(); ++i)
-      island_.block_sizes[island_.joints.size() + i] = island_.contacts[i]->count;
+      island_.block_sizes[island_.joints.size() + i] =
+          island_.contacts[i]->count + static_cast<int>(sticks(*island_.contacts[i]));
     return island_.system.order(island_.blocks, island_.block_sizes);
   }
 
@@ -131,22 +138,18 @@ class Mechanism {
   // beyond a limit when the step began, another stage corrects it, so here its limit only prevents further
   // rotation.
   void make_joint_rows(Level level) {
-    island_.system.rows.clear(), island_.max_gaps.clear();
+    island_.system.rows.clear(), island_.row_sources.clear(), island_.max_gaps.clear();
     std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
     for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
       rows.clear();
       w_.joint_set.solver_rows(island_.joints[block], w_.solver_bodies(), rows);
-      const auto [link_a, link_b] = island_.blocks[block];
       const bool turns_back =
           w_.joint_set.began_beyond_limits(island_.joints[block], Real(2 * tuning::kLimitSlack));
       for (const JointSolverRow<Real>& from : rows) {
         if (from.role == RowRole::Spring) continue;
         if (from.role == RowRole::Motor && level == Level::Velocity) continue;
-        BoundedRow row{.a = link_a, .b = link_b};
-        row.linear_a = from.row.linear_a.template as<double>();
-        row.linear_b = from.row.linear_b.template as<double>();
-        row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
-        row.block = block;
+        BoundedRow row = joint_row(from, block);
+        island_.row_sources.push_back({.impulse = from.impulse});
         island_.max_gaps.push_back(max_gap_ * link_length(island_, row, from.length));
         double gap = from.role == RowRole::Motor ? 0 : double(from.row.residual);
         if (turns_back && from.role == RowRole::Limit && is_angular(row)) gap = std::max(gap, 0.0);
@@ -155,9 +158,25 @@ class Mechanism {
     }
   }
 
+  BoundedRow joint_row(const JointSolverRow<Real>& from, int block) const {
+    BoundedRow row{.a = island_.blocks[block].first, .b = island_.blocks[block].second};
+    row.linear_a = from.row.linear_a.template as<double>();
+    row.linear_b = from.row.linear_b.template as<double>();
+    row.angular_a = from.row.angular_a, row.angular_b = from.row.angular_b;
+    row.block = block;
+    return row;
+  }
+
+  // Returns true if friction holds a contact. Closing gaps must not slide it either: a lying ragdoll whose
+  // joints open in each step would crawl.
+  static bool sticks(const ContactConstraint<Real>& c) {
+    const Real max_friction = c.friction * normal_sum(c);
+    return max_friction > 0 && std::abs(c.tangent_impulse) < kStickFraction * max_friction;
+  }
+
   void make_contact_rows(Level level) {
     int block = static_cast<int>(island_.joints.size());
-    for (const ContactConstraint<Real>* c : island_.contacts) {
+    for (ContactConstraint<Real>* c : island_.contacts) {
       const SolverBody<Real>&a = w_.motion[c->body_a], &b = w_.motion[c->body_b];
       const Vec2d n = c->normal.template as<double>();
       const double closed = dot(n, (b.delta_position - a.delta_position).template as<double>());
@@ -168,7 +187,17 @@ class Mechanism {
         row.block = block;
         const double gap = double(c->separation[i]) + closed + double(c->arm_b[i]) * b.delta_angle -
                            double(c->arm_a[i]) * a.delta_angle;
+        island_.row_sources.push_back({.impulse = &c->normal_impulse[i]});
         add_one_sided(row, std::max(gap, 0.0), level);
+      }
+      if (level == Level::Position && sticks(*c)) {
+        BoundedRow row{.a = island_.blocks[block].first, .b = island_.blocks[block].second};
+        row.linear_b = {n.y, -n.x}, row.linear_a = -row.linear_b;
+        row.angular_a = -double(c->arm_tangent_a), row.angular_b = c->arm_tangent_b;
+        row.block = block;
+        row.lower = -kUnbounded, row.upper = kUnbounded;
+        island_.row_sources.push_back({.impulse = &c->tangent_impulse});
+        push_row(row, level);
       }
       ++block;
     }
@@ -273,6 +302,74 @@ class Mechanism {
       motion.velocity = system.bodies[i].velocity.template as<Real>();
       motion.angular_velocity = static_cast<Real>(system.bodies[i].spin);
     }
+    carry_impulses();
+  }
+
+  // Adds to the impulses of joints and contacts, from which the next substep starts, what the projection has
+  // found missing: its mean over the substeps. A persistent load is then carried by impulses, not by closing
+  // its gaps in each step, which would leave the joints' forces too small and a lying ragdoll creeping. Only
+  // the fraction is added that brings the impulses closest to balancing the forces: of impulses that have
+  // stopped a shock, next to nothing.
+  void carry_impulses() {
+    BoundedRows& system = island_.system;
+    assert(island_.row_sources.size() == system.rows.size());
+    add_loads();
+    island_.impulses.clear();
+    for (const BoundedRow& row : system.rows) island_.impulses.push_back(row.impulse / substeps_);
+    load_imbalance();
+    const double fraction = system.best_load_fraction(island_.impulses);
+    for (std::size_t i = 0; i < island_.impulses.size(); ++i)
+      *island_.row_sources[i].impulse += static_cast<Real>(fraction * island_.impulses[i]);
+  }
+
+  // Adds the impulses of the projection to the loads of the joints.
+  void add_loads() {
+    const JointStep<Real> step{.inverse_dt = static_cast<Real>(1 / (h_ * substeps_))};
+    std::size_t next = 0;
+    for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
+      const int joint = island_.joints[block];
+      const Vec2d arm = w_.joint_set.anchor_arm(joint, w_.solver_bodies()).template as<double>();
+      Vec2d impulse{};
+      double moment = 0;
+      for (; next < island_.system.rows.size() && island_.system.rows[next].block == block; ++next) {
+        const BoundedRow& row = island_.system.rows[next];
+        impulse += row.impulse * row.linear_b;
+        moment += row.impulse * (row.angular_b - cross(arm, row.linear_b));
+      }
+      w_.joint_set.add_impulse(joint, impulse.template as<Real>(), static_cast<Real>(moment), step);
+    }
+  }
+
+  // Sets the velocities of the system's bodies to what a substep's forces and present impulses change them
+  // by, together.
+  void load_imbalance() {
+    BoundedRows& system = island_.system;
+    for (BoundedBody& body : system.bodies) body.velocity = {}, body.spin = 0;
+    for (std::size_t i = 0; i < joined_count_; ++i) {
+      const VelocityIncrement<Real> increment = velocity_increment_of(w_, island_.links[i].body, h_);
+      system.bodies[i].velocity = increment.velocity.template as<double>();
+      system.bodies[i].spin = increment.spin;
+    }
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
+      rows.clear();
+      w_.joint_set.solver_rows(island_.joints[block], w_.solver_bodies(), rows);
+      for (const JointSolverRow<Real>& from : rows)
+        system.apply_impulse(joint_row(from, block), double(*from.impulse));
+    }
+    int block = static_cast<int>(island_.joints.size());
+    for (const ContactConstraint<Real>* c : island_.contacts) {
+      const Vec2d n = c->normal.template as<double>(), t{n.y, -n.x};
+      const auto apply = [&](Vec2d along, double arm_a, double arm_b, double impulse) {
+        BoundedRow row{.a = island_.blocks[block].first, .b = island_.blocks[block].second};
+        row.linear_a = -along, row.linear_b = along, row.angular_a = -arm_a, row.angular_b = arm_b;
+        system.apply_impulse(row, impulse);
+      };
+      for (int i = 0; i < c->count; ++i) apply(n, c->arm_a[i], c->arm_b[i], c->normal_impulse[i]);
+      apply(t, c->arm_tangent_a, c->arm_tangent_b, c->tangent_impulse);
+      apply({}, 1, 1, c->rolling_impulse);
+      ++block;
+    }
   }
 
   static double energy_of(const BoundedBody& body) {
@@ -283,7 +380,7 @@ class Mechanism {
 
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
-  const double h_, max_gap_;
+  const double h_, substeps_, max_gap_;
   std::size_t joined_count_ = 0;  // number of links that joints connect; bodies in contact follow them
 };
 
@@ -304,7 +401,7 @@ void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kNotOpen);
   const double max_gap = kMaxGap * std::max(kReferenceSubsteps / static_cast<double>(substeps), 1.0);
   if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(max_gap), marks, &w.scheduler)) return;
-  Mechanism<Real> mechanism(w, w.scratch.open_mechanism, h, max_gap);
+  Mechanism<Real> mechanism(w, w.scratch.open_mechanism, h, substeps, max_gap);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
     if (marks[joint] != kOpen || has_many_loops(w, joint)) continue;
     if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();

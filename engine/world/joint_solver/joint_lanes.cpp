@@ -272,7 +272,7 @@ void JointBlocks<Joint>::prepare(int first, int last, const SolverBodies<Real>& 
         for (bool has_factor = false;; has_factor = true) {
           block.joint.evaluate(motion, pairs.v, step, JointTime::StepStarts);
           if (has_factor) return;
-          store_results(block);
+          plumb::store_results(block);
           bool all = true;
           for (int i = 0; i < block.kLanes; ++i) {
             block.from[i]->under_relaxation = factor_of(data, *block.from[i]);
@@ -354,10 +354,17 @@ void JointBlocks<Joint>::open(int first, int last, Real tolerance, Visit visit, 
 }
 
 template <class Joint>
-void JointBlocks<Joint>::finish(int first, int last, const SolverBodies<Real>& bodies) {
+void JointBlocks<Joint>::store_results(int first, int last) {
   for_each(
       first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
-        store_results(block);
+        plumb::store_results(block);
+      });
+}
+
+template <class Joint>
+void JointBlocks<Joint>::end_step(int first, int last, const SolverBodies<Real>& bodies) {
+  for_each(
+      first, last, [&]<class Number>(LanesOfJoints<Joint, Number> & block) __attribute__((always_inline)) {
         for (int i = 0; i < block.kLanes; ++i) block.from[i]->end_step(bodies);
       });
 }

@@ -93,7 +93,8 @@ class JointBlocks {
     open(first, last, tolerance, call, &act);
   }
   /// Writes the results back to the joints.
-  void finish(int first, int last, const SolverBodies<Real>& bodies);
+  void store_results(int first, int last);
+  void end_step(int first, int last, const SolverBodies<Real>& bodies);
 
  private:
   static constexpr bool kNarrow = kNarrowLanes<Real>, kWide = kWideLanes<Real>;

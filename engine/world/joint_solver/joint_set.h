@@ -65,7 +65,7 @@ struct JointSolverRow {
       nullptr;  ///< its accumulated impulse, in the joint; valid until joints are added or removed
 };
 
-/// Where the caller stores its results for a hinge. Valid until joints are added or removed.
+/// Addresses at which the caller stores its results for a hinge. Valid until joints are added or removed.
 template <class Real>
 struct HingeResults {
   Vec2<Real>* impulse = nullptr;  ///< N s, on b in the last substep
@@ -135,11 +135,12 @@ class JointSet {
 
   /// Evaluates all rows at the start of the step.
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step);
-  /// Does the same, and solves joints in blocks until `finish`, which must come at the end of the step.
-  /// Joints that other code reads or changes before `finish` are marked in `excluded` (by slot; may be
-  /// empty).
+  /// Does the same, and solves joints in blocks until `store_results`, which must follow the last substep.
+  /// Joints that other code reads or changes before it are marked in `excluded` (by slot; may be empty).
   void prepare(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
                const std::vector<char>& excluded, LoopScheduler* scheduler);
+  void store_results(LoopScheduler* scheduler);
+  /// Stores the angles at the end of the step, after gaps were closed.
   void finish(const SolverBodies<Real>& bodies, LoopScheduler* scheduler);
   /// Applies the impulses of the last substep.
   void warm_start(const SolverBodies<Real>& bodies, const JointStep<Real>& step,
@@ -185,7 +186,7 @@ class JointSet {
   /// the present poses.
   void add_load(int joint, const SolverBodies<Real>& bodies, const JointStep<Real>& step);
   /// Adds an impulse on b to a joint's load, N s, with its moment about b's anchor, N m s. Call after
-  /// `finish`.
+  /// `store_results`.
   void add_impulse(int joint, Vec2<Real> impulse, Real moment, const JointStep<Real>& step);
   /// Returns the arm of b's anchor from b's centre of mass at the present poses, m; 0 without an anchor.
   Vec2<Real> anchor_arm(int joint, const SolverBodies<Real>& bodies) const;

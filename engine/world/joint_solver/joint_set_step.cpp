@@ -198,6 +198,15 @@ void JointSet<Real>::evaluate(const SolverBodies<Real>& bodies, const JointStep<
 }
 
 template <class Real>
+void JointSet<Real>::store_results(LoopScheduler* scheduler) {
+  const auto store = [&](auto& blocks) {
+    share_range(blocks.counts().blocks, kBlocksPerTask, scheduler,
+                [&](int first, int last) { blocks.store_results(first, last); });
+  };
+  std::apply([&](auto&... blocks) { (store(blocks), ...); }, parts_->lanes);
+}
+
+template <class Real>
 void JointSet<Real>::add_loads(const JointStep<Real>& step) {
   parts_->for_each_active([&](auto& joint) { joint.add_load(step); });
 }
@@ -228,10 +237,11 @@ Vec2<Real> JointSet<Real>::anchor_arm(int joint, const SolverBodies<Real>& bodie
 template <class Real>
 void JointSet<Real>::finish(const SolverBodies<Real>& bodies, LoopScheduler* scheduler) {
   Parts& p = *parts_;
-  const auto finish = [&](auto& blocks) {
-    if (blocks.counts().blocks == 0) return;
-    share_range(blocks.counts().blocks, kBlocksPerTask, scheduler,
-                [&](int first, int last) { blocks.finish(first, last, bodies); });
+  const auto finish = [&]<class Joint>(JointBlocks<Joint>& blocks) {
+    if constexpr (Joint::kAngle != AngleUse::None) {
+      share_range(blocks.counts().blocks, kBlocksPerTask, scheduler,
+                  [&](int first, int last) { blocks.end_step(first, last, bodies); });
+    }
   };
   std::apply([&](auto&... blocks) { (finish(blocks), ...); }, p.lanes);
   // Does the same for joints not in blocks: gaps were closed since they were evaluated.
@@ -274,6 +284,7 @@ void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Rea
   template void JointSet<R>::prepare(const SolverBodies<R>&, const JointStep<R>&, const std::vector<char>&, \
                                      LoopScheduler*);                                                       \
   template void JointSet<R>::evaluate(const SolverBodies<R>&, const JointStep<R>&);                         \
+  template void JointSet<R>::store_results(LoopScheduler*);                                                 \
   template void JointSet<R>::add_loads(const JointStep<R>&);                                                \
   template void JointSet<R>::add_load(int, const SolverBodies<R>&, const JointStep<R>&);                    \
   template void JointSet<R>::add_impulse(int, Vec2<R>, R, const JointStep<R>&);                             \

@@ -105,7 +105,7 @@ class Check {
                   all_finite(corners) && all_finite(w_.sleeping_contacts) &&
                   all_finite(std::get<0>(w_.loads.parts())) &&
                   all_finite(std::get<0>(w_.position_compensation.parts())) &&
-                  all_finite(std::get<0>(w_.rest_starts.parts())) && all_finite_uncommon() &&
+                  all_finite(std::get<0>(w_.rest_displacements.parts())) && all_finite_uncommon() &&
                   all_finite(std::get<0>(w_.bodies.parts())) && all_finite(std::get<0>(w_.shapes.parts())) &&
                   all_finite(std::get<0>(w_.joints.parts()));
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
@@ -168,7 +168,7 @@ class Check {
       return items.empty() || is_by_body(items);
     };
     require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) &&
-                none_or_by_body(w_.position_compensation) && none_or_by_body(w_.rest_starts) &&
+                none_or_by_body(w_.position_compensation) && none_or_by_body(w_.rest_displacements) &&
                 is_by_body(w_.motion) && is_by_body(w_.rotation) && is_by_body(w_.position) &&
                 is_by_body(w_.extents) && is_by_body(w_.enlarged),
             "bodies", "are not as many everywhere");

@@ -51,7 +51,7 @@ PLUMB_REAL_MEMBERS(BodyRecord, type, awake, may_sleep, lock_x, lock_y, lock_rota
                    centre, half_width, sleep_time, angle)
 PLUMB_REAL_MEMBERS(BodyExtras, name, gravity_scale, linear_damping, angular_damping, mass_centre, continuous)
 PLUMB_REAL_MEMBERS(Load, force, torque)
-PLUMB_MEMBERS(RestStart, position, angle)
+PLUMB_MEMBERS(RestDisplacement, translation, rotation)
 PLUMB_REAL_MEMBERS(SolverBody, velocity, angular_velocity, delta_position, delta_angle, inverse_mass,
                    inverse_inertia)
 
@@ -89,17 +89,17 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, loaded
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, bodies, body_extras, loads, body_data, motion, rotation, position,
-         position_compensation, rest_starts, extents, enlarged, awake, mass_changed_bodies, shapes, forms,
-         tight_aabbs, corners, shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts, pairs,
-         nontouching_contacts, graph, sleeping_contacts, joints, joint_set, sensors, load_limited_joints,
-         quarantine, events, pending, stepping, profiled, profile, scheduler, active_callbacks, abandoned,
-         reports_hits, topology_changed, scratch, pre_solve, filter, friction_rule, restitution_rule,
-         disabled_pairs, enabled_pairs] = w;
+         position_compensation, rest_displacements, extents, enlarged, awake, mass_changed_bodies, shapes,
+         forms, tight_aabbs, corners, shape_data, chains, move_buffer, static_tree, dynamic_tree, contacts,
+         pairs, nontouching_contacts, graph, sleeping_contacts, joints, joint_set, sensors,
+         load_limited_joints, quarantine, events, pending, stepping, profiled, profile, scheduler,
+         active_callbacks, abandoned, reports_hits, topology_changed, scratch, pre_solve, filter,
+         friction_rule, restitution_rule, disabled_pairs, enabled_pairs] = w;
   return std::tie(settings, time, steps, last_h, bodies, body_extras, loads, body_data, motion, rotation,
-                  position, position_compensation, rest_starts, extents, enlarged, awake, mass_changed_bodies,
-                  shapes, forms, tight_aabbs, corners, shape_data, chains, move_buffer, static_tree,
-                  dynamic_tree, contacts, pairs, nontouching_contacts, graph, sleeping_contacts, joints,
-                  joint_set, sensors, load_limited_joints, quarantine, events, pending, reports_hits);
+                  position, position_compensation, rest_displacements, extents, enlarged, awake,
+                  mass_changed_bodies, shapes, forms, tight_aabbs, corners, shape_data, chains, move_buffer,
+                  static_tree, dynamic_tree, contacts, pairs, nontouching_contacts, graph, sleeping_contacts,
+                  joints, joint_set, sensors, load_limited_joints, quarantine, events, pending, reports_hits);
 }
 
 }  // namespace plumb

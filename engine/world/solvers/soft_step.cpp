@@ -191,8 +191,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     restore_deferred(std::span<Bounce>(w.scratch.restitution_contacts));
     contacts.warm_start = joints.warm_start = 1;
   }
-  if (jointed) close_joint_gaps(w, h, substeps);
   soft_contacts.finish();
+  if (jointed) w.joint_set.store_results(&w.scheduler);
+  if (jointed) close_joint_gaps(w, h, substeps);
   if (jointed) w.joint_set.finish(bodies, &w.scheduler);
   if (jointed) add_impact_loads(w, joints);
   finish_direct_islands(w);

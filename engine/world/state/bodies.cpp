@@ -25,7 +25,7 @@ void reserve_body(WorldData<Real>& w, bool has_data) {
   ensure_capacity(w.extents, capacity), ensure_capacity(w.enlarged, capacity),
       ensure_capacity(w.awake, capacity);
   w.loads.reserve(size, false), w.body_data.reserve(size, has_data),
-      w.position_compensation.reserve(size, false), w.rest_starts.reserve(size, w.settings.sleeping);
+      w.position_compensation.reserve(size, false), w.rest_displacements.reserve(size, w.settings.sleeping);
 }
 
 template <class T>
@@ -40,7 +40,7 @@ void reset_body_data(WorldData<Real>& w, int body) {
       resize_with_growth(w.position, size);
   resize_with_growth(w.extents, size), resize_with_growth(w.enlarged, size);
   w.loads.reset(body, size), w.body_data.reset(body, size), w.position_compensation.reset(body, size);
-  w.rest_starts.reset(body, size);
+  w.rest_displacements.reset(body, size);
   w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
 }
 
@@ -197,9 +197,11 @@ void teleport_body(WorldData<Real>& w, int body, Vec2d origin, double angle) {
   reserve_proxies(w, body, w.bodies[body].type);
   wake_neighbours(w, body);
   BodyRecord<Real>& record = w.bodies[body];
-  record.angle = angle;
+  const Vec2d before = w.position[body];
   w.rotation[body] = rounded<Real>(rotation_of(angle));
   w.position[body] = origin + (w.rotation[body] * record.centre).template as<double>();
+  if (w.position[body] != before || record.angle != angle) record.sleep_time = 0;
+  record.angle = angle;
   w.motion[body].delta_position = {}, w.motion[body].delta_angle = 0;
   w.position_compensation.reset(body, w.bodies.size());
   invalidate_manifolds(w, body);

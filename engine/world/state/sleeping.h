@@ -68,25 +68,23 @@ double rest_limit(const WorldData<Real>& w, Vec2d gravity, double extent) {
 /// body that nothing holds and no `load` pushes is not at rest under gravity.
 template <class Real>
 [[gnu::noinline]] Real time_at_rest(const WorldData<Real>& w, int body, Real extent, Real dt,
-                                    const Load<Real>* load, RestStart& start) {
+                                    const Load<Real>* load, RestDisplacement& rest) {
   const BodyRecord<Real>& record = w.bodies[body];
   const SolverBody<Real>& motion = w.motion[body];
   const Real before = record.sleep_time;
   const Vec2d gravity = gravity_on(w, record);
   if (record.constraints == 0 && gravity != Vec2d{} && (load == nullptr || load->force == Vec2<Real>{}))
     return 0;
-  if (before == 0) {
-    start = {w.position[body] - motion.delta_position.template as<double>(),
-             record.angle - static_cast<double>(motion.delta_angle)};
-  }
+  if (before == 0) rest = {};
+  rest.translation += motion.delta_position.template as<float>();
+  rest.rotation += static_cast<float>(motion.delta_angle);
   const double size = static_cast<double>(sleep_extent(motion, extent));
-  const double moved =
-      length(w.position[body] - start.position) + size * std::abs(record.angle - start.angle);
+  const double moved = length(rest.translation.as<double>()) + size * std::abs(double(rest.rotation));
   if (moved > rest_limit(w, gravity, size)) return 0;
   constexpr Real kTime = tuning::kSleepTime;
   const Real time = before + dt;
   // A period is over at kSleepTime, and then whenever the timer, set back by one period, reaches twice that.
-  if (time >= kTime && (before < kTime || time >= 2 * kTime)) start = {w.position[body], record.angle};
+  if (time >= kTime && (before < kTime || time >= 2 * kTime)) rest = {};
   return time >= 2 * kTime ? std::max(kTime, time - kTime) : time;
 }
 

@@ -28,12 +28,12 @@ Vec2d* position_compensation_of(WorldData<Real>& w) {
   return w.position_compensation.data();
 }
 
-// Returns the poses in which sleep timers started; none if sleeping is off.
+// Returns the displacements since sleep timers started; none if sleeping is off.
 template <class Real>
-RestStart* rest_starts_of(WorldData<Real>& w) {
+RestDisplacement* rest_displacements_of(WorldData<Real>& w) {
   if (!w.settings.sleeping || w.bodies.size() == 0) return nullptr;
-  w.rest_starts.at(0, w.bodies.size());
-  return w.rest_starts.data();
+  w.rest_displacements.at(0, w.bodies.size());
+  return w.rest_displacements.data();
 }
 
 // Moves a body by the displacement and rotation that the solver found.
@@ -89,7 +89,8 @@ struct DeferredUpdates {
 template <class Real, class Updates>
 [[gnu::always_inline]] inline void finalize_body(WorldData<Real>& w, int body, Real dt, bool any_expected,
                                                  Load<Real>* loads, Vec2d* position_compensation,
-                                                 RestStart* rest_starts, const Updates& updates) {
+                                                 RestDisplacement* rest_displacements,
+                                                 const Updates& updates) {
   BodyRecord<Real>& record = w.bodies[body];
   const SolverBody<Real>& motion = w.motion[body];
   const Real extent = w.extents[body];
@@ -103,10 +104,10 @@ template <class Real, class Updates>
     return;
   }
   move_body(w, body, record, motion, position_compensation);
-  if (rest_starts != nullptr) {
+  if (rest_displacements != nullptr) {
     const Load<Real>* const load = loads != nullptr ? &loads[body] : nullptr;
     record.sleep_time = is_still(w, record, motion, extent, dt)
-                            ? time_at_rest(w, body, extent, dt, load, rest_starts[body])
+                            ? time_at_rest(w, body, extent, dt, load, rest_displacements[body])
                             : Real(0);
   } else if (record.sleep_time != 0) {
     record.sleep_time = 0;
@@ -145,15 +146,16 @@ void finalize_bodies(WorldData<Real>& w, Real dt) {
   scratch.fast_bodies.clear(), scratch.nonfinite_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const position_compensation = position_compensation_of(w);
-  RestStart* const rest_starts = rest_starts_of(w);
+  RestDisplacement* const rest_displacements = rest_displacements_of(w);
   const bool any_expected = !scratch.impact_bodies.empty();
   const PrefetchAwakeBodies<Real> prefetch(w);
   const int count = static_cast<int>(w.awake.size());
-  const auto finalize = [&w, &prefetch, dt, any_expected, loads, position_compensation, rest_starts ](
+  const auto finalize = [&w, &prefetch, dt, any_expected, loads, position_compensation, rest_displacements ](
       int first, int last, const auto& updates) __attribute__((always_inline)) {
     for (int index = first; index < last; ++index) {
       prefetch.prefetch_motion(index), prefetch.prefetch_pose(index);
-      finalize_body(w, w.awake[index], dt, any_expected, loads, position_compensation, rest_starts, updates);
+      finalize_body(w, w.awake[index], dt, any_expected, loads, position_compensation, rest_displacements,
+                    updates);
     }
   };
   // Awake bodies are never static, so all their proxies are in the dynamic tree.

@@ -65,7 +65,7 @@ struct JointBench {
       move(s.h);
       joints.relax(bodies(), s);
     }
-    if (side_by_side) joints.finish(bodies(), &scheduler);
+    if (side_by_side) joints.store_results(&scheduler), joints.finish(bodies(), &scheduler);
     finish();
   }
   void run(double time, double dt) {

@@ -66,13 +66,16 @@ void fill_room(BasicWorld<Real>& world, int count, double speed = 60) {
   }
 }
 
+// Bodies in a room, more than a block of any loop has, and steps.
+constexpr int kBodies = test::kThreadSanitizer ? 160 : 300, kSteps = test::kThreadSanitizer ? 8 : 20;
+
 template <class Real, class Set>
 std::vector<std::uint64_t> hashes_of_room(const Set& set, const WorldDefinition& definition = {}) {
   BasicWorld<Real> world(definition);
   set(world);
-  fill_room(world, 300);
+  fill_room(world, kBodies);
   std::vector<std::uint64_t> hashes;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < kSteps; ++i) {
     world.step(1.0 / 60, 4);
     if (i % 4 == 3) hashes.push_back(full_hash(world));
   }
@@ -93,8 +96,8 @@ TYPED_TEST(Threads, EachSolverHasTheSameBitsForEachNumber) {
     const auto run_room = [&](int threads) {
       BasicWorld<Real> world(definition);
       if (threads > 1) test::share_all(world, threads, LoopOrder::Shuffled);
-      fill_room(world, 200);
-      run(world, 40);
+      fill_room(world, test::kThreadSanitizer ? 160 : 200);
+      run(world, 2 * kSteps);
       return full_hash(world);
     };
     const std::uint64_t alone = run_room(1);
@@ -110,7 +113,7 @@ TYPED_TEST(Threads, RunawaysHaveTheSameBits) {
     const auto hashes = [&](int threads) {
       BasicWorld<Real> world({.integrator = Integrator::SemiImplicitEuler});  // solves joints by iterations
       if (threads > 1) test::share_all(world, threads, LoopOrder::Shuffled);
-      fill_room(world, 300, speed);
+      fill_room(world, kBodies, speed);
       std::vector<std::uint64_t> all;
       for (int i = 0; i < 17; ++i) {
         world.step();
@@ -158,7 +161,7 @@ TYPED_TEST(Threads, JointsHaveTheSameBitsForEachNumberAndOrder) {
     }
     world.create_body({.type = BodyType::Static},
                       ShapeDefinition{.geometry = Box{400, 1}, .position = {140, -0.5}});
-    run(world, 40);
+    run(world, 2 * kSteps);
     return full_hash(world);
   };
   const std::uint64_t alone = hash_of([](BasicWorld<Real>&) {});
