@@ -191,9 +191,9 @@ TEST(ThreadCounts, DoNotChangeHowTheCallerRounds) {
   const auto hash_of = [](int threads, int mode) {
     World world;
     test::share_all(world, threads);
-    fill_room(world, 300);
+    fill_room(world, kBodies);
     const Rounding rounding(mode);
-    run(world, 20);
+    run(world, kSteps);
     EXPECT_EQ(std::fegetround(), mode);
     return full_hash(world);
   };
@@ -222,13 +222,13 @@ TEST(ThreadCounts, OutOfRangeAreRefused) {
 
 TEST(ThreadCounts, AreNotPartOfSnapshots) {
   World one, two({.threads = 2});
-  fill_room(one, 300), fill_room(two, 300);
-  run(one, 20), run(two, 20);
+  fill_room(one, kBodies), fill_room(two, kBodies);
+  run(one, kSteps), run(two, kSteps);
   EXPECT_EQ(save(one), save(two));
   World three({.threads = 3});
   restore(three, save(two));
   EXPECT_EQ(three.threads(), 3);
-  run(one, 20), run(three, 20);
+  run(one, kSteps), run(three, kSteps);
   EXPECT_EQ(full_hash(one), full_hash(three));
   Rollback<float> rollback(three, 2);
   rollback.save();
@@ -358,7 +358,7 @@ TEST(ThreadErrors, MemoryThatRunsOutReachesTheCaller) {
   for (long after = 0; after < 60; after += 3) {
     World world;
     test::share_all(world, 3);
-    fill_room(world, 300);
+    fill_room(world, kBodies);
     test::fail_after(after);
     try {
       run(world, 12);
@@ -420,16 +420,16 @@ TEST(LoopSchedulers, RunEachBlockOnceForAllCountsAndOrders) {
 // Worlds with pools of their own, each stepped by a thread of its own.
 TEST(ManyWorlds, SteppedOnManyThreadsAtOnceStayIndependent) {
   World alone;
-  fill_room(alone, 300);
-  run(alone, 40);
-  constexpr int kWorlds = 6;
+  fill_room(alone, kBodies);
+  run(alone, 2 * kSteps);
+  constexpr int kWorlds = test::kThreadSanitizer ? 3 : 6;
   std::vector<std::uint64_t> hashes(kWorlds);
   std::vector<std::thread> players;
   for (int i = 0; i < kWorlds; ++i) {
     players.emplace_back([&hashes, i] {
       World world({.threads = 1 + i % 3});
-      fill_room(world, 300);
-      run(world, 40);
+      fill_room(world, kBodies);
+      run(world, 2 * kSteps);
       hashes[i] = full_hash(world);
     });
   }
