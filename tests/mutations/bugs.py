@@ -529,6 +529,8 @@ MUTATIONS = [
              "record.restitution = static_cast<Real>(", "record.restitution = static_cast<float>(", "simulation"),
     Mutation("pairs of moving bodies are known a step late", "engine/world/step/finalize.cpp",
              "predicted_aabb(box, dt * motion.velocity, rotation_distance, extent)", "box", "simulation"),
+    Mutation("short steps forget the impulses of long ones", "engine/world/state/impulse_memory.cpp",
+             "(1 - h_ / w_.impulse_h) * shrunk / w_.impulse_h)", "0)", "world", ("world/variable_step",)),
     Mutation("monitor: the work of forces is not counted", "engine/world/monitor/invariant_monitor.cpp",
              "dot(old.weight + old.force, displacement)", "dot(old.weight, displacement)", "world", ("world/invariant_monitor",)),
     Mutation("monitor: gaps go unsaid", "engine/world/monitor/invariant_monitor.cpp",
