@@ -8,6 +8,7 @@
 #include "engine/collision/distance/hull_distance.h"
 #include "engine/collision/distance/time_of_impact.h"
 #include "engine/geometry/convex_core.h"
+#include "engine/math/trigonometry.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bound.h"
 #include "engine/world/continuous/swept_boxes.h"
@@ -314,7 +315,7 @@ constexpr int kMaxPoses = 32;
 // Lift that counts as rounding, as a fraction of the body's extent.
 constexpr double kMinLift = 1e-9;
 
-// Separations of two shapes along the normal of their contact, m: as it was at the path's start, which
+// Separations of two shapes along the normal of their contact, m: as it was at the step's start, which
 // belongs to the obstacle's side, and turning with the moving body, to whose side it belongs when that pivots
 // on a corner. Neither exceeds the distance of the shapes.
 struct AxisSeparations {
@@ -328,11 +329,12 @@ template <class Real>
 struct LiftAxes {
   const Convex<Real>&shape, &obstacle;
   const Sweep<double>&sweep, &other_sweep;
-  Vec2d normal;  // at the path's start, from the obstacle
+  Vec2d normal;          // from the obstacle, at the step's start
+  double turned_before;  // rad, rotation of the moving shape from the step's start to the path's
 
   // Returns the normal that turns with the moving body, at a fraction of its path.
   Vec2d turned(double fraction) const {
-    return pose_at(sweep, fraction).rotation * (sweep.start_rotation.inverse() * normal);
+    return rotation_of(turned_before + fraction * sweep.delta_angle) * normal;
   }
   AxisSeparations at(double fraction) const {
     const Pose<double> pose = pose_at(sweep, fraction), other_pose = pose_at(other_sweep, fraction);
@@ -340,7 +342,7 @@ struct LiftAxes {
       return min_along(shape, pose, n) + min_along(obstacle, other_pose, -n);
     };
     const double fixed = along(normal);
-    return {fixed, sweep.delta_angle == 0 ? fixed : along(turned(fraction))};
+    return {fixed, turned_before == 0 && sweep.delta_angle == 0 ? fixed : along(turned(fraction))};
   }
   // Returns true if one of the separations is above a limit everywhere on the path. Each differs between two
   // poses from its chord by at most an eighth of its second derivative times the square of their distance.
@@ -404,7 +406,10 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
   const Vec2d normal = side * pair.contact->normal.template as<double>();
   const Motion other_motion = motion_of(w, other, path.from, path.origin, path.search.dt);
   const Convex<Real> shape = w.convex(pair.shape), obstacle = w.convex(pair.other);
-  const LiftAxes<Real> axes{shape, obstacle, path.sweep, other_motion.sweep, normal};
+  const SweptBody& swept = path.swept;
+  const double turned_before =
+      swept.delta_angle_before + swept.elapsed_fraction(path.from) * swept.delta_angle;
+  const LiftAxes<Real> axes{shape, obstacle, path.sweep, other_motion.sweep, normal, turned_before};
   const AxisSeparations start = axes.at(0), end = axes.at(1);
   const double core = tuning::kCoreDepth * static_cast<double>(half_width_of(w, pair.shape));
   // Along a slender shape's normal, a wide shape may overlap it far from the contact point. So use the
