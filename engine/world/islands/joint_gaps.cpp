@@ -309,13 +309,18 @@ class Mechanism {
   // found missing: its mean over the substeps. A persistent load is then carried by impulses, not by closing
   // its gaps in each step, which would leave the joints' forces too small and a lying ragdoll creeping. Only
   // the fraction is added that brings the impulses closest to balancing the forces: of impulses that have
-  // stopped a shock, next to nothing.
+  // stopped a shock, next to nothing. Contacts with dynamic bodies outside the mechanism get none: the
+  // projection takes these bodies as fixed, so two mechanisms in contact would push each other ever harder.
   void carry_impulses() {
     BoundedRows& system = island_.system;
     assert(island_.row_sources.size() == system.rows.size());
     add_loads();
     island_.impulses.clear();
-    for (const BoundedRow& row : system.rows) island_.impulses.push_back(row.impulse / substeps_);
+    const auto is_outside = [&](int link) {
+      return link >= static_cast<int>(joined_count_) && w_.is_dynamic(island_.links[link].body);
+    };
+    for (const BoundedRow& row : system.rows)
+      island_.impulses.push_back(is_outside(row.a) || is_outside(row.b) ? 0 : row.impulse / substeps_);
     load_imbalance();
     const double fraction = system.best_load_fraction(island_.impulses);
     for (std::size_t i = 0; i < island_.impulses.size(); ++i)

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/world/mechanisms.h"
+
+// Trees of joined bodies that fall onto each other. Nothing drives them, so energy never grows, except by what
+// contacts that remove an overlap of thin links add.
+namespace plumb {
+namespace {
+
+using test::Draw;
+using test::Mechanism;
+using test::Ties;
+
+// Adds a tree of boxes of density 1 kg/m^2, whose bodies do not collide with each other.
+template <class Real>
+void add_tree(Mechanism<Real>& m, Draw& draw, Ties ties, Vec2d at, int group) {
+  struct Tip {
+    BodyId body;
+    Vec2d at;
+    double angle;
+  };
+  const auto box = [&](Vec2d centre, double angle, double length, double width) {
+    const Filter own{.group = group};
+    m.bodies.push_back(m.world.create_body({.position = centre, .angle = angle},
+                                           {.geometry = Box{length, width}, .filter = own}));
+    return m.bodies.back();
+  };
+  const BodyId trunk = box(at, 0, 1, 0.3);
+  std::vector<Tip> tips{{trunk, at + Vec2d{0.5, 0}, 0}, {trunk, at - Vec2d{0.5, 0}, std::numbers::pi}};
+  const int links = 1 + draw.below(9);
+  for (int i = 0; i < links; ++i) {
+    const Tip from = tips[draw.below(static_cast<int>(tips.size()))];
+    const double angle = from.angle + draw.in(-0.8, 0.8), length = draw.in(0.3, 0.8);
+    const Vec2d along{std::cos(angle), std::sin(angle)};
+    const BodyId link = box(from.at + length / 2 * along, angle, length, draw.in(0.08, 0.2));
+    tie(m, draw, ties, from.body, link, from.at);
+    tips.push_back({link, from.at + length * along, angle});
+  }
+}
+
+// Returns the largest gain of energy in a step, as a fraction of the energy at the start.
+template <class Real>
+double largest_gain(Ties ties, std::uint64_t seed) {
+  Draw draw(seed);
+  WorldDefinition definition;
+  definition.sleeping = false;
+  Mechanism<Real> m{BasicWorld<Real>(definition)};
+  m.world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{4000, 2}});
+  const int trees = 2 + draw.below(4);
+  double height = draw.one_in(2) ? 0.3 : draw.in(0.3, 8);
+  for (int i = 0; i < trees; ++i, height += 2.5)
+    add_tree(m, draw, ties, {draw.in(-1, 1), height}, -1 - i);
+  const double start = m.energy();
+  double energy = start, gain = 0;
+  for (int i = 0; i < 240; ++i) {
+    m.world.step(1.0 / 60);
+    const double now = m.energy();
+    gain = std::max(gain, (now - energy) / start);
+    energy = now;
+  }
+  return gain;
+}
+
+// Links that are 8 cm thin may be pushed into each other by some millimetres, and are pushed apart again.
+TEST(MechanismsInHeaps, GainNoEnergy) {
+  constexpr double kPushedApart = 0.05;
+  for (const Ties ties : {Ties::Hinges, Ties::Limits, Ties::Sliders}) {
+    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+      const std::string scene = std::string(test::kTies[int(ties)]) + ", seed " + std::to_string(seed);
+      EXPECT_LT(largest_gain<float>(ties, seed), kPushedApart) << scene;
+    }
+  }
+  for (std::uint64_t seed = 0; seed < 15; ++seed)
+    EXPECT_LT(largest_gain<double>(Ties::Mixed, seed), kPushedApart) << "mixed, seed " << seed;
+}
+
+}  // namespace
+}  // namespace plumb
