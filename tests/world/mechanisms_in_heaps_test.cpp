@@ -8,8 +8,8 @@
 
 #include "tests/world/mechanisms.h"
 
-// Trees of joined bodies that fall onto each other. Nothing drives them, so energy never grows, except by what
-// contacts that remove an overlap of thin links add.
+// Trees of joined bodies that fall onto each other. Nothing drives them, so energy never grows, except by
+// what contacts that remove an overlap of thin links add.
 namespace plumb {
 namespace {
 
@@ -54,8 +54,7 @@ double largest_gain(Ties ties, std::uint64_t seed) {
   m.world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{4000, 2}});
   const int trees = 2 + draw.below(4);
   double height = draw.one_in(2) ? 0.3 : draw.in(0.3, 8);
-  for (int i = 0; i < trees; ++i, height += 2.5)
-    add_tree(m, draw, ties, {draw.in(-1, 1), height}, -1 - i);
+  for (int i = 0; i < trees; ++i, height += 2.5) add_tree(m, draw, ties, {draw.in(-1, 1), height}, -1 - i);
   const double start = m.energy();
   double energy = start, gain = 0;
   for (int i = 0; i < 240; ++i) {
