@@ -136,7 +136,7 @@ TEST(FallingStacks, RowsStayAtTheWallThatTheyHit) {
   }
 }
 
-// What lands on a tower stops, and so does the tower.
+// A tower stops what lands on it, and stays.
 TEST(FallingStacks, TowersStayUnderWhatLandsOnThem) {
   for (const double fall : {2.0, 20.0}) {
     for (const double density : {1.0, 10.0}) {
