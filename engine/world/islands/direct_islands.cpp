@@ -178,6 +178,8 @@ void add_rows(DirectIsland<Real>& island) {
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
+      // Open points that will bounce are left to their impact.
+      if (c->restitution > 0 && c->normal_impulse[i] == 0 && c->separation[i] > 0) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;
       row.linear_a = -free_of_a(c->normal, c->locks), row.linear_b = free_of_b(c->normal, c->locks);

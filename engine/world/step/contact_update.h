@@ -107,7 +107,10 @@ template <class Real>
   const Real smaller = std::min(form_a, form_b);
   const Real rounding = 1 + 4 * std::numeric_limits<Real>::epsilon();
   const Real approach = rounding * (dt * (l1_norm(b.velocity - a.velocity) + rotation_speed));
-  const Real margin = Real(tuning::kSpeculativeMargin) * smaller + approach;
+  // The search for segments ahead looks within a margin, with an approach of its own, around the whole path.
+  const bool along_chain = w.forms[contact.shape_a].chain;
+  const Real margin =
+      Real(tuning::kSpeculativeMargin) * (along_chain ? form_b : smaller) + (along_chain ? 2 : 1) * approach;
   if (aabbs_apart(w, contact.shape_a, contact.shape_b, margin)) return true;
   // Shapes that approach faster are searched along their curved paths, for which a face at the start says
   // little.

@@ -47,7 +47,8 @@ void build_tree(Draft& draft, Ties ties, Vec2d at) {
   Random& random = draft.random;
   const double s = draft.size;
   const int first = draft.box(at, s, 0.3 * s);
-  std::vector<Tip> tips{{first, at + Vec2d{0.5 * s, 0}, 0}, {first, at - Vec2d{0.5 * s, 0}, std::numbers::pi}};
+  std::vector<Tip> tips{{first, at + Vec2d{0.5 * s, 0}, 0},
+                        {first, at - Vec2d{0.5 * s, 0}, std::numbers::pi}};
   const int limbs = random.whole(1, 9);
   for (int i = 0; i < limbs; ++i) {
     const Tip from = tips[static_cast<std::size_t>(random.whole(0, static_cast<int>(tips.size()) - 1))];
