@@ -117,10 +117,16 @@ Finding scene_says_gravity(const Lab& lab) {
   // If a different gravity adds the same velocity, the engine uses a constant.
   const Vec2d gain = v - v0, gain_of_other = other.last(0).velocity;
   const bool same_gain = std::hypot(gain.x - gain_of_other.x, gain.y - gain_of_other.y) < 1e-6 && gain.y != 0;
+  const Fling slow = fling(lab, kSlow, 1), fast = fling(lab, kFast, 0.5);
   return Judgement()
       .read("vx after 1 s", "m/s", v.x, right.x, tolerance)
       .read("vy after 1 s", "m/s", v.y, right.y, tolerance)
       .read("x after 1 s", "m", trace.last(0).position.x, lab.way(v0.x, gravity.x, t), tolerance)
+      .read("way of a slow ball, without gravity", "m", slow.way, slow.due, tolerance)
+      .read("way of a fast ball, without gravity", "m", fast.way, fast.due, lab.rounding(kFast, 1))
+      .proven_if(slow.held && !fast.held, "slow_is_stopped", kSlowIsHeld)
+      .proven_if(fast.limited && std::abs(slow.way - slow.due) <= tolerance, "speed_limited",
+                 limit_text(fast.speed))
       .proven_if(
           same_gain, "gravity_hard_coded",
           fmt::format("Gravity is {:.4g} m/s^2 downwards whatever the scene says: take \"gravity\" from the "
@@ -372,28 +378,6 @@ Finding restitution(const Lab& lab) {
                "The geometric mean of the two restitutions is taken: \"contact_rules\" says maximum.")
       .mistake("falls_through", {-v}, "The ball goes through the floor.")
       .finding();
-}
-
-// Returns a wall that the ball has passed, right and left first; empty if the ball is in the room.
-std::string wall_passed(const BodyState& s, double half_width, double half_height) {
-  if (s.position.x > half_width) return "right";
-  if (s.position.x < -half_width) return "left";
-  if (s.position.y > half_height) return "upper";
-  return s.position.y < -half_height ? "lower" : "";
-}
-
-// Returns true if the velocity along the axis on which the ball leaves the room is constant from the last
-// state before the wall: the wall has then not acted. Walls stop the centre at `x` and `y`. A ball of radius
-// `r` that may jump over a wall within a step does not count.
-bool leaves_straight(const Trace& trace, double x, double y, double r) {
-  const auto at = [&](std::size_t i) { return trace.states[i][0]; };
-  const std::size_t last = trace.states.size() - 1;
-  const bool by_side = std::abs(at(last).position.x) > x;
-  const auto axis = by_side ? &Vec2d::x : &Vec2d::y;
-  std::size_t k = last;
-  while (k > 0 && std::abs(at(k).position.*axis) >= (by_side ? x : y)) --k;
-  const double step = at(std::min(k + 1, last)).position.*axis - at(k).position.*axis;
-  return at(k).velocity.*axis == at(last).velocity.*axis && std::abs(step) < r;
 }
 
 Finding four_walls(const Lab& lab) {

@@ -15,10 +15,31 @@ constexpr const char* kTestReversed =
     "they close "
     "when (vb - va) . n < 0.";
 
+constexpr const char* kSumShared =
+    "Several contacts share one sum of impulses, so that one may pull as long as another pushes: each "
+    "contact of "
+    "each pair keeps a sum of its own, which is 0 at the start of the step and never negative.";
+
+constexpr const char* kCells =
+    "Circles are compared only with those in the same cell of a grid, so that two go through each other at "
+    "the "
+    "border of two cells: compare those of neighbouring cells as well.";
+
 }  // namespace
 
 std::vector<Predictable> mistakes_of_contacts() {
   return {
+      {"size of the cells in which circles are compared*0.5", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*1", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*2", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*5", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*10", "place_matters", "3", kCells},
+      {"sum_of_the_first_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_second_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_earlier_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_later_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_pair", "sum_shared", "4", kSumShared},
+      {"sum_of_all_contacts", "sum_shared", "34", kSumShared},
       {"impulse of a contact*0.5", "impulse_halved", "13",
        "The impulse is half of what it should be: it is -(1 + e) vn/(1/m1 + 1/m2)."},
       {"impulse of a contact*-1", "impulse_backwards", "3",

@@ -102,6 +102,9 @@ std::vector<Predictable> mistakes_of_motion() {
       {"speed below which bodies stop*0.3", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*0.5", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*1", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies do not move*0.05", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies do not move*0.1", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies do not move*0.5", "slow_is_stopped", "1", kSlowIsStopped},
       {"gravity_off_while_touching", "gravity_off_while_touching", "1",
        "Gravity does nothing in the step after a contact: it acts in each step, also on a body that touches "
        "something; the contact's impulse holds it up."},
@@ -305,6 +308,9 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it acts in all steps that begin from start to start + duration."},
       {"push_a_step_late", "push_a_step_late", "2",
        "The force begins a step late: it acts in the step that begins at \"start\" as well."},
+      {"inactive_force_ends_the_loop", "forces_after_another_lost", "2",
+       "A force that does not act now ends the loop over all forces, so that those after it in the list do "
+       "not act: go on with the next one (continue, not break or return)."},
       {"push_outside_its_time", "push_outside_its_time", "2",
        "The push acts before \"start\" and after its end, and not between: its test is reversed."},
       {"push_from_zero", "push_from_zero", "2",
@@ -359,6 +365,16 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_not_unit", "spring_not_unit", "2",
        "The spring's force is multiplied by its length: divide the way from end to end by its length to get "
        "the direction."},
+      {"spring_by_strain", "spring_by_strain", "2",
+       "The spring's force is stiffness times the strain, (length - rest_length)/rest_length: it is "
+       "stiffness "
+       "(length - rest_length), as the stiffness is in N/m."},
+      {"spring_by_strain_of_now", "spring_by_strain", "2",
+       "The spring's stretch is divided by its length: the force is stiffness (length - rest_length), as the "
+       "stiffness is in N/m."},
+      {"spring_times_rest_length", "spring_by_strain", "2",
+       "The spring's force is multiplied by its rest length: it is stiffness (length - rest_length), as the "
+       "stiffness is in N/m."},
       {"spring_mass_not_divided", "mass_not_divided", "2", "The spring's force is not divided by the mass."},
       {"spring_divided_by_mass_twice", "mass_divided_twice", "2",
        "The spring's force is divided by the mass twice."},

@@ -428,8 +428,10 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     // Drops a suspicion that no motion confirms, including checks whose motions cannot be compared.
     if (!chapter[i].check->repeatable && finding.observed && !finding.proven && finding.mistake != known)
       unname(finding);
-    // Names no second mistake for a failure that the first mistake explains equally well.
-    if (found[i].fits.empty() && !known.empty() && finding.mistake != known &&
+    // Names no second mistake for a failure that the first mistake explains equally well, nor one that
+    // contradicts the figures of other checks: it gives this motion by chance.
+    if (std::none_of(found[i].fits.begin(), found[i].fits.end(), explains_all) && !known.empty() &&
+        finding.mistake != known &&
         fails_as_well(ways_to_make(mistakes, known, found), predictions, i,
                       finding.proven ? finding.mistake : "")) {
       finding.mistake.clear();

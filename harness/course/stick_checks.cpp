@@ -281,6 +281,8 @@ Finding pendulum(const Lab& lab) {
   const bool by_positions = lab.first_order() &&
                             std::abs(period.value_or(0) - slowed.period) <= share * slowed.period &&
                             std::abs(high - slowed.last) <= share * slowed.last;
+  const bool holds = stretched <= 0.02 * l * lab.coarseness();
+  const std::optional<double> stiffness = holds ? std::nullopt : stiffness_of_joints(lab, false);
   return Judgement()
       .read("period", "s", period.value_or(0), by_positions ? slowed.period : due,
             by_positions ? share * slowed.period : due * lab.method_error(2 * kPi / due, 0.005))
@@ -289,6 +291,7 @@ Finding pendulum(const Lab& lab) {
       .read("largest change of length", "m", stretched, 0, 0.02 * l * lab.coarseness())
       .mistake_if(trace.still(0), "no_gravity",
                   "The bob hangs still, at 60 degrees: gravity pulls at it as well.")
+      .proven_if(stiffness.has_value(), "joint_as_spring", spring_text(stiffness.value_or(0)))
       .proven_if(!period && stretched > 0.2 * l && free_stick_holds(), "joint_ignored",
                  "A stick between two balls holds, and one to \"world\" does not: the end named \"world\" is "
                  "a fixed "

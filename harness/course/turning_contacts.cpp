@@ -139,6 +139,27 @@ Finding ball_hits_rod(const Lab& lab) {
 
 // Throws a ball at a long and at a short side of a static box rotated by 15 degrees. In the box's frame, only
 // the velocity along the side's normal changes.
+// Changes of velocity, m/s, of a ball and a box that pass a rod which is upright by then, and lay across
+// their way at the start.
+struct Passes {
+  double ball, box;
+};
+
+Passes pass_a_turning_rod(const Lab& lab) {
+  const Vec2d from{0.8, 2.7}, v{0, -6};
+  const Body rod =
+      make(Crate{.name = "rod", .angular_velocity = std::numbers::pi, .width = 2, .height = 0.2});
+  const Body box =
+      make(Crate{.name = "passer", .position = from, .velocity = v, .width = 0.2, .height = 0.2});
+  const Body ball = make(Ball{.position = -from, .velocity = -v, .radius = 0.1});
+  const Trace trace = lab.run(scene_of("passing a rod", {}, {rod, box, ball}), 0.6);
+  const auto change = [&](std::size_t of) {
+    const Vec2d off = trace.last(of).velocity - trace.first(of).velocity;
+    return std::hypot(off.x, off.y);
+  };
+  return {change(2), change(1)};
+}
+
 Finding turned_box(const Lab& lab) {
   const double angle = 15 / kDegrees, e = 0.6, v = 2.3, along = 0.5, r = 0.3;
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
@@ -155,11 +176,14 @@ Finding turned_box(const Lab& lab) {
   };
   const Vec2d over_long = thrown({0.3, 1.42}, {-along, -v}), over_short = thrown({-1.92, -0.1}, {v, along});
   const double tolerance = 0.002 * v;
+  const Passes passes = pass_a_turning_rod(lab);
   return Judgement()
       .read("speed away from the long side", "m/s", over_long.y, e * v, tolerance)
       .read("speed along the long side", "m/s", over_long.x, -along, tolerance)
       .read("speed away from the short side", "m/s", -over_short.x, e * v, tolerance)
       .read("speed along the short side", "m/s", over_short.y, along, tolerance)
+      .read("change of velocity of a ball that passes a rod which has turned", "m/s", passes.ball, 0, 0.01)
+      .read("change of velocity of a box that passes it", "m/s", passes.box, 0, 0.01)
       .mistake("no_collision", {-v, -along, -v, along}, "The ball goes through the box.")
       .finding();
 }

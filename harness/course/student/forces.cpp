@@ -92,6 +92,9 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     double tension = spring->stiffness * stretch * times("stiffness of a spring");
     if (is("spring_always_pulls")) tension = std::abs(tension);
     if (is("spring_always_pushes")) tension = -std::abs(tension);
+    if (is("spring_by_strain")) tension /= rest != 0 ? rest : 1;
+    if (is("spring_by_strain_of_now")) tension /= length(way);
+    if (is("spring_times_rest_length")) tension *= rest;
     if (is("spring_dt_twice")) tension *= dt_;
     if (is("spring_only_pulls")) tension = std::max(tension, 0.0);
     if (is("spring_only_pushes")) tension = std::min(tension, 0.0);
@@ -125,8 +128,14 @@ void StudentWorld::gather_forces() {
     if (!is("force_not_cleared")) b.force = {};
     b.torque = 0;
   }
-  for (std::size_t i = 0; i < scene_.forces.size(); ++i)
+  const auto rests = [&](const ForceLaw& law) {
+    const auto* push = std::get_if<PointForce>(&law);
+    return push != nullptr && (time() < push->start - 1e-9 || time() >= push->start + push->duration - 1e-9);
+  };
+  for (std::size_t i = 0; i < scene_.forces.size(); ++i) {
+    if (is("inactive_force_ends_the_loop") && rests(scene_.forces[i])) break;
     apply(scene_.forces[i], i == 0, i + 1 == scene_.forces.size());
+  }
 }
 
 void StudentWorld::accelerate() {
@@ -179,6 +188,7 @@ void StudentWorld::accelerate() {
 void StudentWorld::move() {
   for (Rigid& b : bodies_) {
     if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
+    if (scales("speed below which bodies do not move") && length(b.velocity) < factor_) continue;
     if (is("moves_by_first_velocity")) {
       b.position += dt_ * b.body->velocity;
     } else {

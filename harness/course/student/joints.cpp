@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "harness/course/student/world.h"
@@ -34,6 +35,9 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
               neither || is("first_anchor_not_turned") ? anchor_a : to_world("first", turns_a, anchor_a);
           out.arm_b =
               neither || is("second_anchor_not_turned") ? anchor_b : to_world("second", turns_b, anchor_b);
+          if (is("joint_arms_of_before") && !kept_arms_.empty())
+            std::tie(out.arm_a, out.arm_b) =
+                kept_arms_[static_cast<std::size_t>(&joint - scene_.joints.data())];
           out.raw_a = anchor_a;
           out.raw_b = anchor_b;
           out.gap = b.position + out.arm_b - a.position - out.arm_a;
@@ -43,11 +47,30 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
       joint);
 }
 
+// Keeps the arms of all joints as they are now, for the mistake that uses them after the bodies have moved.
+void StudentWorld::keep_arms() {
+  kept_arms_.clear();
+  if (!is("joint_arms_of_before")) return;
+  std::vector<std::pair<Vec2d, Vec2d>> now;
+  for (const Joint& joint : scene_.joints) {
+    const Ends e = ends(joint);
+    now.emplace_back(e.arm_a, e.arm_b);
+  }
+  kept_arms_ = std::move(now);
+}
+
 bool StudentWorld::joined(std::size_t a, std::size_t b) const {
   if (is("joined_bodies_collide")) return false;
-  return std::any_of(ends_.begin(), ends_.end(), [&](const auto& ends) {
+  const auto is_pair = [&](const auto& ends) {
     return (ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a);
-  });
+  };
+  if (ends_.empty()) return false;
+  if (is("last_joined_pair_only")) return is_pair(ends_.back());
+  if (is("first_joined_pair_only")) return is_pair(ends_.front());
+  if (is("joined_in_one_order"))
+    return std::any_of(ends_.begin(), ends_.end(),
+                       [&](const auto& ends) { return ends[0] == a && ends[1] == b; });
+  return std::any_of(ends_.begin(), ends_.end(), is_pair);
 }
 
 // A stick as one row along it, a hinge as two, x and y, one after the other.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "harness/course/student/world.h"
 
 // Makes the mistakes that any engine can make in several places: a wrongly rotated point, a corner used
@@ -12,6 +14,10 @@ Vec2d StudentWorld::turned(Name what, const Rigid& body, Vec2d local) const {
   const auto how = [&](Name name) { return name.hash == turned_how_; };
   if (how("not")) return local;
   if (how("backwards")) return q.inverse() * local;
+  if (how("by the first angle") && body.body != nullptr) {
+    const double angle = body.turns * body.body->angle;
+    return Rotation<double>{std::cos(angle), std::sin(angle)} * local;
+  }
   if (how("overwriting x")) return {right.x, q.s * right.x + q.c * local.y};
   if (how("exchanging sin and cos")) return {q.s * local.x - q.c * local.y, q.c * local.x + q.s * local.y};
   if (how("without the minus")) return {q.c * local.x + q.s * local.y, q.s * local.x + q.c * local.y};

@@ -71,9 +71,10 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const Rigid &c = bodies_[circle], &b = bodies_[box];
   const double r = radius(c);
   const Box size = this->box(b);
-  const double angle = b.turns * (is("box_taken_upright")      ? 0
-                                  : is("box_turned_backwards") ? -b.angle
-                                                               : b.angle);
+  const double angle = b.turns * (is("box_taken_upright")          ? 0
+                                  : is("box_turned_backwards")     ? -b.angle
+                                  : is("a box~by the first angle") ? b.body->angle
+                                                                   : b.angle);
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const bool backwards = is("centre_turned_backwards");
   const Vec2d local = (backwards ? q : q.inverse()) * (c.position - b.position);
@@ -137,6 +138,15 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
 bool StudentWorld::left_out(std::size_t a, std::size_t b) const {
   const std::size_t last = bodies_.size() - 2;
   const bool both_move = bodies_[a].inverse_mass > 0 && bodies_[b].inverse_mass > 0;
+  if (scales("size of the cells in which circles are compared")) {
+    const auto cell = [&](std::size_t i) {
+      const Vec2d at = 1 / factor_ * bodies_[i].position;
+      return Vec2d{std::floor(at.x), std::floor(at.y)};
+    };
+    const bool circles =
+        bodies_[a].body->shapes[0].geometry.index() == 0 && bodies_[b].body->shapes[0].geometry.index() == 0;
+    return circles && cell(a) != cell(b);
+  }
   if (is("last_body_left_out")) return b == last;
   if (is("first_body_left_out")) return a == 0;
   if (is("neighbours_only")) return b != a + 1;

@@ -190,6 +190,7 @@ void StudentWorld::step() {
 }
 
 void StudentWorld::advance() {
+  keep_arms();
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
@@ -222,6 +223,8 @@ void StudentWorld::answer_touches(bool with_joints) {
   std::vector<Touch> found = touches();
   if (is("first_contact_only") && found.size() > 1) found.resize(1);
   if (is("last_contact_only") && found.size() > 1) found.erase(found.begin(), found.end() - 1);
+  pair_sums_.clear();
+  for (Rigid& body : bodies_) body.sum = 0;
   for (Touch& touch : found) {
     prepare(touch);
     bodies_[touch.a].touched = bodies_[touch.b].touched = true;

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -34,6 +36,7 @@ struct Rigid {
   double inverse_mass = 0, inverse_inertia = 0;
   double turns = 1;      ///< factor on the rotation angle from the body's frame to the world's
   bool touched = false;  ///< had a contact in the last step
+  double sum = 0;        ///< N s, of the contacts that share a sum by mistake
   const Body* body = nullptr;
 
   Rotation<double> rotation() const;
@@ -108,6 +111,7 @@ class StudentWorld {
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
   bool answer_wrongly(Touch& touch, double closing);
+  double& sum_of(Touch& touch);
   void answer(Touch& touch);
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
@@ -139,6 +143,7 @@ class StudentWorld {
   };
   Ends ends(const Joint& joint) const;
   bool joined(std::size_t a, std::size_t b) const;
+  void keep_arms();
 
   Scene scene_;
   double dt_;
@@ -152,10 +157,12 @@ class StudentWorld {
   reference::Scheme scheme_;
   Manner manner_;
   bool touched_ = false;  ///< there was a contact
+  std::map<std::pair<std::size_t, std::size_t>, double> pair_sums_;
   long steps_ = 0;
-  std::vector<BodyState> before_step_;            ///< the states before the last step
-  std::vector<Rigid> bodies_;                     ///< bodies of the scene, then the fixed world
-  std::vector<std::array<std::size_t, 2>> ends_;  ///< indices of the two bodies of each joint
+  std::vector<BodyState> before_step_;              ///< the states before the last step
+  std::vector<Rigid> bodies_;                       ///< bodies of the scene, then the fixed world
+  std::vector<std::pair<Vec2d, Vec2d>> kept_arms_;  ///< of each joint, before the bodies moved
+  std::vector<std::array<std::size_t, 2>> ends_;    ///< indices of the two bodies of each joint
 };
 
 }  // namespace plumb::course
