@@ -370,6 +370,7 @@ struct Scratch {
   std::vector<int> bounce_candidates;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<int> woken_contacts;     ///< contacts of bodies that woke in the step
   std::vector<RestitutionContact<Real>> restitution_contacts;
+  std::vector<Real> earlier_impulses;   ///< N s, of contacts and joints: state/impulse_memory.h
   std::vector<char> is_scalar;          ///< by contact: not solved in SIMD lanes
   std::vector<char> joints_in_islands;  ///< by the joint's slot: solved with its island
   SoftContacts<Real> soft_contacts;
@@ -405,7 +406,8 @@ struct WorldData {
   WorldDefinition settings;
   double time = 0;
   std::int64_t steps = 0;
-  double last_h = 0;  ///< s, substep of the last step
+  double last_h = 0;     ///< s, substep of the last step
+  double impulse_h = 0;  ///< s, substep that stored impulses are scaled to (solvers/impulse_memory.h)
 
   // Bodies, by index.
   SlotMap<BodyRecord<Real>> bodies;
