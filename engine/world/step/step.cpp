@@ -13,6 +13,7 @@
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/state/sleeping.h"
+#include "engine/world/step/step_rollback.h"
 
 namespace plumb {
 namespace {
@@ -138,6 +139,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
   update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
+  StepRollback<Real> rollback(w);
   try {
     w.scheduler.session([&] { solve_motion(w, h, substeps); });
     clock.end(WorldStage::Solver);
@@ -156,6 +158,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     }
     clock.end(WorldStage::Continuous);
   } catch (...) {
+    rollback.restore();
     restore_consistency(w);
     throw;
   }
