@@ -71,6 +71,7 @@ void EventFreeIntegrator::begin_step() {
 }
 
 double EventFreeIntegrator::step(double limit) {
+  equations_.set_window(time_, time_);
   limit = std::min(limit, next_switch());
   if (y_.size() == 0) {
     start_ = time_;
@@ -297,6 +298,12 @@ void EventFreeIntegrator::restart() {
   }
 }
 
+void EventFreeIntegrator::pass_switch() {
+  equations_.set_window(time_, time_);
+  project(time_, y_);
+  restart();
+}
+
 void EventFreeIntegrator::reset() {
   equations_.apply_hinge_impulses(time_, y_);
   project(time_, y_);
@@ -307,7 +314,7 @@ void EventFreeIntegrator::reset() {
 
 double EventFreeIntegrator::next_switch() const {
   const auto next = std::upper_bound(switches_.begin(), switches_.end(), time_);
-  return next == switches_.end() ? std::numeric_limits<double>::infinity() : *next;
+  return next == switches_.end() ? equations_.next_switch() : std::min(*next, equations_.next_switch());
 }
 
 }  // namespace plumb::precise

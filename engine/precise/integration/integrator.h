@@ -72,6 +72,8 @@ class EventFreeIntegrator {
   Compensated& mutable_state() { return y_; }
   /// Continues after a jump of velocities or of forces: the next step begins from the changed state.
   void restart();
+  /// Continues after a switch of formulas: prescribed bodies and motors take the speeds of their next piece.
+  void pass_switch();
   /// Continues after bodies were changed from outside: closes joints and resets the step length.
   void reset();
 
