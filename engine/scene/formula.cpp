@@ -159,6 +159,13 @@ Formula::Survey Formula::survey(double from, double to) const {
   return {!out.undecided, out.decisions, out.value.low, out.value.high};
 }
 
+Formula::Survey Formula::survey(std::span<const double> low, std::span<const double> high) const {
+  std::array<formula::Ranged, kMaxVariables> variables{};
+  for (std::size_t i = 0; i < low.size(); ++i) variables[i] = formula::Ranged(Interval(low[i], high[i]));
+  const formula::Ranged out = evaluate(std::span<const formula::Ranged>(variables));
+  return {!out.undecided, out.decisions, out.value.low, out.value.high};
+}
+
 bool Formula::has_decisions() const {
   return std::any_of(operations_.begin(), operations_.end(), [](const Operation& operation) {
     switch (operation.code) {

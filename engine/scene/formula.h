@@ -49,6 +49,8 @@ class Formula {
     double low = 0, high = 0;     ///< contain all values
   };
   Survey survey(double from, double to) const;
+  /// Does the same for a box of all variables, all of whose decisions count.
+  Survey survey(std::span<const double> low, std::span<const double> high) const;
   bool has_decisions() const;
 
   /// More than this many pending values are refused: "1+(2+(3+...".

@@ -18,8 +18,8 @@ namespace plumb::formula {
 /// The values of a part of a formula over an interval of time, and what is known of its decisions.
 struct Ranged {
   Interval value{};
-  bool of_motion = false;      ///< depends on the bodies' motion, so that no interval of time decides it
-  bool undecided = false;      ///< some decision that depends on the time alone is not the same throughout
+  bool of_motion = false;       ///< depends on the bodies' motion, so that no interval of time decides it
+  bool undecided = false;       ///< some decision that depends on the time alone is not the same throughout
   std::uint64_t decisions = 0;  ///< a hash of all decisions
 
   constexpr Ranged() = default;
@@ -38,8 +38,9 @@ inline Ranged with(Interval value, const Ranged& a, const Ranged& b = {}) {
 /// Records a decision of `out`, which is made (with a number for its outcome) or open.
 inline Ranged decided(Ranged out, bool known, double outcome) {
   if (known) {
-    out.decisions = 1099511628211u * out.decisions + static_cast<std::uint64_t>(static_cast<std::int64_t>(
-                        std::clamp(outcome, -1e18, 1e18))) + 1;
+    out.decisions = 1099511628211u * out.decisions +
+                    static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(outcome, -1e18, 1e18))) +
+                    1;
   } else {
     out.undecided = out.undecided || !out.of_motion;
   }
@@ -76,7 +77,11 @@ inline Ranged sine(const Ranged& a) {
 }
 inline Ranged cosine(const Ranged& a) {
   if (a.value.is_number()) return with(cosine(a.value.low), a);
-  return sine(a + Ranged(std::numbers::pi / 2));
+  Ranged out = sine(a + Ranged(std::numbers::pi / 2));
+  constexpr double kRounding = 1e-15;  // of the sum
+  out.value.low = std::max(out.value.low - kRounding * (1 + std::abs(a.value.low)), -1.0);
+  out.value.high = std::min(out.value.high + kRounding * (1 + std::abs(a.value.high)), 1.0);
+  return out;
 }
 inline Ranged tangent(const Ranged& a) {
   if (a.value.is_number()) return with(tangent(a.value.low), a);
@@ -84,8 +89,12 @@ inline Ranged tangent(const Ranged& a) {
   const bool pole = std::floor(a.value.low / kPi + 0.5) != std::floor(a.value.high / kPi + 0.5);
   return pole ? with(Interval::everything(), a) : monotone(a, [](double x) { return tangent(x); });
 }
-inline Ranged arc_sine(const Ranged& a) { return monotone(a, [](double x) { return arc_sine(x); }); }
-inline Ranged arc_cosine(const Ranged& a) { return monotone(a, [](double x) { return arc_cosine(x); }); }
+inline Ranged arc_sine(const Ranged& a) {
+  return monotone(a, [](double x) { return arc_sine(x); });
+}
+inline Ranged arc_cosine(const Ranged& a) {
+  return monotone(a, [](double x) { return arc_cosine(x); });
+}
 inline Ranged arc_tangent_of(const Ranged& a) {
   return monotone(a, [](double x) { return arc_tangent_of(x); });
 }
@@ -111,10 +120,9 @@ inline Ranged tanh_of(const Ranged& a) {
 }
 /// An angle, with a cut where x < 0 and y = 0.
 inline Ranged arc_tangent_of(const Ranged& y, const Ranged& x) {
-  if (y.value.is_number() && x.value.is_number())
-    return with(arc_tangent_of(y.value.low, x.value.low), y, x);
+  if (y.value.is_number() && x.value.is_number()) return with(arc_tangent_of(y.value.low, x.value.low), y, x);
   const Ranged out = with({-std::numbers::pi, std::numbers::pi}, y, x);
-  const bool above = y.value.low > 0, below = y.value.high < 0, right = x.value.low > 0;
+  const bool above = y.value.low > 0, below = y.value.high<0, right = x.value.low> 0;
   return decided(out, above || below || right, right ? 0 : above ? 1 : -1);
 }
 /// Monotone in each argument where the base is positive.
@@ -171,7 +179,9 @@ inline Ranged floor_of(const Ranged& a) {
 inline Ranged modulo_of(const Ranged& a, const Ranged& b) { return a - b * floor_of(a / b); }
 
 inline Ranged through_points(const Ranged& x, std::span<const Point> points) {
+  // The first point belongs to the constant before it.
   const auto piece_of = [&](double at) {
+    if (at == points.front().x) return std::ptrdiff_t{0};
     return std::upper_bound(points.begin(), points.end(), at,
                             [](double value, const Point& p) { return value < p.x; }) -
            points.begin();

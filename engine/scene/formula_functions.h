@@ -157,12 +157,11 @@ V floor_of(const V& a) {
   return V(std::floor(value_of(a)));
 }
 
-/// Returns the value at x of straight lines through points with ascending x, constant beyond the ends. At a
-/// point, the derivative is that of the line to its right.
+/// Returns the value at x of straight lines through points with ascending x, constant beyond the ends.
 template <class V>
 V through_points(const V& at, std::span<const Point> points) {
   const double x = value_of(at);
-  if (!(x >= points.front().x)) return V(std::isnan(x) ? x : points.front().y);
+  if (!(x > points.front().x)) return V(std::isnan(x) ? x : points.front().y);
   if (x >= points.back().x) return V(points.back().y);
   const auto next = std::upper_bound(points.begin(), points.end(), x,
                                      [](double value, const Point& p) { return value < p.x; });

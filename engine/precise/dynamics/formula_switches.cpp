@@ -42,45 +42,51 @@ class Search {
   int looked_at_ = 0;
 };
 
-/// Compares a formula's values at some times of an interval with bounds of all of them.
+/// A stretch of time over which a step might pass a rise and fall of a formula.
 class QuietTime {
  public:
   QuietTime(const Formula& formula, double from, double to) : formula_(formula), from_(from), to_(to) {
-    add(from), add(to);
-    // Fractions of the golden ratio, which are in step with no period.
-    constexpr int kSamples = 16;
-    constexpr double kGolden = 0.6180339887498949;
-    for (int i = 1; i <= kSamples; ++i) add(from + std::fmod(i * kGolden, 1.0) * (to - from));
+    const double first = at(from), last = at(to);
     constexpr double kRounding = 1e-12;
-    const double width = high_ - low_ + kRounding * std::max(std::abs(low_), std::abs(high_));
-    low_ -= width, high_ += width;
+    const double width = std::abs(last - first) + kRounding * std::max(std::abs(first), std::abs(last));
+    low_ = std::min(first, last) - width, high_ = std::max(first, last) + width;
   }
 
-  /// Returns true if no value leaves those of the samples by more than their range.
+  /// Returns true if a step can miss nothing: no value leaves those of the ends by more than their range, or
+  /// the formula is busy most of the time, so that some evaluations of any step see it.
   bool is_seen() const {
     constexpr int kHalvings = 6;
-    return is_within(from_, to_, kHalvings);
+    return is_within(from_, to_, kHalvings) || is_busy();
   }
 
  private:
   double at(double time) const { return formula_.survey(time, time).low; }
-  void add(double time) {
-    const double value = at(time);
-    low_ = std::min(low_, value), high_ = std::max(high_, value);
-  }
   bool is_within(double from, double to, int halvings) const {
     const Formula::Survey all = formula_.survey(from, to);
-    // A pole says nothing of what is near it.
-    if (!std::isfinite(all.low) || !std::isfinite(all.high)) return true;
     if (low_ <= all.low && all.high <= high_) return true;
     const double middle = from + 0.5 * (to - from), value = at(middle);
-    if (halvings == 0 || value < low_ || value > high_) return false;
+    if (halvings == 0 || !(low_ <= value && value <= high_)) return false;
     return is_within(from, middle, halvings - 1) && is_within(middle, to, halvings - 1);
+  }
+  bool is_busy() const {
+    const Formula::Survey all = formula_.survey(from_, to_);
+    // A pole says nothing of what is far from it.
+    if (!std::isfinite(all.low) || !std::isfinite(all.high)) return true;
+    // Fractions of the golden ratio, which are in step with no period.
+    constexpr int kSamples = 32;
+    constexpr double kGolden = 0.6180339887498949, kQuiet = 0.05;
+    int quiet = 0;
+    const double first = at(from_);
+    for (int i = 1; i <= kSamples; ++i) {
+      const double value = at(from_ + std::fmod(i * kGolden, 1.0) * (to_ - from_));
+      quiet += std::abs(value - first) <= kQuiet * (all.high - all.low) ? 1 : 0;
+    }
+    return 2 * quiet < kSamples;
   }
 
   const Formula& formula_;
   double from_, to_;
-  double low_ = kInfinity, high_ = -kInfinity;
+  double low_ = 0, high_ = 0;
 };
 
 }  // namespace
@@ -95,7 +101,8 @@ FormulaSwitches::FormulaSwitches(const Scene& scene) {
     if (alone || formula.has_decisions()) formulas_.push_back({std::move(formula), alone});
   };
   for (const Body& body : scene.bodies)
-    for (const std::string& text : {body.motion.x, body.motion.y, body.motion.angle}) add(text, kTimeVariable);
+    for (const std::string& text : {body.motion.x, body.motion.y, body.motion.angle})
+      add(text, kTimeVariable);
   for (const Drive& drive : scene.drives) add(drive.speed, kTimeVariable);
   for (const ForceLaw& law : scene.forces) {
     std::visit(
@@ -111,7 +118,7 @@ FormulaSwitches::FormulaSwitches(const Scene& scene) {
 
 double FormulaSwitches::next(double time) {
   if (formulas_.empty()) return kInfinity;
-  if (searched_ && after_ <= time && time < end_) return end_;
+  if (after_ <= time && time < end_) return end_;
   double end = time + kHorizon;
   for (const Entry& entry : formulas_) end = Search(entry.formula).first(time, end).value_or(end);
   const double shortest = kShortest * std::max(1.0, std::abs(time));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "engine/scene/formula.h"
@@ -16,8 +15,8 @@ namespace plumb::precise {
 /// last less than 1e-9 s (relative to the time, after 1 s) may be missed.
 ///
 /// *Quiet times*: a formula that hardly changes for long, such as `exp(-((t-5)/0.01)^2)`, does not limit the
-/// step, which would pass its rise. A step ends where the formula may leave the values that it has at some
-/// times before.
+/// step, which would pass its rise and fall. A step ends before the formula may leave the values that it has
+/// at the step's ends, unless it is busy most of the time.
 class FormulaSwitches {
  public:
   explicit FormulaSwitches(const Scene& scene);
@@ -29,7 +28,7 @@ class FormulaSwitches {
   // The last interval is part of a run's state.
   double after() const { return after_; }
   double end() const { return end_; }
-  void restore(double after, double end) { after_ = after, end_ = end, searched_ = true; }
+  void restore(double after, double end) { after_ = after, end_ = end; }
 
  private:
   struct Entry {
@@ -37,9 +36,7 @@ class FormulaSwitches {
     bool of_time_alone = false;
   };
   std::vector<Entry> formulas_;
-  double after_ = 0;  // s, the last interval
-  double end_ = std::numeric_limits<double>::infinity();
-  bool searched_ = false;
+  double after_ = 0, end_ = 0;  // s, the last interval; empty before the first search
 };
 
 }  // namespace plumb::precise

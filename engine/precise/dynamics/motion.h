@@ -46,8 +46,19 @@ class EquationsOfMotion final : public Flow {
   void set_window(double start, double end);
   /// Returns the time after the window at which a formula passes to its next piece, s; infinity for none.
   double next_switch() const { return next_switch_; }
+  /// Returns the formulas that select what they compute by the bodies' motion: zones, soft walls.
+  struct FormulaWithPieces {
+    const Formula* formula = nullptr;
+    std::size_t variables = 0;  ///< number of them
+  };
+  std::span<const FormulaWithPieces> formulas_with_pieces() const { return formulas_with_pieces_; }
+  /// Appends the variables of these formulas, one after another, at state y.
+  void append_formula_variables(double time, std::span<const double> y, std::vector<double>& variables);
+
   const FormulaSwitches& switches() const { return switches_; }
   void restore_switches(double after, double end);
+  /// Returns true if a prescribed body has another velocity at a switch than just before it.
+  bool prescribed_velocity_jumps(double time) const;
   /// Returns the time for which formulas are evaluated: up to, but not at, the next switch.
   double formula_time(double time) const { return std::min(time, last_time_); }
 
@@ -262,9 +273,10 @@ class EquationsOfMotion final : public Flow {
   double power_ = 0;  // W, of the forces of the last evaluation
   double window_start_ = 0, window_end_ = 0;
   FormulaSwitches switches_;
+  std::vector<FormulaWithPieces> formulas_with_pieces_;  // of forces_
   double next_switch_ = std::numeric_limits<double>::infinity();
   double last_time_ = std::numeric_limits<double>::infinity();  // the last one before it
-  double time_ = 0;  // s, of the last `update_poses`
+  double time_ = 0;                                             // s, of the last `update_poses`
   struct Prescribed {
     std::size_t body, slot;
     PrescribedPath path;

@@ -103,6 +103,12 @@ double EventFreeIntegrator::step(double limit) {
     if (error <= 1) {
       last_implicit_ = stiff_;
       apply_increment(end);
+      if (const std::optional<double> inside = time_in_passed_piece()) {
+        y_ = y0_, time_ = start_;
+        again = true, ++rejected_;
+        proposed_step_ = *inside - start_;
+        continue;
+      }
       equations_.reset_rank();
       rate_at_end();
       accept(h, error);
