@@ -268,7 +268,7 @@ bool Move<Real>::walk() {
     change_ground(*ground);
     return true;
   }
-  // What it hit may stand further down, at the foot of a drop that it must follow first.
+  // Its obstacle may stand further down, at the foot of a drop that it must follow first.
   if (cast.travelled > queries_.skin()) {
     Vec2d standing = position_;
     if (!queries_.find_ground(standing, max_drop()) && descend()) return true;
