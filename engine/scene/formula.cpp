@@ -153,7 +153,8 @@ constexpr std::size_t kMaxVariables = 8;
 
 Formula::Survey Formula::survey(double from, double to) const {
   std::array<formula::Ranged, kMaxVariables> variables{};
-  for (formula::Ranged& variable : variables) variable.value = Interval::everything(), variable.of_motion = true;
+  for (formula::Ranged& variable : variables)
+    variable.value = Interval::everything(), variable.of_motion = true;
   variables[0] = formula::Ranged(Interval(from, to));
   const formula::Ranged out = evaluate(std::span<const formula::Ranged>(variables));
   return {!out.undecided, out.decisions, out.value.low, out.value.high};

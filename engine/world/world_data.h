@@ -384,9 +384,9 @@ struct Scratch {
   std::vector<int> woken_contacts;     ///< contacts of bodies that woke in the step
   std::vector<RestitutionContact<Real>> restitution_contacts;
   std::vector<BodyMotion<Real>> motion_before_step;  ///< of the awake bodies: step_rollback.h
-  std::vector<Real> earlier_impulses;   ///< N s, of contacts and joints: state/impulse_memory.h
-  std::vector<char> is_scalar;          ///< by contact: not solved in SIMD lanes
-  std::vector<char> joints_in_islands;  ///< by the joint's slot: solved with its island
+  std::vector<Real> earlier_impulses;                ///< N s, of contacts and joints: state/impulse_memory.h
+  std::vector<char> is_scalar;                       ///< by contact: not solved in SIMD lanes
+  std::vector<char> joints_in_islands;               ///< by the joint's slot: solved with its island
   SoftContacts<Real> soft_contacts;
   std::vector<ExpectedImpact<Real>> expected_impacts;
   std::vector<int> loaded_bodies;  ///< bodies that contacts or joints will load in this step

@@ -41,8 +41,9 @@ void EventFreeIntegrator::restore(SnapshotReader& in) {
   };
   const auto integer = [&] { return in.get<std::int64_t>(); };
   double previous = 0, last_step = 0, after_switch = 0, next_switch = 0;
-  for (double* number : {&start_, &time_, &proposed_step_, &previous, &last_step,
-                         &rank_at_start_.min_pivot_ratio, &previous_pivot_ratio_, &after_switch, &next_switch})
+  for (double* number :
+       {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.min_pivot_ratio,
+        &previous_pivot_ratio_, &after_switch, &next_switch})
     *number = in.get<double>();
   control_.reset(previous);
   rejected_ = integer();
