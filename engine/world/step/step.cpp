@@ -160,6 +160,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   } catch (...) {
     rollback.restore();
     restore_consistency(w);
+    rollback.restore();  // rotations too, which are those of the angles but for rounding
     throw;
   }
   break_joints(w);
