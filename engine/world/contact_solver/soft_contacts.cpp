@@ -33,12 +33,11 @@ struct WarmStart {
     warm_start_contact<Number>(pair, c);
   }
 };
-template <bool holds_friction>
 struct Solve {
   static constexpr bool kReadsDisplacement = false;
   template <class Number, class Pair, class Contact, class Real>
   [[gnu::always_inline]] static void run(Pair& pair, Contact& c, const ContactStep<Real>& step) {
-    solve_contact<holds_friction, Number>(pair, c, step);
+    solve_contact<Number>(pair, c, step);
   }
 };
 struct Relax {
@@ -337,9 +336,8 @@ void SoftContacts<Real>::warm_start(SolverBody<Real>* motion, const ContactStep<
 }
 
 template <class Real>
-void SoftContacts<Real>::solve(SolverBody<Real>* motion, const ContactStep<Real>& step, bool forces_change) {
-  if (graph_->empty()) return;
-  forces_change ? run_pass<Solve<true>>(motion, step) : run_pass<Solve<false>>(motion, step);
+void SoftContacts<Real>::solve(SolverBody<Real>* motion, const ContactStep<Real>& step) {
+  if (!graph_->empty()) run_pass<Solve>(motion, step);
 }
 
 template <class Real>

@@ -27,8 +27,8 @@ class SoftContacts {
   void warm_start(SolverBody<Real>* motion, const ContactStep<Real>& step);
 
   /// Solves normal impulses with a bias that removes overlaps softly and lets gaps close. This corrects
-  /// positions. Where `forces_change` (since the last substep), it also solves friction that held until then.
-  void solve(SolverBody<Real>* motion, const ContactStep<Real>& step, bool forces_change);
+  /// positions.
+  void solve(SolverBody<Real>* motion, const ContactStep<Real>& step);
 
   /// Relaxation: solves normal impulses without bias, friction and rolling resistance. This corrects
   /// velocities.

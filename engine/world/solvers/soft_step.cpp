@@ -183,8 +183,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (!fuse_warm_start) soft_contacts.warm_start(bodies.motion, contacts);
     if (iterated) w.joint_set.solve(bodies, joints, &w.scheduler);
     solve_direct_islands(w, contacts, true);
-    const bool forces_change = substep == 0;  // they are constant in a step
-    soft_contacts.solve(bodies.motion, contacts, forces_change);
+    soft_contacts.solve(bodies.motion, contacts);
     solve_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);
