@@ -307,7 +307,7 @@ TEST(Relations, ForcesThatTurnWithABodyAreKnownWhileItTurnsLittleInAStep) {
 TEST(Relations, UnitsAreJudgedUntilBodiesArePushedApart) {
   Case one;
   one.scene = {.name = "on a spring", .gravity = {0, -20}};
-  const Body bar{.position = {0, 9.368}, .mass = 45.6, .inertia = 5.25};
+  const Body bar{.name = "bar", .position = {0, 9.368}, .mass = 45.6, .inertia = 5.25};
   one.scene.bodies = {{.name = "floor",
                        .type = BodyType::Static,
                        .position = {0, -2},

@@ -130,8 +130,9 @@ TEST(Formula, SurveysBoundAllValuesAndDecisions) {
         if (std::isnan(value)) continue;
         EXPECT_LE(all.low, value) << text << " " << from << " " << to << " " << t;
         EXPECT_GE(all.high, value) << text << " " << from << " " << to << " " << t;
-        if (all.decided)
+        if (all.decided) {
           EXPECT_EQ(formula.survey(t, t).decisions, first.decisions) << text << " " << from << " " << to;
+        }
       }
     }
   }
