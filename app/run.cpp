@@ -188,8 +188,9 @@ void add_run(CLI::App& app, Action& chosen) {
   add_size(*command, options->size);
   options->settings.add_to(*command);
   command
-      ->add_option("--duration", options->duration,
-                   "duration in s (default: the scenario's, 10 for a scene from a file)")
+      ->add_option(
+          "--duration", options->duration,
+          "duration in s, rounded to whole steps (default: the scenario's, 10 for a scene from a file)")
       ->type_name("T");
   command->add_option("--rate", options->rate, "samples per second (default: every step)")->type_name("HZ");
   command->add_option("--format", options->format, "csv or json, one line per sample (default csv)")

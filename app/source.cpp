@@ -64,8 +64,9 @@ bool is_file(const std::string& text) {
 
 void add_file_duration(CLI::App& command, std::string& duration) {
   command
-      .add_option("--duration", duration,
-                  "duration in s of a scene from a file (default: its scenario's, else 10)")
+      .add_option(
+          "--duration", duration,
+          "duration in s of a scene from a file, rounded to whole steps (default: its scenario's, else 10)")
       ->type_name("T")
       ->check([](const std::string& text) -> std::string {
         try {

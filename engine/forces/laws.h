@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "engine/forces/attraction_force.h"
@@ -44,6 +46,28 @@ class Forces {
   /// of switching.
   void add_at(double time, double t0, double t1, const Pose<double>* poses, const Twist<double>* twists,
               Wrench<double>* out) const;
+
+  /// Calls visit(formula, variables) for each formula of the laws.
+  template <class Visit>
+  void for_each_formula(double time, const Pose<double>* poses, const Twist<double>* twists,
+                        const Visit& visit) const {
+    for (const FormulaForceLaw& law : all<FormulaForceLaw>()) {
+      const FormulaForceLaw::Variables now = law.variables(time, poses[law.body], twists[law.body]);
+      for (const Formula* formula : {&law.x, &law.y, &law.torque})
+        visit(*formula, std::span<const double>(now));
+    }
+    for (const FormulaSpringLaw& law : all<FormulaSpringLaw>()) {
+      const auto end = [&](int body) {
+        return body == kFixedFrame ? std::pair<Pose<double>, Twist<double>>{}
+                                   : std::pair{poses[body], twists[body]};
+      };
+      const auto [pose_a, twist_a] = end(law.a);
+      const auto [pose_b, twist_b] = end(law.b);
+      const FormulaSpringLaw::Line line = law.line(pose_a, twist_a, pose_b, twist_b);
+      const double now[] = {time, line.length, line.rate};
+      visit(law.tension, std::span<const double>(now));
+    }
+  }
 
  private:
   void add_time_independent(const Pose<double>* poses, const Twist<double>* twists,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "engine/core/text.h"
@@ -10,12 +11,17 @@
 namespace plumb {
 namespace {
 
-// Fraction of the extent below which a detail of the outline is dropped: a hundred roundings of a float, so
-// that edges have a direction in either precision.
-constexpr double kDetail = 1e-5;
+// Roundings of a coordinate by which a corner has to stand out. One rounding moves a corner by half of it,
+// and thereby the edge beside it; a point that a program has turned and moved onto an edge lies up to four
+// off it. With fewer than three, an outline could be dented after it was rounded.
+constexpr double kRoundings = 8;
 
-// Above this number of corners, small details are not dropped, because the search for them is quadratic: the
-// points are refused.
+// Thickness, as a fraction of the extent, up to which points count as lying on a line: a hundred roundings of
+// a float, so that a polygon has a mass and an inside in either precision.
+constexpr double kFlat = 1e-5;
+
+// Above this number of corners, details below the rounding are not dropped, because the search for them is
+// quadratic: the points are refused.
 constexpr std::size_t kMostExactCorners = 2048;
 
 // m. Beyond it, squares of lengths leave a double's range.
@@ -51,26 +57,53 @@ std::vector<Vec2d> hull_of_sorted(const std::vector<Vec2d>& points) {
   return hull;
 }
 
-/// Returns the distance of the corner from the line through its neighbours, or from the nearer neighbour if
-/// that is less.
-double detail_at(const std::vector<Vec2d>& hull, std::size_t i) {
-  const Vec2d before = hull[(i + hull.size() - 1) % hull.size()], at = hull[i];
-  const Vec2d after = hull[(i + 1) % hull.size()];
-  const double to_neighbour = std::sqrt(std::min(length_squared(at - before), length_squared(after - at)));
-  const double base = std::sqrt(length_squared(after - before));
-  return base > 0 ? std::min(to_neighbour, std::fabs(orientation(before, at, after)) / base) : 0;
+double distance_to_segment(Vec2d point, Vec2d start, Vec2d end) {
+  const Vec2d edge = end - start, offset = point - start;
+  const double size = length_squared(edge), along = dot(offset, edge);
+  if (!(along > 0)) return std::sqrt(length_squared(offset));
+  if (along >= size) return std::sqrt(length_squared(point - end));
+  return std::fabs(cross(edge, offset)) / std::sqrt(size);
 }
 
-/// Drops the corner with the least detail until none is at most `size`.
-void drop_details(std::vector<Vec2d>& hull, double size) {
-  while (hull.size() > 2) {
-    std::size_t least = 0;
-    double least_detail = detail_at(hull, 0);
-    for (std::size_t i = 1; i < hull.size(); ++i)
-      if (const double detail = detail_at(hull, i); detail < least_detail) least = i, least_detail = detail;
-    if (least_detail > size) return;
-    hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(least));
+/// Drops corners of a hull, those that stand out least first, as long as no corner that was dropped is
+/// farther than `most` from the outline that remains. Three corners always remain.
+void drop_details(std::vector<Vec2d>& hull, double most) {
+  const std::size_t all = hull.size();
+  std::vector<std::size_t> kept(all);
+  for (std::size_t i = 0; i < all; ++i) kept[i] = i;
+  // Returns how far the outline would be from a corner, if kept[i] and all dropped beside it were cut off.
+  const auto detail_at = [&](std::size_t i) {
+    const std::size_t before = kept[(i + kept.size() - 1) % kept.size()], after = kept[(i + 1) % kept.size()];
+    double farthest = 0;
+    for (std::size_t k = (before + 1) % all; k != after; k = (k + 1) % all)
+      farthest = std::max(farthest, distance_to_segment(hull[k], hull[before], hull[after]));
+    return farthest;
+  };
+  std::vector<double> details(all);
+  for (std::size_t i = 0; i < all; ++i) details[i] = detail_at(i);
+  while (kept.size() > 3) {
+    const auto least = std::min_element(details.begin(), details.end());
+    if (*least > most) break;
+    const auto i = least - details.begin();
+    kept.erase(kept.begin() + i), details.erase(least);
+    const std::size_t after = static_cast<std::size_t>(i) % kept.size(),
+                      before = (after + kept.size() - 1) % kept.size();
+    details[before] = detail_at(before), details[after] = detail_at(after);
   }
+  for (std::size_t i = 0; i < kept.size(); ++i) hull[i] = hull[kept[i]];
+  hull.resize(kept.size());
+}
+
+/// Returns the least width of a convex polygon, m, which is across one of its edges.
+double thickness(const std::vector<Vec2d>& hull) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2d start = hull[i], edge = hull[(i + 1) % hull.size()] - start;
+    double height = 0;
+    for (const Vec2d point : hull) height = std::max(height, cross(edge, point - start));
+    least = std::min(least, height / std::sqrt(length_squared(edge)));
+  }
+  return least;
 }
 
 /// Sets the unit normals of the edges, outward: to the right of a counter-clockwise outline.
@@ -84,7 +117,13 @@ void set_normals(Corners& corners) {
 
 }  // namespace
 
-Corners convex_hull(std::span<const Vec2d> points) {
+double outline_rounding(std::span<const Vec2d> points, double spacing, Vec2d position) {
+  double farthest = 0;
+  for (const Vec2d point : points) farthest = std::max(farthest, length_squared(point));
+  return kRoundings * spacing * (std::sqrt(farthest) + std::sqrt(length_squared(position)));
+}
+
+Corners convex_hull(std::span<const Vec2d> points, double detail) {
   for (const Vec2d point : points)
     if (!(std::fabs(point.x) <= kLargestCoordinate && std::fabs(point.y) <= kLargestCoordinate))
       refuse("(" + shortest(point.x) + ", " + shortest(point.y) + ")",
@@ -106,8 +145,9 @@ Corners convex_hull(std::span<const Vec2d> points) {
   }
   std::vector<Vec2d> hull = hull_of_sorted(sorted);
   if (hull.size() > kMostExactCorners) refuse_count(hull.size());
-  drop_details(hull, kDetail * std::max(upper.x - lower.x, upper.y - lower.y));
   if (hull.size() < 3) refuse_flat();
+  drop_details(hull, std::max(detail, outline_rounding(hull, std::numeric_limits<double>::epsilon())));
+  if (!(thickness(hull) > kFlat * std::max(upper.x - lower.x, upper.y - lower.y))) refuse_flat();
   if (hull.size() > static_cast<std::size_t>(kMaxCorners)) refuse_count(hull.size());
 
   Corners corners;

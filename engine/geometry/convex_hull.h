@@ -11,11 +11,16 @@ namespace plumb {
 /// The corners of a convex shape during construction: in double, rounded to the world's precision at the end.
 using Corners = std::vector<Corner<double>>;
 
-/// Returns the corners of the convex hull, counter-clockwise from the leftmost (then lowest) point. Points
-/// nearer than 1e-5 of the hull's extent to another corner, or to the line between their neighbours, are
-/// dropped. Throws Error about "points" of "shape": not finite, no area (three points in a line), or more
-/// than kMaxCorners corners left.
-Corners convex_hull(std::span<const Vec2d> points);
+/// Returns how far (m) an outline may change when it is placed at `position` (m) and its corners become
+/// numbers of the relative spacing `spacing`: eight roundings of the farthest one, in double 2e-15 of its
+/// distance from the origin, in float 1e-6.
+double outline_rounding(std::span<const Vec2d> points, double spacing, Vec2d position = {});
+
+/// Returns the corners of the convex hull, counter-clockwise from the leftmost (then lowest) point. Corners
+/// are dropped only as far as the outline changes by no more than `detail` (m), or by the rounding in double
+/// if that is larger: an edge that the numbers cannot hold has no direction. Throws Error about "points" of
+/// "shape": not finite, thinner than 1e-5 of the extent, or more than kMaxCorners corners left.
+Corners convex_hull(std::span<const Vec2d> points, double detail = 0);
 
 /// Returns the corners of a box of half sizes > 0 about `center`, m. Its opposite normals are exact negatives
 /// of each other.

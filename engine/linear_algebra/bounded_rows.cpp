@@ -208,6 +208,11 @@ double BoundedRows::residual(int i) const {
   return missing - row.softening * mobility_[i] * row.impulse;
 }
 
+double BoundedRows::unbounded_impulse(int i) const {
+  const double response = (1 + rows[i].softening) * mobility_[i] + rows[i].compliance;
+  return rows[i].impulse + (response > 0 ? residual(i) / response : 0);
+}
+
 // Returns true if a row's speed is more than `fraction` of that of the row with the largest energy.
 bool BoundedRows::is_significant(int i, double speed, double fraction) const {
   return speed * speed > fraction * fraction * energy_scale_ * mobility_[i];

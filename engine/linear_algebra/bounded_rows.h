@@ -80,6 +80,9 @@ class BoundedRows {
   /// the largest energy.
   bool is_significant(int row, double speed, double fraction) const;
 
+  /// Returns the impulse that a row would have after the last solution if it alone were free of its bounds.
+  double unbounded_impulse(int row) const;
+
   /// Changes the bodies' velocities by an impulse along a row.
   void apply_impulse(const BoundedRow& row, double impulse);
 

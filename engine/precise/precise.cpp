@@ -98,10 +98,17 @@ double PreciseDriver::limit_of_step(double end) const {
              : end;
 }
 
-/// Switches forces that change at the end of the last step.
+/// Switches forces, prescribed motions and motors that change at the end of the last step.
 void PreciseDriver::switch_forces() {
   const double now = integrator_.time();
-  if (!std::binary_search(partition_.switches.begin(), partition_.switches.end(), now)) return;
+  const bool formulas = equations_.next_switch() == now;
+  if (!formulas && !std::binary_search(partition_.switches.begin(), partition_.switches.end(), now)) return;
+  if (formulas) {
+    // Contacts and joints of a prescribed body whose velocity jumps meet an impact: nothing holds them
+    // together.
+    if (equations_.prescribed_velocity_jumps(now)) contacts_.release();
+    integrator_.pass_switch();
+  }
   ballistic_.switch_forces(now);
   if (sensitivities_) sensitivities_->switch_forces(now);
   contacts_.invalidate();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/formula_decisions.h"
 #include "engine/scene/formula_functions.h"
 
 namespace plumb {
@@ -17,9 +18,6 @@ Value Formula::evaluate(std::span<const Value> variables) const {
   const auto two = [&](auto&& apply) {
     --top;
     top[-1] = apply(top[-1], top[0]);
-  };
-  const auto compare = [&](auto&& holds) {
-    two([&](const Value& a, const Value& b) { return Value(holds(value_of(a), value_of(b)) ? 1.0 : 0.0); });
   };
   for (const Operation& operation : operations_) {
     Value& last = top[-1];
@@ -49,32 +47,32 @@ Value Formula::evaluate(std::span<const Value> variables) const {
         two([](const Value& a, const Value& b) { return power_of(a, b); });
         break;
       case Code::Less:
-        compare([](double a, double b) { return a < b; });
+        two([](const Value& a, const Value& b) { return less(a, b); });
         break;
       case Code::Greater:
-        compare([](double a, double b) { return a > b; });
+        two([](const Value& a, const Value& b) { return less(b, a); });
         break;
       case Code::LessEqual:
-        compare([](double a, double b) { return a <= b; });
+        two([](const Value& a, const Value& b) { return at_most(a, b); });
         break;
       case Code::GreaterEqual:
-        compare([](double a, double b) { return a >= b; });
+        two([](const Value& a, const Value& b) { return at_most(b, a); });
         break;
       case Code::Equal:
-        compare([](double a, double b) { return a == b; });
+        two([](const Value& a, const Value& b) { return equal(a, b); });
         break;
       case Code::NotEqual:
-        compare([](double a, double b) { return a != b; });
+        two([](const Value& a, const Value& b) { return opposite(equal(a, b)); });
         break;
       case Code::And:
-        compare([](double a, double b) { return a != 0 && b != 0; });
+        two([](const Value& a, const Value& b) { return both(a, b); });
         break;
       case Code::Or:
-        compare([](double a, double b) { return a != 0 || b != 0; });
+        two([](const Value& a, const Value& b) { return opposite(both(opposite(a), opposite(b))); });
         break;
       case Code::Select:
         top -= 2;
-        top[-1] = value_of(top[-1]) != 0 ? top[0] : top[1];
+        top[-1] = select(top[-1], top[0], top[1]);
         break;
       case Code::Sin:
         last = sine(last);
@@ -119,16 +117,16 @@ Value Formula::evaluate(std::span<const Value> variables) const {
         last = sqrt_of(last);
         break;
       case Code::Abs:
-        last = value_of(last) < 0 ? -last : last;
+        last = absolute(last);
         break;
       case Code::Sign:
-        last = Value(value_of(last) > 0 ? 1.0 : value_of(last) < 0 ? -1.0 : 0.0);
+        last = sign_of(last);
         break;
       case Code::Min:
-        two([](const Value& a, const Value& b) { return value_of(b) < value_of(a) ? b : a; });
+        two([](const Value& a, const Value& b) { return smaller(a, b); });
         break;
       case Code::Max:
-        two([](const Value& a, const Value& b) { return value_of(b) > value_of(a) ? b : a; });
+        two([](const Value& a, const Value& b) { return larger(a, b); });
         break;
       case Code::Hypot:
         two([](const Value& a, const Value& b) { return sqrt_of(a * a + b * b); });
@@ -137,24 +135,11 @@ Value Formula::evaluate(std::span<const Value> variables) const {
         two([](const Value& a, const Value& b) { return modulo_of(a, b); });
         break;
       case Code::Floor:
-        last = Value(std::floor(value_of(last)));
+        last = floor_of(last);
         break;
-      case Code::Table: {
-        const std::vector<Point>& points = tables_[operation.index];
-        const double x = value_of(last);
-        if (!(x > points.front().x)) {
-          last = Value(std::isnan(x) ? x : points.front().y);
-        } else if (x >= points.back().x) {
-          last = Value(points.back().y);
-        } else {
-          const auto next = std::upper_bound(points.begin(), points.end(), x,
-                                             [](double value, const Point& p) { return value < p.x; });
-          const Point& from = next[-1];
-          const double slope = (next->y - from.y) / (next->x - from.x);
-          last = through(last, from.y + slope * (x - from.x), slope, 0);
-        }
+      case Code::Table:
+        last = through_points(last, std::span<const Point>(tables_[operation.index]));
         break;
-      }
     }
   }
   return top[-1];
@@ -162,6 +147,49 @@ Value Formula::evaluate(std::span<const Value> variables) const {
 
 double Formula::at(std::span<const double> variables) const { return evaluate(variables); }
 Jet Formula::at(std::span<const Jet> variables) const { return evaluate(variables); }
+
+// Maximum number of variables of a formula of a scene.
+constexpr std::size_t kMaxVariables = 8;
+
+Formula::Survey Formula::survey(double from, double to) const {
+  std::array<formula::Ranged, kMaxVariables> variables{};
+  for (formula::Ranged& variable : variables)
+    variable.value = Interval::everything(), variable.of_motion = true;
+  variables[0] = formula::Ranged(Interval(from, to));
+  const formula::Ranged out = evaluate(std::span<const formula::Ranged>(variables));
+  return {!out.undecided, out.decisions, out.value.low, out.value.high};
+}
+
+Formula::Survey Formula::survey(std::span<const double> low, std::span<const double> high) const {
+  std::array<formula::Ranged, kMaxVariables> variables{};
+  for (std::size_t i = 0; i < low.size(); ++i) variables[i] = formula::Ranged(Interval(low[i], high[i]));
+  const formula::Ranged out = evaluate(std::span<const formula::Ranged>(variables));
+  return {!out.undecided, out.decisions, out.value.low, out.value.high};
+}
+
+bool Formula::has_decisions() const {
+  return std::any_of(operations_.begin(), operations_.end(), [](const Operation& operation) {
+    switch (operation.code) {
+      case Code::Less:
+      case Code::Greater:
+      case Code::LessEqual:
+      case Code::GreaterEqual:
+      case Code::Equal:
+      case Code::NotEqual:
+      case Code::Atan2:
+      case Code::Abs:
+      case Code::Sign:
+      case Code::Min:
+      case Code::Max:
+      case Code::Mod:
+      case Code::Floor:
+      case Code::Table:
+        return true;
+      default:
+        return false;
+    }
+  });
+}
 
 bool Formula::uses(std::size_t variable) const {
   return std::any_of(operations_.begin(), operations_.end(), [&](const Operation& operation) {

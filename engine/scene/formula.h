@@ -11,6 +11,13 @@
 
 namespace plumb {
 
+namespace formula {
+/// A point of a table.
+struct Point {
+  double x = 0, y = 0;
+};
+}  // namespace formula
+
 /// A function that is given as text, such as "0.1*sin(50*t)": numbers, variables, `+ - * / ^`, parentheses,
 /// comparisons, `&& ||`, `a ? b : c`, `pi`, the functions
 ///   sin cos tan asin acos atan atan2 sinh cosh tanh exp ln log10 sqrt abs sign min max hypot mod floor
@@ -32,6 +39,19 @@ class Formula {
 
   /// Returns true if the value depends on this variable.
   bool uses(std::size_t variable) const;
+
+  /// Facts about a formula over an interval of its first variable, a time. A decision is a comparison,
+  /// case, piece of a table or whole part by which the time selects what is computed; those that also depend
+  /// on other variables do not count. The shorter the interval, the sharper it is.
+  struct Survey {
+    bool decided = true;          ///< all decisions are the same at all times of the interval
+    std::uint64_t decisions = 0;  ///< a hash of them, if they are
+    double low = 0, high = 0;     ///< contain all values
+  };
+  Survey survey(double from, double to) const;
+  /// Does the same for a box of all variables, all of whose decisions count.
+  Survey survey(std::span<const double> low, std::span<const double> high) const;
+  bool has_decisions() const;
 
   /// More than this many pending values are refused: "1+(2+(3+...".
   static constexpr std::size_t kMaxStack = 64;
@@ -84,9 +104,7 @@ class Formula {
     std::uint32_t index = 0;  // of a variable or table
     double number = 0;
   };
-  struct Point {
-    double x = 0, y = 0;
-  };
+  using Point = formula::Point;
 
   template <class Value>
   Value evaluate(std::span<const Value> variables) const;

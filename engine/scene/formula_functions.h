@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/math/arc_tangent.h"
 #include "engine/math/exponential.h"
 #include "engine/math/hyperbolic.h"
 #include "engine/math/jet.h"
 #include "engine/math/trigonometry.h"
+#include "engine/scene/formula.h"
 
 /// Functions that a formula may call, for a number or for a jet.
 namespace plumb::formula {
@@ -106,5 +109,65 @@ inline Jet power_of(Jet a, Jet b) {
 
 inline double modulo_of(double a, double b) { return a - b * std::floor(a / b); }
 inline Jet modulo_of(Jet a, Jet b) { return a - b * Jet(std::floor(a.value / b.value)); }
+
+// Decisions: comparisons, cases and pieces.
+
+template <class V>
+V less(const V& a, const V& b) {
+  return V(value_of(a) < value_of(b) ? 1.0 : 0.0);
+}
+template <class V>
+V at_most(const V& a, const V& b) {
+  return V(value_of(a) <= value_of(b) ? 1.0 : 0.0);
+}
+template <class V>
+V equal(const V& a, const V& b) {
+  return V(value_of(a) == value_of(b) ? 1.0 : 0.0);
+}
+template <class V>
+V opposite(const V& a) {
+  return V(value_of(a) != 0 ? 0.0 : 1.0);
+}
+template <class V>
+V both(const V& a, const V& b) {
+  return V(value_of(a) != 0 && value_of(b) != 0 ? 1.0 : 0.0);
+}
+template <class V>
+V select(const V& condition, const V& yes, const V& no) {
+  return value_of(condition) != 0 ? yes : no;
+}
+template <class V>
+V smaller(const V& a, const V& b) {
+  return value_of(b) < value_of(a) ? b : a;
+}
+template <class V>
+V larger(const V& a, const V& b) {
+  return value_of(b) > value_of(a) ? b : a;
+}
+template <class V>
+V absolute(const V& a) {
+  return value_of(a) < 0 ? -a : a;
+}
+template <class V>
+V sign_of(const V& a) {
+  return V(value_of(a) > 0 ? 1.0 : value_of(a) < 0 ? -1.0 : 0.0);
+}
+template <class V>
+V floor_of(const V& a) {
+  return V(std::floor(value_of(a)));
+}
+
+/// Returns the value at x of straight lines through points with ascending x, constant beyond the ends.
+template <class V>
+V through_points(const V& at, std::span<const Point> points) {
+  const double x = value_of(at);
+  if (!(x > points.front().x)) return V(std::isnan(x) ? x : points.front().y);
+  if (x >= points.back().x) return V(points.back().y);
+  const auto next = std::upper_bound(points.begin(), points.end(), x,
+                                     [](double value, const Point& p) { return value < p.x; });
+  const Point& from = next[-1];
+  const double slope = (next->y - from.y) / (next->x - from.x);
+  return through(at, from.y + slope * (x - from.x), slope, 0);
+}
 
 }  // namespace plumb::formula

@@ -14,8 +14,9 @@
 /// are as accurate as at the origin.
 /// Visitors and conditions of filters may read the world; a call that would change it throws Error
 /// (Unsupported). An exception thrown by one of them ends the query.
-/// Functions throw Error (Value) for numbers that are not finite, and Error (Name) for handles of destroyed
-/// objects. They exist for BasicWorld<float> and BasicWorld<double>.
+/// Functions throw Error (Value) for numbers that are not finite or exceed 1e12 in magnitude (also in the
+/// translation of a ray), and Error (Name) for handles of destroyed objects. They exist for BasicWorld<float>
+/// and BasicWorld<double>.
 namespace plumb {
 
 /// Hit of a ray: the point at which it enters a shape.

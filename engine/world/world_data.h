@@ -82,6 +82,19 @@ struct RestDisplacement {
   float rotation = 0;         ///< rad
 };
 
+/// Motion of a body at the start of a step: step_rollback.h.
+template <class Real>
+struct BodyMotion {
+  int body = kNone;
+  SolverBody<Real> motion{};
+  Rotation<Real> rotation{};
+  Vec2d position{}, compensation{};  ///< m
+  double angle = 0;                  ///< rad
+  Real sleep_time = 0;               ///< s
+  RestDisplacement rest_displacement{};
+  Load<Real> load{};
+};
+
 /// Collision data of a shape, in the frame of its body's centre of mass.
 template <class Real>
 struct ShapeForm {
@@ -370,8 +383,10 @@ struct Scratch {
   std::vector<int> bounce_candidates;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<int> woken_contacts;     ///< contacts of bodies that woke in the step
   std::vector<RestitutionContact<Real>> restitution_contacts;
-  std::vector<char> is_scalar;          ///< by contact: not solved in SIMD lanes
-  std::vector<char> joints_in_islands;  ///< by the joint's slot: solved with its island
+  std::vector<BodyMotion<Real>> motion_before_step;  ///< of the awake bodies: step_rollback.h
+  std::vector<Real> earlier_impulses;                ///< N s, of contacts and joints: state/impulse_memory.h
+  std::vector<char> is_scalar;                       ///< by contact: not solved in SIMD lanes
+  std::vector<char> joints_in_islands;               ///< by the joint's slot: solved with its island
   SoftContacts<Real> soft_contacts;
   std::vector<ExpectedImpact<Real>> expected_impacts;
   std::vector<int> loaded_bodies;  ///< bodies that contacts or joints will load in this step
@@ -405,7 +420,8 @@ struct WorldData {
   WorldDefinition settings;
   double time = 0;
   std::int64_t steps = 0;
-  double last_h = 0;  ///< s, substep of the last step
+  double last_h = 0;     ///< s, substep of the last step
+  double impulse_h = 0;  ///< s, substep that stored impulses are scaled to (solvers/impulse_memory.h)
 
   // Bodies, by index.
   SlotMap<BodyRecord<Real>> bodies;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/world/world_data.h"
 #include "harness/hunt/shapes_of_world.h"
 
 // Checks how the bodies of a world moved, fell asleep and woke in a step.
@@ -221,9 +222,15 @@ std::string StateWatch<Real>::impulses(double dt) const {
     if (!counted || world_.type(other) != BodyType::Static || locks.x || locks.y) continue;
     const double mass = world_.mass(body);
     if (mass != before->second.mass) continue;
-    // Skips bodies that continuous collision stops: their weight does not act in the rest of the step.
+    // Skips bodies that continuous collision stops: their weight does not act in the rest of the step. The
+    // path of one that was let go from rest does not show it.
     const double speed = std::min(length(world_.velocity(body)), length(before->second.velocity));
     if (length(world_.centre(body) - before->second.position) < 0.9 * dt * speed) continue;
+    const auto& swept = world_.data().scratch.swept_bodies;
+    if (std::any_of(swept.begin(), swept.end(), [&](const SweptBody& each) {
+          return each.stopped && each.body == static_cast<int>(body.index);
+        }))
+      continue;
     const Vec2d n = is_a ? -1.0 * contact.normal : contact.normal;
     const Vec2d gain = world_.velocity(body) - before->second.velocity -
                        dt * world_.gravity_scale(body) * world_.gravity() -

@@ -83,18 +83,37 @@ TEST(ConvexHull, SquareFromAnyOrderWithPointsInsideAndOnEdges) {
   }
 }
 
-// The tolerance goes with the extent: the same outline is treated alike at a millimetre and a kilometre.
-TEST(ConvexHull, DetailsBelowAShareOfTheExtentAreDropped) {
+// The rounding goes with the extent: the same outline is treated alike at a millimetre and a kilometre.
+TEST(ConvexHull, CornersThatStandOutByMoreThanTheRoundingAreKept) {
   for (const double size : kSizes) {
-    const auto corners_with = [size](double bump, double gap) {
+    const auto corners_with = [size](double bump, double gap, double detail) {
       std::vector<Vec2d> points = {{0, 0}, {size, 0}, {size, size}, {0, size}};
       points.push_back({size / 2, -bump * size});
       points.push_back({size + gap * size, gap * size});
-      return convex_hull(points).size();
+      return convex_hull(points, detail * size).size();
     };
-    EXPECT_EQ(corners_with(3e-6, 3e-6), 4u);
-    EXPECT_EQ(corners_with(3e-5, 3e-6), 5u);
-    EXPECT_EQ(corners_with(3e-6, 3e-5), 5u);
+    EXPECT_EQ(corners_with(1e-15, 1e-15, 0), 4u);
+    EXPECT_EQ(corners_with(1e-14, 1e-15, 0), 5u);
+    EXPECT_EQ(corners_with(1e-15, 1e-14, 0), 5u);
+    EXPECT_EQ(corners_with(1e-14, 1e-14, 0), 6u);
+    EXPECT_EQ(corners_with(3e-7, 3e-7, 1e-6), 4u);
+    EXPECT_EQ(corners_with(3e-6, 3e-7, 1e-6), 5u);
+    EXPECT_EQ(corners_with(3e-7, 3e-6, 1e-6), 5u);
+  }
+}
+
+// Each corner of a fine arc stands out by less than the detail, all of them together by much more.
+TEST(ConvexHull, NoDroppedCornerIsFartherAwayThanTheDetail) {
+  for (const double detail : {1e-12, 1e-9, 1e-6, 2e-4}) {
+    std::vector<Vec2d> points = {{-1, 1}, {1, 1}};
+    for (int i = -500; i <= 500; ++i) {
+      const double x = i / 500.0;
+      points.push_back({x, 300 * detail * (x * x - 1)});
+    }
+    const Corners hull = convex_hull(points, detail);
+    expect_hull_of(hull, points, 1.001 * detail);
+    EXPECT_LT(hull.size(), 40u);
+    EXPECT_GT(hull.size(), 8u);
   }
 }
 

@@ -107,6 +107,27 @@ TEST(Compose, BricksThatAreOwedToStandAreCarried) {
   EXPECT_GT(carried, 100);
 }
 
+// A brick that loses the one below it falls, and may strike those that are owed to stand.
+TEST(Compose, BricksAreOwedToStandWithAllThatCarryOthers) {
+  int carriers = 0;
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    const Case one = compose(31, index, {&find_idiom("wall")});
+    if (one.idioms.size() > 2) continue;
+    double top = 0;
+    for (const Expectation& owed : one.expectations)
+      top = std::max(top, one.scene.bodies[find_body(one.scene, owed.body).value()].position.y);
+    for (const Expectation& owed : one.expectations)
+      for (const Expectation& other : one.expectations) {
+        const Body& brick = one.scene.bodies[find_body(one.scene, other.body).value()];
+        if (brick.position.y > 0.999 * top || other.body == owed.body) continue;
+        EXPECT_EQ(std::count(owed.needs.begin(), owed.needs.end(), other.body), 1)
+            << index << " " << owed.body << " " << other.body;
+        ++carriers;
+      }
+  }
+  EXPECT_GT(carriers, 100);
+}
+
 // A body that is as thin as shapes may lie in each other is not outside when it lies in a wall.
 TEST(Compose, ThinBodiesMayLieInTheWallsAroundThem) {
   int owed = 0;

@@ -302,6 +302,38 @@ TEST(Relations, ForcesThatTurnWithABodyAreKnownWhileItTurnsLittleInAStep) {
   EXPECT_FALSE(integrated_relation(one, precise, run(precise, one)));
 }
 
+// A spring drives a disc 63 mm into the floor within a step. A World pushes it out at a limited speed, whose
+// unit is the extent a second.
+TEST(Relations, UnitsAreJudgedUntilBodiesArePushedApart) {
+  Case one;
+  one.scene = {.name = "on a spring", .gravity = {0, -20}};
+  const Body bar{.name = "bar", .position = {0, 9.368}, .mass = 45.6, .inertia = 5.25};
+  one.scene.bodies = {{.name = "floor",
+                       .type = BodyType::Static,
+                       .position = {0, -2},
+                       .shapes = {{.geometry = Box{4, 4}, .friction = 0, .restitution = 0}}},
+                      {.name = "disc",
+                       .position = {0, 7.768},
+                       .mass = 45.6,
+                       .shapes = {{.geometry = Circle{0.48}, .friction = 0, .restitution = 0.8}}},
+                      bar,
+                      bar};
+  one.scene.bodies[2].name = "lower", one.scene.bodies[3].name = "upper";
+  one.scene.bodies[3].position.y = 10.968;
+  one.scene.joints = {
+      WeldJoint{.name = "spring",
+                .body_a = "disc",
+                .body_b = "lower",
+                .anchor_a = {0, 0.8},
+                .anchor_b = {0, -0.8},
+                .linear_spring = Spring{.hertz = 50, .damping_ratio = 0.5}},
+      WeldJoint{
+          .name = "weld", .body_a = "lower", .body_b = "upper", .anchor_a = {0, 0.8}, .anchor_b = {0, -0.8}}};
+  one.dt = 1.0 / 120, one.substeps = 16, one.steps = 256;
+  for (const char* name : {"plumb-float", "plumb"})
+    EXPECT_TRUE(examine(Engine(reference::find_backend(name)), one, "units").objections.empty()) << name;
+}
+
 // A capsule stands on its end at a wall: it has lost all perturbations of its start in blows, and rounding
 // alone says when it falls.
 TEST(Relations, WhatComesToStandOnItsEndIsNotHeldAgainstATighterTolerance) {

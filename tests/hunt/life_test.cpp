@@ -112,6 +112,29 @@ TEST(StateWatch, SeesALoadThatIsNotTold) {
   EXPECT_NE(all.watch.after_step(1.0 / 60).find("not reported"), std::string::npos);
 }
 
+// A needle is let go on its tip: continuous collision stops it within the step, with the rest of its weight.
+TEST(StateWatch, JudgesNoBodyThatIsStoppedWhereItIsLetGo) {
+  DoubleWorld world({.gravity = {0, -32}, .sleeping = false});
+  world.create_body({.type = BodyType::Static, .position = {0, -1}},
+                    {.geometry = Box{20, 2}, .material = {.friction = 0}, .hit_events = true});
+  const double tip = 0.512, tilt = 0.0795;
+  const BodyId needle =
+      world.create_body({.position = {0, tip * std::sin(tilt) + 4e-4}, .angle = tilt},
+                        {.geometry = Polygon{{{-tip, -0.00016384}, {tip, -0.00016384}, {0, 0.00016384}}},
+                         .density = 1,
+                         .material = {.friction = 0}});
+  StateWatch<double> watch(world);
+  bool stopped = false;
+  for (int i = 0; i < 3; ++i) {
+    world.set_velocity(needle, {}), world.set_angular_velocity(needle, 0);
+    watch.before_step();
+    world.step(1.0 / 60, 4);
+    for (const SweptBody& swept : world.data().scratch.swept_bodies) stopped = stopped || swept.stopped;
+    EXPECT_EQ(watch.after_step(1.0 / 60), "") << i;
+  }
+  EXPECT_TRUE(stopped);
+}
+
 TEST(StateWatch, SeesATouchThatDoesNotEnd) {
   Scenery all;
   ASSERT_EQ(all.run(40), "");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -104,6 +105,37 @@ TEST(Formula, RefusesWhatIsNoFormula) {
   for (const std::string_view text : {"", "1 +", "sin(t", "sin", "atan2(1)", "u", "1..2", "2 t", "t ? 1",
                                       "table(t, 1, 2)", "table(t, 1, 2, 1, 3)", "table(t, 1, t)", "(1"})
     EXPECT_THROW(Formula(text, kT), std::invalid_argument) << text;
+}
+
+// Bounds over an interval of time contain all values, and decisions that count as made are the same
+// throughout.
+TEST(Formula, SurveysBoundAllValuesAndDecisions) {
+  const std::string_view time[] = {"t"};
+  std::mt19937 draw(1);
+  for (const char* text :
+       {"table(t,1,0,1.5,1,2,-3)", "t > 1 && t < 1.2 ? 5 : 0", "exp(-((t-1)/0.1)^2)", "sin(7*t)*cos(3*t)",
+        "abs(t-1) + sign(t-2)", "max(0, sin(t))^3", "min(t, 2-t)", "mod(t,0.3) < 0.1 ? t : -t",
+        "floor(3*t)/2", "t^3 - 2*t^2 + sqrt(abs(t))", "atan2(t-1, t-2)", "1/(1+t^2)",
+        "tanh(5*(t-1)) + ln(1+t*t)", "2^(-t)", "tan(t/3)", "cosh(t-1) - sinh(t)", "t < 1 || t == 2 ? 1 : 2",
+        "hypot(t-1, 0.5)", "acos(t/9)"}) {
+    const Formula formula(text, time);
+    for (int i = 0; i < 2000; ++i) {
+      const double from = std::uniform_real_distribution<double>(-3, 4)(draw);
+      const double to = from + std::exp(std::uniform_real_distribution<double>(-12, 1.5)(draw));
+      const Formula::Survey all = formula.survey(from, to);
+      const Formula::Survey first = formula.survey(from, from);
+      for (int k = 0; k <= 8; ++k) {
+        const double t = std::min(from + k / 8.0 * (to - from), to);
+        const double values[] = {t}, value = formula.at(values);
+        if (std::isnan(value)) continue;
+        EXPECT_LE(all.low, value) << text << " " << from << " " << to << " " << t;
+        EXPECT_GE(all.high, value) << text << " " << from << " " << to << " " << t;
+        if (all.decided) {
+          EXPECT_EQ(formula.survey(t, t).decisions, first.decisions) << text << " " << from << " " << to;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

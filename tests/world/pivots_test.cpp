@@ -140,5 +140,59 @@ TYPED_TEST(Pivots, ADiscSlidesOffAnotherAlongItsPath) {
   EXPECT_LT(length(world.position(disc) - there), 2e-3);
 }
 
+/// A rod of 12 m and 10 g that leans across the edge of a table, and a box of 10 kg that falls on its upper
+/// end.
+template <class Real>
+struct BoxOnRod {
+  static constexpr double kLength = 12, kAbove = 0.01;  // m; kAbove: of the box over the rod
+  BasicWorld<Real> world{{.gravity = {0, -10}}};
+  BodyId box{};
+  double end = 0;  // m, height of the rod's upper end
+
+  // `slope` in rad; `beyond`: of the rod's centre, past the edge, m.
+  BoxOnRod(double thickness, double slope, double beyond, double speed) {
+    const Material smooth{.friction = 0};
+    world.create_body({.type = BodyType::Static, .position = {-5, -5}},
+                      {.geometry = Box{10, 10}, .material = smooth});
+    const Vec2d along{std::cos(slope), -std::sin(slope)}, up{std::sin(slope), std::cos(slope)};
+    const Vec2d centre = beyond * along + 0.5 * thickness * up;
+    world.create_body(
+        {.position = centre, .angle = -slope},
+        {.geometry = Box{kLength, thickness}, .density = 0.01 / (kLength * thickness), .material = smooth});
+    const Vec2d tip = centre - 0.5 * kLength * along + 0.5 * thickness * up;
+    end = tip.y;
+    box = world.create_body({.position = {tip.x - 0.5, end + 1 + kAbove}, .velocity = {0, -speed}},
+                            {.geometry = Box{4, 2}, .density = 10.0 / 8, .material = smooth});
+  }
+};
+
+// The rod turns on the edge by 0.2 to 0.5 rad a step, so that its middle leaves the straight path by up to
+// several hundred times its thickness. It has at most a quarter of its mass where the box pushes it, which is
+// 0.03 % of the box's: the box falls freely until the rod lies on the table, within g dt h of the velocity
+// (0.1 m/s at 50 m/s), and comes to rest on the table.
+TYPED_TEST(Pivots, ABoxThatFallsOnARodAcrossAnEdgeTurnsItAndFallsOn) {
+  constexpr double kStep = 1.0 / 30;
+  for (const double thickness : {0.1, 0.02, 0.004, 0.001})
+    for (const double speed : {50.0, 60.0, 80.0})
+      for (const double slope : {0.5, 0.8, 1.0})
+        for (const double beyond : {-0.8, 0.0, 0.8}) {
+          BoxOnRod<TypeParam> scene(thickness, slope, beyond, speed);
+          const double start = scene.world.position(scene.box).y;
+          const auto fallen = [&](int steps) {
+            const double time = steps * kStep;
+            return speed * time + 5 * time * time;
+          };
+          int steps = 0;
+          for (; fallen(steps + 1) < 0.7 * scene.end; ++steps) scene.world.step(kStep, 2);
+          if (steps > 0) {
+            EXPECT_NEAR((start - scene.world.position(scene.box).y) / fallen(steps), 1, 0.003)
+                << thickness << " m, " << speed << " m/s, " << slope << " rad, " << beyond << " m";
+          }
+          run(scene.world, 30 - steps, kStep, 2);
+          EXPECT_NEAR(scene.world.position(scene.box).y, 1, 2 * thickness + 0.005)
+              << thickness << " m, " << speed << " m/s, " << slope << " rad, " << beyond << " m";
+        }
+}
+
 }  // namespace
 }  // namespace plumb

@@ -47,7 +47,7 @@ double moved(int rows, double time, const std::function<double(int)>& dt) {
 // with the substep.
 TYPED_TEST(VariableSteps, LetPyramidsRest) {
   const double equal = moved<TypeParam>(10, 10, [](int) { return 1.0 / 60; });
-  for (const double factor : {0.1, 1.5, 2.0, 3.0, 4.0, 10.0}) {
+  for (const double factor : {1e-7, 1e-5, 1e-3, 1e-2, 0.1, 1.5, 2.0, 3.0, 4.0, 10.0}) {
     const double far = moved<TypeParam>(10, 10, [=](int i) { return (i % 2 == 0 ? factor : 1) / 60; });
     EXPECT_LT(far, 2 * equal + 1e-3) << factor;
   }
@@ -65,6 +65,57 @@ TYPED_TEST(VariableSteps, OfRandomLengthsLetPyramidsRest) {
   }
 }
 
+// Steps of games that measure time with a clock: from 10 ns to a thirtieth of a second, each length as likely
+// as its double.
+TYPED_TEST(VariableSteps, OfAllMagnitudesLetPyramidsRest) {
+  const double equal = moved<TypeParam>(8, 3, [](int) { return 1.0 / 60; });
+  for (int seed = 1; seed <= cases(2); ++seed) {
+    std::mt19937 draw(static_cast<std::uint32_t>(seed));
+    const double far = moved<TypeParam>(8, 3, [&](int) {
+      return std::exp(std::uniform_real_distribution<double>(std::log(1e-8), std::log(1.0 / 30))(draw));
+    });
+    EXPECT_LT(far, 2 * equal + 1e-3) << "seed " << seed;
+  }
+}
+
+// Contacts report the impulses of the last substep, however short: the weight times its length.
+TYPED_TEST(VariableSteps, ReportTheImpulsesOfTheirOwnLength) {
+  BasicWorld<TypeParam> world({.sleeping = false});
+  add_ground(world);
+  const BodyId box = add_box(world, {0, 0.5});
+  const double weight = 9.81, h = 1.0 / 60 / 4;
+  const auto pressed = [&] {
+    double sum = 0;
+    for (const ContactReading& contact : world.contacts(box))
+      for (int i = 0; i < contact.count; ++i) sum += contact.impulses[i];
+    return sum;
+  };
+  run(world, 60);
+  EXPECT_NEAR(pressed(), weight * h, 1e-3 * weight * h);
+  for (const double ratio : {0.5, 1e-2, 1e-5}) {
+    world.step(ratio / 60);
+    EXPECT_NEAR(pressed(), ratio * weight * h, 1e-3 * ratio * weight * h) << ratio;
+    run(world, 20);
+  }
+}
+
+// A load that arrives in slow motion presses as it does at full speed: a box lands on a tower, and the tower
+// stands.
+TYPED_TEST(VariableSteps, GoOverToSlowMotionWithinOneStep) {
+  BasicWorld<TypeParam> world({.sleeping = false});
+  add_ground(world);
+  std::vector<BodyId> tower;
+  for (int i = 0; i < 6; ++i) tower.push_back(add_box(world, {0, 0.5 + i}));
+  run(world, 60);
+  const BodyId load = add_box(world, {0, 6.6});
+  for (int i = 0; i < 1500; ++i) world.step(1.0 / 600);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(world.position(tower[i]).y, 0.5 + i, 1e-3);
+    EXPECT_NEAR(world.position(tower[i]).x, 0, 1e-3);
+  }
+  EXPECT_NEAR(world.position(load).y, 6.5, 1e-3);
+}
+
 // A chain that hangs across does not swing for it.
 TYPED_TEST(VariableSteps, LetChainsHang) {
   BasicWorld<TypeParam> world({.sleeping = false});
@@ -78,9 +129,11 @@ TYPED_TEST(VariableSteps, LetChainsHang) {
     links.push_back(last = link);
   }
   run(world, 300);
-  const Vec2d before = world.position(links.back());
-  for (int i = 0; i < 600; ++i) world.step((i % 2 == 0 ? 3.0 : 1.0) / 60);
-  EXPECT_LT(std::sqrt(length_squared(world.position(links.back()) - before)), 2e-3);
+  for (const double factor : {1e-7, 1e-4, 1e-2, 3.0}) {
+    const Vec2d before = world.position(links.back());
+    for (int i = 0; i < 600; ++i) world.step((i % 2 == 0 ? factor : 1.0) / 60);
+    EXPECT_LT(std::sqrt(length_squared(world.position(links.back()) - before)), 2e-3) << factor;
+  }
 }
 
 }  // namespace

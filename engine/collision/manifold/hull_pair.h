@@ -198,11 +198,56 @@ void extend(Span<Real>& span, const FacingEdges<Real>& edges, const Hull<Real>& 
   }
 }
 
-/// Returns the part of two facing edges over each other, extended towards the pivot.
+/// Replaces two edges that are beside each other by the next ones on their outlines towards each other, as
+/// long as these are parallel to the first ones, until two face each other; otherwise leaves them. On an
+/// outline with corners that hardly stand out, the deepest corner may be far from the place where the shapes
+/// touch, and rounding decides which of the edges is the farthest. Together such edges do what a single one
+/// in their place would do.
 template <class Real>
-inline Span<Real> span_of(const FacingEdges<Real>& edges, const Hull<Real>& reference,
-                          const Hull<Real>& other, Vec2<Real> pivot, Real limit) {
+[[gnu::noinline]] bool bring_together(FacingEdges<Real>& edges, const Hull<Real>& reference,
+                                      const Hull<Real>& other) {
+  FacingEdges<Real> found = edges;
+  const auto parallel = [](Vec2<Real> a, Vec2<Real> b) {
+    return std::fabs(cross(a, b)) < Real(kParallel) && dot(a, b) > 0;
+  };
+  const Vec2<Real> incident_normal = other.normal(edges.incident_id[0]);
+  const auto set_reference = [&](int edge) {
+    found.reference_id[0] = edge, found.reference_id[1] = reference.next(edge);
+    for (int i = 0; i < 2; ++i) found.reference[i] = reference.point(found.reference_id[i]);
+    found.normal = reference.normal(edge);
+  };
+  for (int steps = reference.count + other.count; steps > 0; --steps) {
+    const Vec2<Real> tangent = perpendicular(found.normal);
+    const bool beyond = dot(tangent, found.incident[1] - found.reference[1]) > found.slack_after;
+    const bool short_of = dot(tangent, found.incident[0] - found.reference[0]) < -found.slack_before;
+    if (!beyond && !short_of) {
+      edges = found;
+      return true;
+    }
+    // An incident edge runs against the tangent.
+    const int edge = found.incident_id[0], next = beyond ? other.next(edge) : other.previous(edge);
+    if (next != edges.incident_id[0] && parallel(incident_normal, other.normal(next))) {
+      found.incident_id[0] = next, found.incident_id[1] = other.next(next);
+      for (int i = 0; i < 2; ++i) found.incident[i] = other.point(found.incident_id[i]);
+      continue;
+    }
+    const int own = found.reference_id[0], beside = beyond ? reference.next(own) : reference.previous(own);
+    if (reference.edges < reference.count) return false;  // its neighbour is another shape
+    if (!parallel(edges.normal, reference.normal(beside))) return false;
+    set_reference(beside);
+  }
+  return false;
+}
+
+/// Returns the part of two facing edges over each other, extended towards the pivot. Edges that are beside
+/// each other may be replaced.
+template <class Real>
+inline Span<Real> span_of(FacingEdges<Real>& edges, const Hull<Real>& reference, const Hull<Real>& other,
+                          Vec2<Real> pivot, Real limit) {
   Span<Real> span = clip(edges);
+  if (!span.overlaps) [[unlikely]] {
+    if (bring_together(edges, reference, other)) span = clip(edges);
+  }
   const Real x = dot(perpendicular(edges.normal), pivot);
   if (span.overlaps && !(x >= span.x[0] && x <= span.x[1])) [[unlikely]]
     extend(span, edges, reference, other, x, limit);
@@ -238,7 +283,7 @@ ContactManifold<Real> corner_manifold(const Hull<Real>& a, const Hull<Real>& b, 
 
 template <bool kOpen, class Real>
 inline ContactManifold<Real> clip_or_corner(const Hull<Real>& a, const Hull<Real>& b,
-                                            const Faces<Real>& faces, const FacingEdges<Real>& edges,
+                                            const Faces<Real>& faces, FacingEdges<Real>& edges,
                                             Real max_separation, Vec2<Real> origin) {
   const Hull<Real>&reference = edges.reference_is_b ? b : a, &other = edges.reference_is_b ? a : b;
   const Span<Real> span = span_of(edges, reference, other, faces.pivot, max_separation + a.radius + b.radius);
@@ -333,7 +378,7 @@ inline ContactManifold<Real> collide_hulls(const Hull<Real>& a, const Hull<Real>
   FacingEdges<Real> edges =
       facing_edges<kOther>(reference, prefer_b ? faces.b.edge : faces.a.edge, other, prefer_b);
   const bool apart = faces.a.separation > 0 || faces.b.separation > 0;
-  if (apart && !over_edge(edges))
+  if (apart && !over_edge(edges) && !(bring_together(edges, reference, other) && over_edge(edges)))
     return separated_manifold(a, b, faces, prefer_b, size(), max_separation, origin, admit);
   return face_manifold(a, b, faces, edges, max_separation, origin, admit);
 }

@@ -35,8 +35,9 @@ struct FeatureShape {
   double edge_length(int edge) const;
 };
 
-/// Returns one shape, or one per segment of a chain.
-std::vector<FeatureShape> feature_shapes_of(std::size_t body, const Shape& shape);
+/// Returns one shape, or one per segment of a chain. `scene_extent` (m) is the distance from the origin to
+/// the farthest point of the scene: corners of polygons that stand out by less than 1e-9 of it are left out.
+std::vector<FeatureShape> feature_shapes_of(std::size_t body, const Shape& shape, double scene_extent = 0);
 
 /// Parts of two shapes that touch, or are closest.
 struct Feature {

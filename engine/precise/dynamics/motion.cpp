@@ -88,6 +88,13 @@ std::vector<double> only(const std::vector<double>& values, const std::vector<st
   return some;
 }
 
+/// Returns true if the formula selects what it computes by more than the time, its first variable.
+bool has_pieces_of_motion(const Formula& formula, std::size_t variables) {
+  bool moves = false;
+  for (std::size_t i = 1; i < variables; ++i) moves = moves || formula.uses(i);
+  return moves && formula.has_decisions();
+}
+
 }  // namespace
 
 EquationsOfMotion::EquationsOfMotion(const Scene& scene, const ScenePartition& partition,
@@ -121,9 +128,15 @@ EquationsOfMotion::EquationsOfMotion(const Scene& scene, const ScenePartition& p
       has_joints_(!rows_.empty() || every_stage),
       has_loops_(find_loops()),
       wide_mass_ratio_(has_wide_mass_ratio(rows_, joint_inverse_mass_)),
+      switches_(scene),
       length_(scales_of(scene, partition).length),
       speed_(scales_of(scene, partition).speed),
       tolerance_(tolerance) {
+  forces_.for_each_formula(0, poses_.data(), twists_.data(),
+                           [&](const Formula& formula, std::span<const double> now) {
+                             if (has_pieces_of_motion(formula, now.size()))
+                               formulas_with_pieces_.push_back({&formula, now.size()});
+                           });
   for (const Body& body : scene.bodies) names_.push_back(body.name);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const Body& body = scene.bodies[bodies_[slot]];
@@ -164,8 +177,44 @@ void EquationsOfMotion::set_state(Compensated& y, std::size_t slot, const BodySt
   for (std::size_t i = 0; i < kPerBody; ++i) y.set(kPerBody * slot + i, values[i]);
 }
 
+void EquationsOfMotion::append_formula_variables(double time, std::span<const double> y,
+                                                 std::vector<double>& variables) {
+  update_poses(time, y);
+  forces_.for_each_formula(formula_time(time), poses_.data(), twists_.data(),
+                           [&](const Formula& formula, std::span<const double> now) {
+                             if (has_pieces_of_motion(formula, now.size()))
+                               variables.insert(variables.end(), now.begin(), now.end());
+                           });
+}
+
+void EquationsOfMotion::set_window(double start, double end) {
+  window_start_ = start, window_end_ = end;
+  set_next_switch(switches_.next(end));
+}
+
+void EquationsOfMotion::restore_switches(double after, double end) {
+  if (!(after < end)) return;
+  switches_.restore(after, end);
+  set_next_switch(end);
+}
+
+bool EquationsOfMotion::prescribed_velocity_jumps(double time) const {
+  constexpr double kRounding = 1e-12;
+  return std::any_of(prescribed_.begin(), prescribed_.end(), [&](const Prescribed& one) {
+    const BodyState before = one.path.at(std::nextafter(time, 0)).state, after = one.path.at(time).state;
+    const double jump = std::sqrt(length_squared(after.velocity - before.velocity)) +
+                        length_ * std::abs(after.angular_velocity - before.angular_velocity);
+    return jump > kRounding * (speed_ + std::sqrt(length_squared(before.velocity)));
+  });
+}
+
+void EquationsOfMotion::set_next_switch(double time) {
+  next_switch_ = time;
+  last_time_ = std::nextafter(time, -std::numeric_limits<double>::infinity());
+}
+
 void EquationsOfMotion::update_poses(double time, std::span<const double> y) {
-  time_ = time;
+  time_ = formula_time(time);
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot) {
     const BodyState now = state(y, slot);
     const std::size_t body = bodies_[slot];
@@ -255,7 +304,8 @@ void EquationsOfMotion::free_accelerations(double time, std::span<const double> 
   for (const std::size_t body : bodies_) wrenches_[body] = {};
   {
     const Clock clock(cost.on, cost.forces);
-    forces_.add_at(time, window_start_, window_end_, poses_.data(), twists_.data(), wrenches_.data());
+    forces_.add_at(formula_time(time), window_start_, window_end_, poses_.data(), twists_.data(),
+                   wrenches_.data());
     if (general_joints_.has_springs()) general_joints_.add_springs(bodies_view(), wrenches_);
     if (saturated_motors_ > 0) add_motors();
   }
@@ -270,13 +320,13 @@ void EquationsOfMotion::free_accelerations(double time, std::span<const double> 
 
 void EquationsOfMotion::set_prescribed_accelerations(double time, std::span<Twist<double>> out) const {
   for (const Prescribed& one : prescribed_) {
-    const PrescribedPath::Point now = one.path.at(time);
+    const PrescribedPath::Point now = one.path.at(formula_time(time));
     out[one.body] = {now.acceleration, now.angular_acceleration};
   }
 }
 
 void EquationsOfMotion::set_prescribed(double time, Compensated& y) const {
-  for (const Prescribed& one : prescribed_) set_state(y, one.slot, one.path.at(time).state);
+  for (const Prescribed& one : prescribed_) set_state(y, one.slot, one.path.at(formula_time(time)).state);
 }
 
 void EquationsOfMotion::rate(double time, std::span<const double> y, std::span<double> out) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "engine/linear_algebra/joint_system.h"
 #include "engine/precise/dynamics/active_contact.h"
 #include "engine/precise/dynamics/ballistic_motion.h"
+#include "engine/precise/dynamics/formula_switches.h"
 #include "engine/precise/dynamics/hinge_system.h"
 #include "engine/precise/dynamics/joints.h"
 #include "engine/precise/dynamics/scene_partition.h"
@@ -38,8 +41,26 @@ class EquationsOfMotion final : public Flow {
 
   std::size_t dimension() const { return kPerBody * bodies_.size(); }
 
-  /// Sets the time over which switched forces are averaged in all later calls.
-  void set_window(double start, double end) { window_start_ = start, window_end_ = end; }
+  /// Sets the time over which switched forces are averaged in all later calls, and lets formulas keep the
+  /// pieces that they have after `end` until `next_switch`.
+  void set_window(double start, double end);
+  /// Returns the time after the window at which a formula passes to its next piece, s; infinity for none.
+  double next_switch() const { return next_switch_; }
+  /// Returns the formulas that select what they compute by the bodies' motion: zones, soft walls.
+  struct FormulaWithPieces {
+    const Formula* formula = nullptr;
+    std::size_t variables = 0;  ///< number of them
+  };
+  std::span<const FormulaWithPieces> formulas_with_pieces() const { return formulas_with_pieces_; }
+  /// Appends the variables of these formulas, one after another, at state y.
+  void append_formula_variables(double time, std::span<const double> y, std::vector<double>& variables);
+
+  const FormulaSwitches& switches() const { return switches_; }
+  void restore_switches(double after, double end);
+  /// Returns true if a prescribed body has another velocity at a switch than just before it.
+  bool prescribed_velocity_jumps(double time) const;
+  /// Returns the time for which formulas are evaluated: up to, but not at, the next switch.
+  double formula_time(double time) const { return std::min(time, last_time_); }
 
   /// Sets `poses` and `twists` to state y.
   void update_poses(double time, std::span<const double> y);
@@ -197,6 +218,7 @@ class EquationsOfMotion final : public Flow {
   void set_prescribed(double time, Compensated& y) const;
   void write_rate(std::span<const double> y, std::span<double> out) const;
   void forward_kinematics(double time, Compensated& y);
+  void set_next_switch(double time);
   void close_gaps(double time, Compensated& y);
   void add_displacement(std::span<const Twist<double>> shift, Compensated& y) const;
   struct WorstGap {
@@ -250,7 +272,11 @@ class EquationsOfMotion final : public Flow {
   int dependent_rows_ = 0;
   double power_ = 0;  // W, of the forces of the last evaluation
   double window_start_ = 0, window_end_ = 0;
-  double time_ = 0;  // s, of the last `update_poses`
+  FormulaSwitches switches_;
+  std::vector<FormulaWithPieces> formulas_with_pieces_;  // of forces_
+  double next_switch_ = std::numeric_limits<double>::infinity();
+  double last_time_ = std::numeric_limits<double>::infinity();  // the last one before it
+  double time_ = 0;                                             // s, of the last `update_poses`
   struct Prescribed {
     std::size_t body, slot;
     PrescribedPath path;

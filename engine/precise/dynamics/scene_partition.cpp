@@ -12,6 +12,7 @@
 #include "engine/forces/compile.h"
 #include "engine/math/trigonometry.h"
 #include "engine/precise/dynamics/joints.h"
+#include "engine/scene/geometry.h"
 #include "engine/scene/prescribed_path.h"
 
 namespace plumb::precise {
@@ -211,10 +212,15 @@ ScenePartition partition_scene(const Scene& scene) {
   std::vector<char> integrated = needs_integration(scene, index);
   partition.constant_forces =
       std::none_of(integrated.begin(), integrated.end(), [](char is) { return is != 0; });
+  double extent = 0;
+  for (const Body& body : scene.bodies) {
+    for (const Shape& shape : body.shapes)
+      extent = std::max(extent, length(body.position) + length(shape.position) + reach_of(shape.geometry));
+  }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (const Shape& shape : scene.bodies[i].shapes) {
       if (partner(scene, partition, i, shape) == i) continue;
-      for (FeatureShape& feature_shape : feature_shapes_of(i, shape))
+      for (FeatureShape& feature_shape : feature_shapes_of(i, shape, extent))
         partition.shapes.push_back(std::move(feature_shape));
       if (scene.bodies[i].type == BodyType::Dynamic) integrated[i] = 1;
     }

@@ -45,7 +45,7 @@ void LimitsAndMotors::find_reached_limits(double time, std::span<const double> y
 
 /// Returns by how much a motor's speed falls short of its target.
 double LimitsAndMotors::speed_error(std::size_t k, double time, std::span<const Twist<double>> twists) const {
-  return definition(k).speed_at(time).value - rate_along(rows_[k], twists);
+  return definition(k).speed_at(equations_.formula_time(time)).value - rate_along(rows_[k], twists);
 }
 
 std::vector<MotorAtSpeed> LimitsAndMotors::update_motors(double time, std::span<const double> y,
@@ -65,7 +65,8 @@ std::vector<MotorAtSpeed> LimitsAndMotors::update_motors(double time, std::span<
     if (definition(k).role != RowRole::Motor) continue;
     const double error = speed_error(k, time, twists_);
     if (std::abs(error) <=
-        8 * kRateTolerance * std::max(speed_, std::abs(definition(k).speed_at(time).value))) {
+        8 * kRateTolerance *
+            std::max(speed_, std::abs(definition(k).speed_at(equations_.formula_time(time)).value))) {
       motors.push_back({k, rows_[k], definition(k).max_force});
     } else {
       modes_[k] = error > 0 ? Mode::Forward : Mode::Backward;
@@ -120,7 +121,8 @@ void LimitsAndMotors::evaluate(double time, std::span<const double> y, std::span
     } else if (limit) {
       values[k] = rows[k].residual;
     } else {
-      const double error = definition(k).speed_at(time).value - rate_along(rows[k], equations_.twists());
+      const double error = definition(k).speed_at(equations_.formula_time(time)).value -
+                           rate_along(rows[k], equations_.twists());
       values[k] = modes_[k] == Mode::Forward ? error : -error;
     }
   }

@@ -71,6 +71,7 @@ void EventFreeIntegrator::begin_step() {
 }
 
 double EventFreeIntegrator::step(double limit) {
+  equations_.set_window(time_, time_);
   limit = std::min(limit, next_switch());
   if (y_.size() == 0) {
     start_ = time_;
@@ -102,6 +103,12 @@ double EventFreeIntegrator::step(double limit) {
     if (error <= 1) {
       last_implicit_ = stiff_;
       apply_increment(end);
+      if (const std::optional<double> inside = time_in_passed_piece()) {
+        y_ = y0_, time_ = start_;
+        again = true, ++rejected_;
+        proposed_step_ = *inside - start_;
+        continue;
+      }
       equations_.reset_rank();
       rate_at_end();
       accept(h, error);
@@ -297,6 +304,12 @@ void EventFreeIntegrator::restart() {
   }
 }
 
+void EventFreeIntegrator::pass_switch() {
+  equations_.set_window(time_, time_);
+  project(time_, y_);
+  restart();
+}
+
 void EventFreeIntegrator::reset() {
   equations_.apply_hinge_impulses(time_, y_);
   project(time_, y_);
@@ -307,7 +320,7 @@ void EventFreeIntegrator::reset() {
 
 double EventFreeIntegrator::next_switch() const {
   const auto next = std::upper_bound(switches_.begin(), switches_.end(), time_);
-  return next == switches_.end() ? std::numeric_limits<double>::infinity() : *next;
+  return next == switches_.end() ? equations_.next_switch() : std::min(*next, equations_.next_switch());
 }
 
 }  // namespace plumb::precise

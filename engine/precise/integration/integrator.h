@@ -72,6 +72,8 @@ class EventFreeIntegrator {
   Compensated& mutable_state() { return y_; }
   /// Continues after a jump of velocities or of forces: the next step begins from the changed state.
   void restart();
+  /// Continues after a switch of formulas: prescribed bodies and motors take the speeds of their next piece.
+  void pass_switch();
   /// Continues after bodies were changed from outside: closes joints and resets the step length.
   void reset();
 
@@ -112,6 +114,9 @@ class EventFreeIntegrator {
   std::span<const double> rate_at_end();
 
   void begin_step();
+  // Returns a time inside a piece of a formula of the motion that the last step has passed whole
+  // (integrator_pieces.cpp).
+  std::optional<double> time_in_passed_piece();
   void ballistic_step(double end);
   // These are for steps near kinematic singularities of closed linkages (integrator_singularity.cpp).
   bool is_near_singularity();

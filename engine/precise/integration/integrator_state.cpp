@@ -17,7 +17,8 @@ void EventFreeIntegrator::save(double sampled, SnapshotWriter& out) {
     for (const double number : numbers) out.put(number);
   };
   put(std::array{start_, time_, proposed_step_, control_.previous(), implicit_.last_step(),
-                 rank_at_start_.min_pivot_ratio, previous_pivot_ratio_});
+                 rank_at_start_.min_pivot_ratio, previous_pivot_ratio_, equations_.switches().after(),
+                 equations_.switches().end()});
   for (const std::int64_t number :
        {rejected_, implicit_steps_, singularity_steps_, std::int64_t{rank_at_start_.dependent},
         std::int64_t{signs_of_stiffness_}, std::int64_t{nonstiff_steps_}, std::int64_t{stiff_},
@@ -39,9 +40,10 @@ void EventFreeIntegrator::restore(SnapshotReader& in) {
     for (double& number : numbers) number = in.get<double>();
   };
   const auto integer = [&] { return in.get<std::int64_t>(); };
-  double previous = 0, last_step = 0;
-  for (double* number : {&start_, &time_, &proposed_step_, &previous, &last_step,
-                         &rank_at_start_.min_pivot_ratio, &previous_pivot_ratio_})
+  double previous = 0, last_step = 0, after_switch = 0, next_switch = 0;
+  for (double* number :
+       {&start_, &time_, &proposed_step_, &previous, &last_step, &rank_at_start_.min_pivot_ratio,
+        &previous_pivot_ratio_, &after_switch, &next_switch})
     *number = in.get<double>();
   control_.reset(previous);
   rejected_ = integer();
@@ -76,6 +78,7 @@ void EventFreeIntegrator::restore(SnapshotReader& in) {
   path.set_nodes(nodes);
   for (int k = 1; k <= path.degree(); ++k) get(path.term(k));
   equations_.set_window(start_, start_);
+  equations_.restore_switches(after_switch, next_switch);
   equations_.release_dependent();
   if (!near_singularity_) return;
   equations_.min_pivot_ratio_at(time_, y_.value());

@@ -15,6 +15,15 @@ namespace {
 // Maximum number of surfaces hit in one move, and of iterations to resolve overlaps. Corners need fewer.
 constexpr int kMaxSlides = 16;
 constexpr int kMaxPushes = 8;
+// Maximum number of pieces of one walk: each ends at a step, a bend of the ground or a drop. A step takes one
+// to three, so a move climbs at least 20 steps; a longer motion stops there until the
+// next move.
+constexpr int kMaxPieces = 64;
+// Skins: accuracy of the place up to which a piece of a walk leads, and the least advance onto a step. It is
+// far above the rounding of casts, and narrower treads cannot be told from a wall.
+constexpr double kPlaceAccuracy = 0.1;
+// Maximum number of halvings to find that place. 2^40 accuracies are further than any world is wide.
+constexpr int kMaxHalvings = 40;
 
 // Half planes of one move.
 struct Planes {
@@ -39,27 +48,49 @@ class Move {
     detect_ground();
     const double press_speed = std::max(0.0, -dot(velocity_, queries_.up()));
     remaining_ = dt_;
-    for (int slide = 0; slide < kMaxSlides && remaining_ > 0; ++slide) {
-      const bool unfinished = ground_ ? walk() : fly();
-      if (!unfinished) break;
-    }
+    advance();
     if (!ground_) try_to_land();
-    if (ground_) snap_to_ground(press_speed);
+    while (ground_ && !snap_to_ground(press_speed)) {
+      if (descend()) {
+        advance();
+      } else {
+        leave_ground();
+      }
+    }
     if (ground_) move_with_ground();
     finish();
     return std::move(result_);
   }
 
  private:
+  // Straight part of a walk, without what bends it.
+  struct Piece {
+    Vec2d start{}, direction{};
+    double distance = 0, speed = 0;  // m, m/s >= 0
+    double remaining = 0;            // s, at the start
+  };
+  // Place that a piece of a walk leads to.
+  struct Place {
+    double distance = 0;
+    Vec2d position{};
+    MoverGround ground{};
+  };
+
   void push_out();
   void detect_ground();
+  void advance();
   bool walk();
   bool fly();
   bool step_up(double speed);
+  bool descend();
+  template <class PlaceAt>
+  Place farthest(Place nearest, double unreachable, const PlaceAt& place_at) const;
   void change_ground(const MoverGround& ground);
   void land(const MoverGround& ground);
   void try_to_land();
-  void snap_to_ground(double press_speed);
+  double max_drop() const { return queries_.step_height() + 2 * queries_.skin(); }
+  bool snap_to_ground(double press_speed);
+  void leave_ground();
   void move_with_ground();
   void finish();
 
@@ -73,6 +104,8 @@ class Move {
   double dt_, remaining_ = 0;
   Vec2d position_{}, velocity_{};
   std::optional<MoverGround> ground_{};
+  Piece piece_{};  // the last one walked
+  int pieces_ = 0, slides_ = 0;
   Planes overlap_planes_{};  // overlaps that it could not leave
   Planes contact_planes_{};  // current contacts, for the displacement
   Planes hit_planes_{};      // all contacts of the move, for the velocity
@@ -181,6 +214,16 @@ void Move<Real>::try_to_land() {
   if (ground) land(*ground);
 }
 
+// Moves until the end of the motion, or until an obstacle stops it.
+template <class Real>
+void Move<Real>::advance() {
+  while (remaining_ > 0 && pieces_ < kMaxPieces && slides_ < kMaxSlides) {
+    ++(ground_ ? pieces_ : slides_);
+    const bool unfinished = ground_ ? walk() : fly();
+    if (!unfinished) return;
+  }
+}
+
 // Moves in the air: straight, or along current contacts. Returns false at the end of the move.
 template <class Real>
 bool Move<Real>::fly() {
@@ -215,6 +258,7 @@ bool Move<Real>::walk() {
     return false;
   }
   const MoverCast cast = queries_.cast(position_, max_distance * direction);
+  piece_ = {position_, direction, cast.travelled, std::abs(speed), remaining_};
   position_ = cast.position;
   remaining_ *= 1 - cast.travelled / max_distance;
   if (!cast.hit) return false;
@@ -223,6 +267,11 @@ bool Move<Real>::walk() {
   if (ground && !ground->edge) {
     change_ground(*ground);
     return true;
+  }
+  // Its obstacle may stand further down, at the foot of a drop that it must follow first.
+  if (cast.travelled > queries_.skin()) {
+    Vec2d standing = position_;
+    if (!queries_.find_ground(standing, max_drop()) && descend()) return true;
   }
   if (step_up(speed)) return true;
   if (slope) {
@@ -239,7 +288,8 @@ bool Move<Real>::walk() {
 }
 
 // Climbs a step: tries to move up, ahead and down again. If that leads to ground no higher than a step, moves
-// there and returns true.
+// there and returns true. If the whole motion leads onto something higher, as on stairs, or to no ground, it
+// leads as far as that does not happen; the next piece climbs from there.
 template <class Real>
 bool Move<Real>::step_up(double speed) {
   const double max_distance = remaining_ * std::abs(speed), height = queries_.step_height();
@@ -247,13 +297,70 @@ bool Move<Real>::step_up(double speed) {
   const MoverCast rise = queries_.cast(position_, height * queries_.up());
   const MoverCast ahead = queries_.cast(rise.position, remaining_ * speed * queries_.right());
   if (!(ahead.travelled > 1e-3 * queries_.skin())) return false;
-  Vec2d standing = ahead.position;
-  const std::optional<MoverGround> ground =
-      queries_.find_ground(standing, rise.travelled + 2 * queries_.skin());
-  if (!ground || !queries_.is_within_step(ground->contact.point, position_)) return false;
-  position_ = standing;
-  remaining_ *= 1 - ahead.travelled / max_distance;
-  change_ground(*ground);
+  const Vec2d direction = (speed < 0 ? -1.0 : 1.0) * queries_.right();
+  // Uphill, the mover touches the slope ahead of its lowest point, and the step rises from there.
+  const bool uphill = !ground_->edge && dot(ground_->floor, direction) < 0;
+  const double base = uphill ? queries_.contact_height(ground_->floor) : 0;
+  const auto below = [&](double distance, Vec2d standing) -> std::optional<Place> {
+    const std::optional<MoverGround> ground =
+        queries_.find_ground(standing, rise.travelled + 2 * queries_.skin(), base);
+    if (!ground || !queries_.is_within_step(ground->contact.point, position_, base)) return {};
+    return Place{distance, standing, *ground};
+  };
+  const auto place_at = [&](double distance) {
+    return below(distance, rise.position + distance * direction);
+  };
+  std::optional<Place> place = below(ahead.travelled, ahead.position);
+  if (!place) {
+    const double least = kPlaceAccuracy * queries_.skin();
+    if (!(ahead.travelled > least)) return false;
+    place = place_at(least);
+    if (!place) return false;
+    place = farthest(*place, ahead.travelled, place_at);
+  }
+  position_ = place->position;
+  remaining_ *= 1 - place->distance / max_distance;
+  change_ground(place->ground);
+  return true;
+}
+
+// Returns the place farthest along a piece, between one that is reached and a distance that is not.
+template <class Real>
+template <class PlaceAt>
+typename Move<Real>::Place Move<Real>::farthest(Place nearest, double unreachable,
+                                                const PlaceAt& place_at) const {
+  for (int i = 0; i < kMaxHalvings; ++i) {
+    if (unreachable - nearest.distance <= kPlaceAccuracy * queries_.skin()) break;
+    const double middle = 0.5 * (nearest.distance + unreachable);
+    if (const std::optional<Place> place = place_at(middle)) {
+      nearest = *place;
+    } else {
+      unreachable = middle;
+    }
+  }
+  return nearest;
+}
+
+// Follows the ground down where the last piece of the walk leads over more than one step, as on stairs. Goes
+// back to the last place of the piece with ground no lower than a step, and returns true. If there is no
+// further ground from that place, the mover comes to an edge that it falls off: returns false.
+template <class Real>
+bool Move<Real>::descend() {
+  if (!(piece_.distance > queries_.skin())) return false;
+  const auto place_at = [&](double distance) -> std::optional<Place> {
+    Vec2d standing = piece_.start + distance * piece_.direction;
+    const std::optional<MoverGround> ground = queries_.find_ground(standing, max_drop());
+    if (!ground) return {};
+    return Place{distance, standing, *ground};
+  };
+  const Place place = farthest({}, piece_.distance, place_at);
+  if (!(place.distance > 0)) return false;
+  Vec2d beyond = place.position + 2 * kPlaceAccuracy * queries_.skin() * piece_.direction;
+  if (!queries_.find_ground(beyond, max_drop())) return false;
+  position_ = place.position;
+  remaining_ = piece_.remaining - place.distance / piece_.speed;
+  change_ground(place.ground);
+  piece_ = {};
   return true;
 }
 
@@ -266,19 +373,21 @@ void Move<Real>::change_ground(const MoverGround& ground) {
   ground_ = ground;
 }
 
-// Follows the ground down by up to a step's height, or leaves it.
+// Follows the ground down by up to a step's height. Returns false if there is none.
 template <class Real>
-void Move<Real>::snap_to_ground(double press_speed) {
-  const std::optional<MoverGround> ground =
-      queries_.find_ground(position_, queries_.step_height() + 2 * queries_.skin());
-  if (!ground) {
-    velocity_ = dot(velocity_, queries_.right()) * queries_.right() + velocity_of(ground_->contact);
-    ground_.reset();
-    return;
-  }
+bool Move<Real>::snap_to_ground(double press_speed) {
+  const std::optional<MoverGround> ground = queries_.find_ground(position_, max_drop());
+  if (!ground) return false;
   change_ground(*ground);
   velocity_ = dot(velocity_, queries_.right()) * queries_.right();
   record_hit(ground->contact, velocity_of(ground->contact) - press_speed * queries_.up());
+  return true;
+}
+
+template <class Real>
+void Move<Real>::leave_ground() {
+  velocity_ = dot(velocity_, queries_.right()) * queries_.right() + velocity_of(ground_->contact);
+  ground_.reset();
 }
 
 // Carries the mover with the ground's motion during dt. The contact point moves on a circle about the body's

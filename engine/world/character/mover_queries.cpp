@@ -86,23 +86,25 @@ MoverCast MoverQueries<Real>::cast(const QueryShape& shape, Vec2d from, Vec2d di
 }
 
 template <class Real>
-std::optional<MoverGround> MoverQueries<Real>::find_ground(Vec2d& position, double max_drop) const {
+std::optional<MoverGround> MoverQueries<Real>::find_ground(Vec2d& position, double max_drop,
+                                                           double base) const {
   const MoverCast down = cast(position, -max_drop * up_);
   if (!down.hit) return {};
-  const std::optional<MoverGround> ground = ground_at(down.position, *down.hit);
+  const std::optional<MoverGround> ground = ground_at(down.position, *down.hit, base);
   if (ground) position = down.position;
   return ground;
 }
 
 template <class Real>
-std::optional<MoverGround> MoverQueries<Real>::ground_at(Vec2d position, const MoverContact& contact) const {
+std::optional<MoverGround> MoverQueries<Real>::ground_at(Vec2d position, const MoverContact& contact,
+                                                         double base) const {
   constexpr double kUpright = 1e-3;
   constexpr double kEdge = 0.995;  // cosine of 6 degrees: flatter edges, and round ground, count as slopes
   const double rise = dot(contact.normal, up_);
   if (!(rise > kUpright)) return {};
   // The capsule's round end touches a slope, or the edge of a step. A ray behind the edge distinguishes them.
   const Vec2d across = contact.normal - rise * up_;
-  if (length(across) > kUpright && is_within_step(contact.point, position)) {
+  if (length(across) > kUpright && is_within_step(contact.point, position, base)) {
     const Vec2d inward = (-1 / length(across)) * across;
     const Vec2d above = contact.point + 0.25 * skin_ * inward + skin_ * up_;
     const std::optional<RayResult> tread = ray_cast_closest(world_, above, -2 * skin_ * up_, filter_);

@@ -50,18 +50,22 @@ class MoverQueries {
   MoverCast cast_quarter_skin(Vec2d from, Vec2d displacement) const {
     return cast(with_quarter_skin_, from, displacement, {});
   }
-  /// Moves `position` down onto ground, by at most `most` m. Returns nullopt and does not move if there is no
-  /// ground to stand on.
-  std::optional<MoverGround> find_ground(Vec2d& position, double max_drop) const;
+  /// Moves `position` down onto ground, by at most `max_drop` m. Returns nullopt and does not move if there
+  /// is no ground to stand on. `base`: as for is_within_step.
+  std::optional<MoverGround> find_ground(Vec2d& position, double max_drop, double base = 0) const;
   /// Returns the ground if a contact of a mover at `position` is flat enough, or the edge of a step.
-  std::optional<MoverGround> ground_at(Vec2d position, const MoverContact& contact) const;
+  std::optional<MoverGround> ground_at(Vec2d position, const MoverContact& contact, double base = 0) const;
   /// Returns the contact with the smallest gap, if that is below three quarters of the skin. A mover that
   /// moves away from a chain with `velocity` passes through it.
   std::optional<MoverContact> deepest(Vec2d position, Vec2d velocity) const;
+  /// Returns the height of the contact with an even floor over the mover's lowest point, less that on level
+  /// ground, m.
+  double contact_height(Vec2d floor) const { return (radius_ + skin_) * (1 - dot(floor, up_)); }
   /// Returns true if a point is no higher than a step above the ground that a mover at `position` stands on.
-  bool is_within_step(Vec2d point, Vec2d position) const {
+  /// That is `base` m above the mover's lowest point.
+  bool is_within_step(Vec2d point, Vec2d position, double base = 0) const {
     // The mover stands a skin above the ground; a tenth of the skin allows for rounding.
-    return dot(point - position, up_) - foot_height_ <= step_height_ - 0.9 * skin_;
+    return dot(point - position, up_) - foot_height_ - base <= step_height_ - 0.9 * skin_;
   }
 
  private:

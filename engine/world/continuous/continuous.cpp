@@ -465,13 +465,13 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
 
 template <class Real>
 void solve_continuous(WorldData<Real>& w, Real dt) {
-  w.scratch.deep_contacts.clear();
+  w.scratch.deep_contacts.clear(), w.scratch.swept_bodies.clear();
   if (w.settings.continuous) find_deep_contacts(w);
   if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
   find_loaded_bodies(w);
   const double time = static_cast<double>(dt);
   std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
-  swept_bodies.clear(), w.scratch.toi_events.clear();
+  w.scratch.toi_events.clear();
   w.scratch.swept_index_of.assign(w.bodies.size(), kNone);
   const bool all_covered = add_fast_bodies(w, time);
   for (SweptBody& swept : swept_bodies)

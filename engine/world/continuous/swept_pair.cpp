@@ -8,6 +8,7 @@
 #include "engine/collision/distance/hull_distance.h"
 #include "engine/collision/distance/time_of_impact.h"
 #include "engine/geometry/convex_core.h"
+#include "engine/math/trigonometry.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bound.h"
 #include "engine/world/continuous/swept_boxes.h"
@@ -307,21 +308,89 @@ double min_along(const Convex<Real>& shape, const Pose<double>& pose, Vec2d dire
 constexpr double kMaxLift = 0.25;
 // Number of lifts per step after which a body is stopped. Each surface that it rests on may cause one.
 constexpr int kMaxLifts = 8;
-// Maximum number of pieces of a path, at whose ends a corner's arc is checked; above it a body is stopped
-// instead of lifted. A rod a hundred times as long as wide reaches this number at 7 radians a step.
-constexpr double kMaxPieces = 64;
+// Maximum number of poses on a path at which the depth is computed; above it a body is stopped instead of
+// lifted. A pose is added where its two neighbours do not bound the depth between them. A rod that turns on a
+// corner needs about one for each doubling of its ratio of length to width: 16 at a ratio of 600,000.
+constexpr int kMaxPoses = 32;
 // Lift that counts as rounding, as a fraction of the body's extent.
 constexpr double kMinLift = 1e-9;
+
+// Separations of two shapes along the normal of their contact, m: as it was at the step's start, which
+// belongs to the obstacle's side, and turning with the moving body, to whose side it belongs when that pivots
+// on a corner. Neither exceeds the distance of the shapes.
+struct AxisSeparations {
+  double fixed = 0, turning = 0;
+
+  double largest() const { return std::max(fixed, turning); }
+};
+
+// Computes the separations of a moving shape and an obstacle that does not turn, along their paths.
+template <class Real>
+struct LiftAxes {
+  const Convex<Real>&shape, &obstacle;
+  const Sweep<double>&sweep, &other_sweep;
+  Vec2d normal;          // from the obstacle, at the step's start
+  double turned_before;  // rad, rotation of the moving shape from the step's start to the path's
+
+  // Returns the normal that turns with the moving body, at a fraction of its path.
+  Vec2d turned(double fraction) const {
+    return rotation_of(turned_before + fraction * sweep.delta_angle) * normal;
+  }
+  AxisSeparations at(double fraction) const {
+    const Pose<double> pose = pose_at(sweep, fraction), other_pose = pose_at(other_sweep, fraction);
+    const auto along = [&](Vec2d n) {
+      return min_along(shape, pose, n) + min_along(obstacle, other_pose, -n);
+    };
+    const double fixed = along(normal);
+    return {fixed, turned_before == 0 && sweep.delta_angle == 0 ? fixed : along(turned(fraction))};
+  }
+  // Returns true if one of the separations is above a limit everywhere on the path. Each differs between two
+  // poses from its chord by at most an eighth of its second derivative times the square of their distance.
+  // `start`, `end`: at the path's ends; `extent`: of the moving body, m.
+  bool stay_above(double limit, const AxisSeparations& start, const AxisSeparations& end,
+                  double extent) const {
+    const auto size = [](Vec2d v) { return std::abs(v.x) + std::abs(v.y); };
+    const double turn = std::abs(sweep.delta_angle), curve = 2 * size(sweep.curve);
+    // Relative to the turning body, a point that touches it is at most its extent and the path away.
+    const double path_length = size(sweep.motion - other_sweep.motion) + curve;
+    const AxisSeparations bend{extent * turn * turn + curve,
+                               (extent + path_length) * turn * turn + 2 * path_length * turn + curve};
+    struct Piece {
+      double first, last;
+      AxisSeparations at_first, at_last;
+    };
+    // Halves of halves: each entry is at most half as long as the one below it.
+    std::array<Piece, kMaxPoses + 1> pieces;
+    int count = 1, poses = 2;
+    pieces[0] = {0, 1, start, end};
+    while (count > 0) {
+      const Piece piece = pieces[--count];
+      const double square = 0.125 * (piece.last - piece.first) * (piece.last - piece.first);
+      if (std::min(piece.at_first.fixed, piece.at_last.fixed) - square * bend.fixed >= limit ||
+          std::min(piece.at_first.turning, piece.at_last.turning) - square * bend.turning >= limit)
+        continue;
+      if (++poses > kMaxPoses) return false;
+      const double middle = 0.5 * (piece.first + piece.last);
+      const AxisSeparations at_middle = at(middle);
+      if (at_middle.largest() < limit) return false;
+      pieces[count++] = {middle, piece.last, at_middle, piece.at_last};
+      pieces[count++] = {piece.first, middle, piece.at_first, at_middle};
+    }
+    return true;
+  }
+};
 
 // Returns true if a body touches a surface that it may be lifted off.
 template <class Real>
 bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
   const int body = path.swept.body, other = w.shapes[pair.other].body;
   if (pair.contact == nullptr || path.swept.lifts >= kMaxLifts || path.swept.pushed_by != kNone) return false;
-  // The normal of a deep contact may point to the wrong side.
+  // The normal of a deep contact may point to the wrong side. Down to the cores of both it does not.
   const ContactConstraint<Real>& c = *pair.contact;
-  const Real touching = Real(tuning::kTouchSeparation / tuning::kDepenetrationSpeed) * c.depenetration_speed;
-  if (std::min(c.separation[0], c.separation[1]) < -touching) return false;
+  const Real touching = Real(tuning::kTouchSeparation / tuning::kDepenetrationSpeed) * c.depenetration_speed,
+             core = Real(tuning::kCoreDepth) *
+                    std::min(half_width_of(w, pair.shape), half_width_of(w, pair.other));
+  if (std::min(c.separation[0], c.separation[1]) < -std::max(touching, core)) return false;
   if (w.bodies[body].first_joint != kNone || w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
   return !w.is_dynamic(other) && w.motion[other].delta_angle == 0;
 }
@@ -337,38 +406,32 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
   const Vec2d normal = side * pair.contact->normal.template as<double>();
   const Motion other_motion = motion_of(w, other, path.from, path.origin, path.search.dt);
   const Convex<Real> shape = w.convex(pair.shape), obstacle = w.convex(pair.other);
-  const auto separation = [&](double fraction) {
-    return min_along(shape, pose_at(path.sweep, fraction), normal) +
-           min_along(obstacle, pose_at(other_motion.sweep, fraction), -normal);
-  };
+  const SweptBody& swept = path.swept;
+  const double turned_before =
+      swept.delta_angle_before + swept.elapsed_fraction(path.from) * swept.delta_angle;
+  const LiftAxes<Real> axes{shape, obstacle, path.sweep, other_motion.sweep, normal, turned_before};
+  const AxisSeparations start = axes.at(0), end = axes.at(1);
   const double core = tuning::kCoreDepth * static_cast<double>(half_width_of(w, pair.shape));
   // Along a slender shape's normal, a wide shape may overlap it far from the contact point. So use the
   // decrease of the distance along the path, if the shapes are apart.
   const double apart = distance_between(path.sweep, shape, other_motion.sweep, obstacle);
-  const double offset = apart > 0 ? apart - separation(0) : 0;
-  // If the separation along the normal does not decrease, the core enters through another side: stop it, up
+  const double offset = apart > 0 ? apart - start.largest() : 0;
+  // If the separation along the normals does not decrease, the core enters through another side: stop it, up
   // to two tolerances earlier, which is much for a needle.
   const double smaller = static_cast<double>(pair.contact->depenetration_speed) / tuning::kDepenetrationSpeed;
   const double stop_distance = 2 * tuning::kImpactTolerance * smaller;
-  if (entry_fraction < 1 && separation(entry_fraction) + offset > stop_distance - 0.5 * core)
+  if (entry_fraction < 1 && axes.at(entry_fraction).largest() + offset > stop_distance - 0.5 * core)
     return std::nullopt;
-  const double lift = -core - separation(1) - offset;
+  const double lift = -core - end.largest() - offset;
   // Between the ends of the path, corners move on arcs, and another impact may stop the body where they are
   // deepest. Below both ends, allow the depth from the core to the inner core, which contacts push out.
   const double half_width = static_cast<double>(half_width_of(w, pair.shape));
-  const double arc_height =
-      static_cast<double>(w.extents[body]) * path.sweep.delta_angle * path.sweep.delta_angle +
-      2 * (std::abs(path.sweep.curve.x) + std::abs(path.sweep.curve.y));
   const double allowed_depth = (tuning::kInnerCoreDepth - tuning::kCoreDepth) * half_width;
-  const double pieces =
-      std::ceil(std::sqrt(0.25 * arc_height / allowed_depth));  // arcs may use half of the depth
-  if (!(pieces <= kMaxPieces)) return std::nullopt;
-  const double ends = std::min(separation(0), separation(1));
-  for (int i = 1; i < static_cast<int>(pieces); ++i)
-    if (separation(i / pieces) < ends - 0.5 * allowed_depth) return std::nullopt;
+  const double limit = std::min(start.largest(), end.largest()) - allowed_depth;
+  if (!axes.stay_above(limit, start, end, static_cast<double>(w.extents[body]))) return std::nullopt;
   const double min_lift = path.swept.lifts > 0 ? kMinLift * static_cast<double>(w.extents[body]) : 0;
   if (lift > kMaxLift * smaller) return std::nullopt;
-  return lift > min_lift ? lift * normal : Vec2d{};
+  return lift > min_lift ? lift * (end.turning > end.fixed ? axes.turned(1) : normal) : Vec2d{};
 }
 
 template <class Real>

@@ -9,6 +9,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/impulse_memory.h"
 
 namespace plumb {
 namespace {
@@ -271,7 +272,7 @@ void move_hinge_trees(WorldData<Real>& w, double h, int substeps) {
   if (trees.empty()) return;
   load_increments(w);
   for (ArticulatedLink& link : trees.links) load_body(w, link);
-  const double warm_start = w.last_h > 0 ? h / w.last_h : 1;
+  const double warm_start = warm_start_ratio(w, h);
   for (std::size_t i = 0; i + 1 < trees.offsets.size(); ++i) {
     const std::span<ArticulatedLink> tree{trees.links.data() + trees.offsets[i],
                                           trees.links.data() + trees.offsets[i + 1]};

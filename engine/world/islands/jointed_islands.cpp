@@ -22,11 +22,11 @@ template <class Real>
 bool update_bounds(JointedIsland<Real>& island, bool midpoint) {
   bool changed = false;
   auto& rows = island.system.rows;
-  const auto total = [&](int i) { return rows[i].impulse + (midpoint ? 0 : island.impulses[i]); };
+  const auto applied = [&](int i) { return midpoint ? 0 : island.impulses[i]; };
+  const auto total = [&](int i) { return rows[i].impulse + applied(i); };
   const auto set = [&](int i, double most) {
     BoundedRow& row = rows[i];
-    const double applied = midpoint ? 0 : island.impulses[i];
-    const double lower = -most - applied, upper = most - applied;
+    const double lower = -most - applied(i), upper = most - applied(i);
     constexpr double kTolerance = 1e-3;
     const bool matters = row.state != BoundedRow::kFree || std::abs(total(i)) > most;
     if (matters && std::abs(upper - row.upper) > kTolerance * most) changed = true;
@@ -40,8 +40,12 @@ bool update_bounds(JointedIsland<Real>& island, bool midpoint) {
       for (int k = 0; k < source.count; ++k) pressure += std::max(total(source.first + k), 0.0);
       set(i, source.factor * pressure);
     } else if (source.pair && source.max_impulse < std::numeric_limits<Real>::infinity()) {
-      const double x = total(i - 1), y = total(i), size = std::hypot(x, y), most = source.max_impulse;
-      if (size > most * 1.001) set(i - 1, most * std::abs(x) / size), set(i, most * std::abs(y) / size);
+      // At its bound the vector points where it would point without. The impulses themselves point along the
+      // diagonal as soon as each has reached a bound of its own.
+      const double x = island.system.unbounded_impulse(i - 1) + applied(i - 1),
+                   y = island.system.unbounded_impulse(i) + applied(i);
+      const double most = source.max_impulse, scale = most / std::max(std::hypot(x, y), most);
+      set(i - 1, scale < 1 ? scale * std::abs(x) : most), set(i, scale < 1 ? scale * std::abs(y) : most);
     }
   }
   return changed;

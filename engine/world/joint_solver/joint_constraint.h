@@ -383,13 +383,17 @@ struct JointConstraint {
     if constexpr (kHasTorque) mean_torque = 0;
   }
 
-  /// Scales all impulses.
-  void scale(Real factor) {
-    if constexpr (Rows::kAngular) angular.scale(factor);
-    for (auto& coordinate : axial) coordinate.scale(factor);
+  /// Calls visit(impulse) for each impulse.
+  template <class Visit>
+  void for_each_impulse(const Visit& visit) {
+    if constexpr (Rows::kAngular) angular.for_each_impulse(visit);
+    for (auto& coordinate : axial) coordinate.for_each_impulse(visit);
     if constexpr (kBlock > 0)
-      for (Real& impulse : block.impulse) impulse *= factor;
-    if constexpr (Rows::kPoint) point.impulse *= factor;
+      for (Real& impulse : block.impulse) visit(impulse);
+    if constexpr (Rows::kPoint) visit(point.impulse.x), visit(point.impulse.y);
+  }
+  void scale(Real factor) {
+    for_each_impulse([&](Real& impulse) { impulse *= factor; });
   }
 
   /// Clears impulses, counts and rows. A failed step may have left NaNs, which remain NaN when multiplied by

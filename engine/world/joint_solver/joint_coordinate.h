@@ -34,8 +34,9 @@ struct JointCoordinate {
   void set_substep(const RowRules& rules, double spring_mobility, double h) {
     for (int i = 0; i < count; ++i) rule[i].set_substep(rules.rule[i], spring_mobility, h);
   }
-  void scale(Real factor) {
-    for (int i = 0; i < count; ++i) rule[i].impulse *= factor;
+  template <class Visit>
+  void for_each_impulse(const Visit& visit) {
+    for (int i = 0; i < count; ++i) visit(rule[i].impulse);
   }
   void reset() {
     row = {};

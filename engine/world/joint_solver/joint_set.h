@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -190,6 +191,11 @@ class JointSet {
   void add_impulse(int joint, Vec2<Real> impulse, Real moment, const JointStep<Real>& step);
   /// Returns the arm of b's anchor from b's centre of mass at the present poses, m; 0 without an anchor.
   Vec2<Real> anchor_arm(int joint, const SolverBodies<Real>& bodies) const;
+
+  /// Appends the impulses of all active joints.
+  void append_impulses(std::vector<Real>& impulses) const;
+  /// Sets each to `kept` times that of `earlier`, in the same order, plus `scale` times itself.
+  void add_impulses(std::span<const Real> earlier, Real kept, Real scale);
 
   /// Appends the rows of a joint at the present poses.
   void solver_rows(int joint, const SolverBodies<Real>& bodies, std::vector<JointSolverRow<Real>>& rows);

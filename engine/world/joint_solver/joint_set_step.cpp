@@ -207,6 +207,20 @@ void JointSet<Real>::store_results(LoopScheduler* scheduler) {
 }
 
 template <class Real>
+void JointSet<Real>::append_impulses(std::vector<Real>& impulses) const {
+  parts_->for_each_active(
+      [&](auto& joint) { joint.for_each_impulse([&](Real impulse) { impulses.push_back(impulse); }); });
+}
+
+template <class Real>
+void JointSet<Real>::add_impulses(std::span<const Real> earlier, Real kept, Real scale) {
+  std::size_t next = 0;
+  parts_->for_each_active([&](auto& joint) {
+    joint.for_each_impulse([&](Real& impulse) { impulse = kept * earlier[next++] + scale * impulse; });
+  });
+}
+
+template <class Real>
 void JointSet<Real>::add_loads(const JointStep<Real>& step) {
   parts_->for_each_active([&](auto& joint) { joint.add_load(step); });
 }
@@ -285,6 +299,8 @@ void JointSet<Real>::relax(const SolverBodies<Real>& bodies, const JointStep<Rea
                                      LoopScheduler*);                                                       \
   template void JointSet<R>::evaluate(const SolverBodies<R>&, const JointStep<R>&);                         \
   template void JointSet<R>::store_results(LoopScheduler*);                                                 \
+  template void JointSet<R>::append_impulses(std::vector<R>&) const;                                        \
+  template void JointSet<R>::add_impulses(std::span<const R>, R, R);                                        \
   template void JointSet<R>::add_loads(const JointStep<R>&);                                                \
   template void JointSet<R>::add_load(int, const SolverBodies<R>&, const JointStep<R>&);                    \
   template void JointSet<R>::add_impulse(int, Vec2<R>, R, const JointStep<R>&);                             \

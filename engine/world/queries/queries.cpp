@@ -141,18 +141,9 @@ class RotatedShape {
 
 CastResult<double> cast_against(const Convex<double>& target, bool chain, const RotatedShape& moving,
                                 Vec2d translation) {
-  constexpr double kGrazing = 1e-9;
   const Vec2d front = chain ? front_direction(target) : Vec2d{};
   if (chain && !(dot(front, moving.middle() - target.corners[0].point) > 0)) return {};
-  CastResult<double> cast = shape_cast(target, moving.convex(), moving.pose(), translation);
-  if (!cast.hit || !chain) return cast;
-  const double length = std::sqrt(length_squared(front));
-  if (cast.overlapped) {
-    cast.normal = {front.x / length, front.y / length};
-  } else if (!(dot(front, cast.normal) > kGrazing * length)) {
-    return {};
-  }
-  return cast;
+  return shape_cast(target, moving.convex(), moving.pose(), translation, front);
 }
 
 void sort_by_index(std::vector<ShapeId>& shapes) {

@@ -100,9 +100,9 @@ class Check {
   void check_numbers() const {
     const auto [corners, free] = w_.corners.parts();
     bool finite = is_finite(w_.settings) && is_finite(w_.time) && is_finite(w_.last_h) &&
-                  all_finite(w_.motion) && all_finite(w_.rotation) && all_finite(w_.position) &&
-                  all_finite(w_.extents) && all_finite(w_.forms) && all_finite(w_.tight_aabbs) &&
-                  all_finite(corners) && all_finite(w_.sleeping_contacts) &&
+                  is_finite(w_.impulse_h) && all_finite(w_.motion) && all_finite(w_.rotation) &&
+                  all_finite(w_.position) && all_finite(w_.extents) && all_finite(w_.forms) &&
+                  all_finite(w_.tight_aabbs) && all_finite(corners) && all_finite(w_.sleeping_contacts) &&
                   all_finite(std::get<0>(w_.loads.parts())) &&
                   all_finite(std::get<0>(w_.position_compensation.parts())) &&
                   all_finite(std::get<0>(w_.rest_displacements.parts())) && all_finite_uncommon() &&
@@ -110,8 +110,9 @@ class Check {
                   all_finite(std::get<0>(w_.joints.parts()));
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
     require(finite, "state", "holds numbers that are not finite");
-    require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0, "time", "is negative");
-    require(w_.last_h <= kLargestNumber, "time", "has steps that are longer than a world's");
+    require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0 && w_.impulse_h >= 0, "time", "is negative");
+    require(w_.last_h <= kLargestNumber && w_.impulse_h <= kLargestNumber, "time",
+            "has steps that are longer than a world's");
     require(w_.steps <= kMaxSteps, "steps", "are more than a world takes");
     validate(w_.settings);
     check_lengths();

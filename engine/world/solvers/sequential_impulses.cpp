@@ -3,6 +3,7 @@
 #include "engine/world/solvers/error_feedback.h"
 #include "engine/world/solvers/solvers.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/impulse_memory.h"
 
 namespace plumb {
 
@@ -12,7 +13,7 @@ template <class Real>
 void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
   const Real inverse_h = static_cast<Real>(1 / h),
              feedback_rate = static_cast<Real>(tuning::kBaumgarteFraction / h);
-  const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
+  const Real warm_start = static_cast<Real>(warm_start_ratio(w, h));
   SequentialStep<Real> contacts{.h = static_cast<Real>(h),
                                 .inverse_h = inverse_h,
                                 .warm_start = warm_start,

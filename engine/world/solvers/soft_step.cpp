@@ -12,17 +12,20 @@
 #include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/impulse_memory.h"
 
 namespace plumb {
 namespace {
 
 // Returns the softness of a contact: as stiff as a substep of length `longest` permits. The impulse scale
-// (compliance under load) is only kContactComplianceScale of the spring's.
+// (compliance under load) is only kContactComplianceScale of the spring's. In a shorter substep the bias
+// shrinks with it, as loads do: a bias that does not would leave its convergence error to all later steps.
 template <class Real>
 Softness<Real> contact_softness(double frequency_share, double h, double longest) {
   Softness<Real> soft = softness<Real>(frequency_share / longest, tuning::kContactDampingRatio, h);
   soft.impulse_scale *= Real(tuning::kContactComplianceScale);
   soft.mass_scale = 1 - soft.impulse_scale;
+  soft.bias_rate *= static_cast<Real>(h / longest);
   return soft;
 }
 
@@ -118,24 +121,26 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinge_count;
   if (!jointed && all_bodies_moved(w)) return;
 
-  const Real warm_start = w.last_h > 0 ? static_cast<Real>(h / w.last_h) : Real(1);
-  // A step shorter than the last one keeps the last one's stiffness, so that overlaps at rest do not change.
-  const double longest = std::max(h, w.last_h);
+  const Real warm_start = static_cast<Real>(warm_start_ratio(w, h));
+  // A step shorter than those before keeps their stiffness, so that overlaps at rest do not change.
+  const double longest = std::max(h, w.impulse_h), length_ratio = h / longest;
   ContactStep<Real> contacts{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
       .softness = {{contact_softness<Real>(tuning::kContactFrequencyRatio, h, longest)},
                    {contact_softness<Real>(tuning::kStiffFrequencyRatio, h, longest)},
-                   {{static_cast<Real>(tuning::kDirectPushFraction / h), 1, 0}}},
+                   {{static_cast<Real>(length_ratio * tuning::kDirectPushFraction / longest), 1, 0}}},
       .warm_start = warm_start,
       .bounce_threshold = bounce_threshold(w, h * substeps),
       .load_push_fraction = Real(tuning::kLoadPushFraction)};
   const Softness<Real> rigid =
       softness<Real>(tuning::kJointFrequencyRatio / h, tuning::kJointDampingRatio, h);
+  Softness<Real> joint_softness = rigid;
+  joint_softness.bias_rate *= static_cast<Real>(length_ratio * length_ratio);  // rigid's goes with 1 / h
   JointStep<Real> joints{.h = static_cast<Real>(h),
                          .inverse_h = static_cast<Real>(1 / h),
                          .inverse_dt = static_cast<Real>(1 / (h * substeps)),
-                         .softness = rigid,
+                         .softness = joint_softness,
                          .max_stiffness = max_spring_stiffness<Real>(1),
                          .stiff_rate = rigid.bias_rate,
                          .warm_start = warm_start};

@@ -1,13 +1,15 @@
 #include "engine/world/solvers/solvers.h"
 
 #include "engine/world/islands/hinge_trees.h"
+#include "engine/world/state/impulse_memory.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
 
+namespace {
+
 template <class Real>
-void solve_motion(WorldData<Real>& w, double h, int substeps) {
-  find_hinge_trees(w);
+void solve(WorldData<Real>& w, double h, int substeps) {
   switch (w.settings.solver) {
     case Solver::SoftSteps:
     case Solver::Direct:
@@ -19,6 +21,16 @@ void solve_motion(WorldData<Real>& w, double h, int substeps) {
     case Solver::Xpbd:
       return solve_xpbd(w, h, substeps);
   }
+}
+
+}  // namespace
+
+template <class Real>
+void solve_motion(WorldData<Real>& w, double h, int substeps) {
+  find_hinge_trees(w);
+  ImpulseMemory<Real> impulses(w, h);
+  solve(w, h, substeps);
+  impulses.finish(h * substeps);
 }
 
 template void solve_motion(WorldData<float>&, double, int);

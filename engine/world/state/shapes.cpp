@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/geometry/convex_bounds.h"
@@ -22,12 +23,16 @@ struct Outline {
 };
 
 struct MakeOutline {
+  double spacing = 0;  // relative, of the numbers that will hold the corners
+  Vec2d position{};    // m, in the body's frame
   Outline operator()(const Circle& circle) const { return {disc_corner({}), circle.radius}; }
   Outline operator()(const Box& box) const { return {box_corners(box.width / 2, box.height / 2), 0}; }
   Outline operator()(const Capsule& capsule) const {
     return {capsule_corners(capsule.start, capsule.end), capsule.radius};
   }
-  Outline operator()(const Polygon& polygon) const { return {convex_hull(polygon.points), polygon.radius}; }
+  Outline operator()(const Polygon& polygon) const {
+    return {convex_hull(polygon.points, outline_rounding(polygon.points, spacing, position)), polygon.radius};
+  }
   Outline operator()(const Segment& segment) const {
     return {capsule_corners(segment.start, segment.end), 0};
   }
@@ -62,7 +67,9 @@ void for_each_contact_of(WorldData<Real>& w, int shape, const Visit& visit) {
 template <class Real>
 NewShape<Real> prepare_shape(const ShapeDefinition& definition) {
   NewShape<Real> made;
-  Outline outline = std::visit(MakeOutline{}, definition.geometry);
+  Outline outline =
+      std::visit(MakeOutline{static_cast<double>(std::numeric_limits<Real>::epsilon()), definition.position},
+                 definition.geometry);
   made.corners =
       transformed(outline.corners, Pose<double>{definition.position, rotation_of(definition.angle)});
   made.count = static_cast<int>(made.corners.size());

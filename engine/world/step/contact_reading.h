@@ -29,12 +29,13 @@ ContactReading reading_of(const WorldData<Real>& w, const ContactRecord& contact
   reading.normal = c.normal.template as<double>();
   reading.count = c.count;
   const Vec2<Real> n = c.normal, t{n.y, -n.x};
+  const double reading_scale = w.impulse_h > 0 ? w.last_h / w.impulse_h : 1;
   for (int i = 0; i < c.count; ++i) {
     // r x n = r.x n.y - r.y n.x = r . t, and r x t = -(r . n).
     const Vec2<Real> arm = c.arm_a[i] * t - c.arm_tangent_a * n;
     reading.points[i] = w.position[c.body_a] + arm.template as<double>();
     reading.separations[i] = static_cast<double>(c.separation[i]);
-    reading.impulses[i] = static_cast<double>(c.normal_impulse[i]);
+    reading.impulses[i] = reading_scale * static_cast<double>(c.normal_impulse[i]);
     reading.approach = std::min(reading.approach, static_cast<double>(c.approach[i]));
   }
   if (contact.hit_events || contact.pre_solve) reading.step_impulse = static_cast<double>(c.step_impulse);

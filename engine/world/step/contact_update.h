@@ -166,6 +166,16 @@ template <class Real, class IdAt>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.tight_aabbs[shape]);
 }
 
+/// Returns true if a contact keeps its plane although its bodies' straight paths miss each other: that of a
+/// loaded body with a segment of a chain. The body follows the surface, from segment to segment, and the load
+/// that its path leaves out may press it onto the next one: without the plane, a disc that rolls over
+/// a hump of short segments falls freely for a whole step.
+template <class Real>
+bool follows_surface(const WorldData<Real>& w, const ContactRecord& contact) {
+  return w.forms[contact.shape_a].chain &&
+         (w.scratch.has_contact_load[contact.body_a] != 0 || w.scratch.has_contact_load[contact.body_b] != 0);
+}
+
 /// Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight
 /// if it gets none.
 template <class Real>
@@ -190,7 +200,15 @@ template <class Real>
     });
     return 0;
   }
-  if (manifold.count == 0 || at.prediction == ImpactPrediction::Miss) return touch_change;
+  if (const SpeculativeContact<Real> ahead = segment_ahead(w, contact, manifold, dt, h);
+      ahead.manifold.count > 0) {
+    begin_contact_with(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
+      prepare_impact_contact(w, contact, ahead, c, c.normal_impulse);
+    });
+    return 0;
+  }
+  if (manifold.count == 0) return touch_change;
+  if (at.prediction == ImpactPrediction::Miss && !follows_surface(w, contact)) return touch_change;
   begin_contact_with(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
     prepare_rotating_contact(w, contact, manifold, dt, c, c.normal_impulse);
   });
@@ -206,6 +224,12 @@ template <class Real>
   if (rebuild_lasting_contact(w, contact, dt, c)) return true;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   if (rebuild_rotating_contact(w, contact, manifold, dt, c)) return true;
+  if (const SpeculativeContact<Real> ahead = segment_ahead(w, contact, manifold, dt, h);
+      ahead.manifold.count > 0) {
+    // Overlaps of a plane extrapolated back are not real, and are not pushed out.
+    prepare_impact_contact(w, contact, ahead, c, c.current_separation);
+    return true;
+  }
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
   if (at.prediction == ImpactPrediction::Hit) {
     prepare_impact_contact(w, contact, at, c, c.current_separation);
@@ -221,7 +245,7 @@ template <class Real>
   }
   // The prediction ignores the load that a contact carries: keep a contact that holds a body.
   const bool loaded = c.current_separation[0] > 0 || c.current_separation[1] > 0;
-  return c.count > 0 && (loaded || at.prediction != ImpactPrediction::Miss);
+  return c.count > 0 && (loaded || at.prediction != ImpactPrediction::Miss || follows_surface(w, contact));
 }
 
 /// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/collision/manifold/contact_manifold.h"
 #include "engine/math/small_rotation.h"
@@ -43,6 +44,32 @@ SpeculativeContact<Real> contact_at_middle(const WorldData<Real>& w, const Conta
   const Pose<Real> b_in_a{to_a * at.a_to_b, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
   const Real margin =
       speculative_margin(a, b, w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent, dt);
+  at.manifold = collide_shapes(w, contact, b_in_a, margin, l1_norm(at.displacement));
+  return at;
+}
+
+// Motion in a step, in extents of the smaller shape, from which the segments of a chain ahead are searched. A
+// slower body stays over the segments that it touches. With 0 discs in bowls do the same, and bodies at rest
+// pay for the search; with 1 a disc of 50 mm in a bowl of 63 mm segments gains energy again.
+constexpr double kSegmentTravel = 0.25;
+
+// 1 - the cosine up to which a normal is that of the segment, but for rounding.
+template <class Real>
+constexpr Real kOwnNormal = 16 * std::numeric_limits<Real>::epsilon();
+
+// Returns the contact after a time, s, in which the bodies keep their velocities.
+template <class Real>
+SpeculativeContact<Real> contact_after(const WorldData<Real>& w, const ContactRecord& contact, Real time,
+                                       Real margin) {
+  SpeculativeContact<Real> at;
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  at.displacement = time * (b.velocity - a.velocity);
+  at.delta_angle_a = time * a.angular_velocity, at.delta_angle_b = time * b.angular_velocity;
+  at.a_to_b = centres_a_to_b(w, contact) + at.displacement;
+  at.rotation = rotated_by(w.rotation[contact.body_a], at.delta_angle_a);
+  const Rotation<Real> to_a = at.rotation.inverse(),
+                       q = rotated_by(w.rotation[contact.body_b], at.delta_angle_b);
+  const Pose<Real> b_in_a{to_a * at.a_to_b, {to_a.c * q.c - to_a.s * q.s, to_a.s * q.c + to_a.c * q.s}};
   at.manifold = collide_shapes(w, contact, b_in_a, margin, l1_norm(at.displacement));
   return at;
 }
@@ -157,6 +184,57 @@ bool rebuild_rotating_contact(const WorldData<Real>& w, const ContactRecord& con
 }
 
 template <class Real>
+SpeculativeContact<Real> segment_ahead(const WorldData<Real>& w, const ContactRecord& contact,
+                                       const ContactManifold<Real>& manifold, Real dt, Real h) {
+  const ShapeForm<Real>&segment = w.forms[contact.shape_a], &mover = w.forms[contact.shape_b];
+  if (!segment.chain) return {};
+  if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
+    return {};
+  const Real smaller = std::min(segment.extent, mover.extent);
+  const Real tolerance =
+      Real(tuning::kRecycleDistance) * smaller + rounding_overlap(w, contact.body_a, contact.body_b);
+  for (int k = 0; k < manifold.count; ++k)
+    if (!(manifold.points[k].separation > tolerance)) return {};
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  // A disc that turns about its centre carries no point along.
+  const Real arm_b = std::max(w.extents[contact.body_b] - mover.radius, Real(0));
+  const Vec2<Real> displacement = dt * (b.velocity - a.velocity);
+  const Real turning =
+      dt * (std::abs(a.angular_velocity) * w.extents[contact.body_a] + std::abs(b.angular_velocity) * arm_b);
+  const Real travel = l1_norm(displacement) + turning;
+  if (!(travel > Real(kSegmentTravel) * smaller)) return {};
+  // However short a segment is, it is a part of a larger surface: the margin is that of the other shape.
+  const Real margin = speculative_margin(a, b, mover.extent, mover.extent, dt);
+  const Aabb<Real>&box = w.tight_aabbs[contact.shape_b], &of_segment = w.tight_aabbs[contact.shape_a];
+  const Real rounding =
+      4 * std::numeric_limits<Real>::epsilon() * (l1_norm(of_segment.lower) + l1_norm(of_segment.upper));
+  const Aabb<Real> path = merged(box, {box.lower + displacement, box.upper + displacement});
+  if (!path.grown(margin + turning + rounding).overlaps(of_segment)) return {};
+  const Vec2<Real> own = w.convex(contact.shape_a).corners[0].normal;
+  SpeculativeContact<Real> found;
+  Real lowest = manifold.count > 0 ? tolerance : std::numeric_limits<Real>::max();
+  const int substeps = static_cast<int>(std::round(dt / h));
+  for (int i = 1; i <= substeps; ++i) {
+    const SpeculativeContact<Real> at = contact_after(w, contact, static_cast<Real>(i) * h, margin);
+    // Other normals are those of corners, and hold only where the corner is.
+    if (!(dot(at.manifold.normal, own) > 1 - kOwnNormal<Real>)) continue;
+    const Vec2<Real> n = at.rotation * at.manifold.normal;
+    bool recedes = false;
+    Real separation = std::numeric_limits<Real>::max();
+    for (int k = 0; k < at.manifold.count; ++k) {
+      const Vec2<Real> arm = at.rotation * at.manifold.points[k].point;
+      const Real change = dot(n, at.displacement) + cross(arm - at.a_to_b, n) * at.delta_angle_b -
+                          cross(arm, n) * at.delta_angle_a;
+      recedes |= change > tolerance;
+      separation = std::min(separation, at.manifold.points[k].separation);
+    }
+    // The body would be behind the plane of a segment from which it recedes, as beyond a hump.
+    if (!recedes && separation < lowest) found = at, lowest = separation;
+  }
+  return found;
+}
+
+template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt) {
   if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
@@ -186,7 +264,9 @@ SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const Contac
   template bool rebuild_rotating_contact(const WorldData<Real>&, const ContactRecord&,                  \
                                          const ContactManifold<Real>&, Real, ContactConstraint<Real>&); \
   template SpeculativeContact<Real> arriving_contact(const WorldData<Real>&, const ContactRecord&,      \
-                                                     const ContactManifold<Real>&, Real);
+                                                     const ContactManifold<Real>&, Real);               \
+  template SpeculativeContact<Real> segment_ahead(const WorldData<Real>&, const ContactRecord&,         \
+                                                  const ContactManifold<Real>&, Real, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

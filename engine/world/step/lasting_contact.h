@@ -28,4 +28,14 @@ template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt);
 
+/// Returns the contact with a segment of a chain that a body reaches within the step, without points if it
+/// reaches none. Segments may be far shorter than the body's motion in a step: those that it touches at the
+/// start do not hold it until the end. So each segment is searched at the ends of all substeps, at the
+/// bodies' present velocities, and its contact taken where it lies deepest: the body is then held by the
+/// planes of all segments on its way, and sinks into none. `manifold`: at the start of the step; if it has
+/// points, they must be in front of the segment. `h`: s, of a substep.
+template <class Real>
+SpeculativeContact<Real> segment_ahead(const WorldData<Real>& w, const ContactRecord& contact,
+                                       const ContactManifold<Real>& manifold, Real dt, Real h);
+
 }  // namespace plumb

@@ -13,6 +13,7 @@
 #include "engine/world/state/quarantine.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/state/sleeping.h"
+#include "engine/world/step/step_rollback.h"
 
 namespace plumb {
 namespace {
@@ -81,10 +82,10 @@ void restore_consistency(WorldData<Real>& w) {
 // slowly. Solvers without warm starting, or that iterate to convergence, do not need this.
 template <class Real>
 int substeps_of(const WorldData<Real>& w, double dt, int requested) {
-  const bool starts_warm = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!starts_warm || !(w.last_h > 0) || (w.graph.empty() && w.joint_set.active_count() == 0))
+  const bool one_iteration = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
+  if (!one_iteration || !(w.impulse_h > 0) || (w.graph.empty() && w.joint_set.active_count() == 0))
     return requested;
-  const double longest = kMaxSubstepGrowth * w.last_h;
+  const double longest = kMaxSubstepGrowth * w.impulse_h;
   if (dt <= longest * requested) return requested;
   const double wanted = std::ceil(dt / longest), maximum = double(kMaxSubstepFactor) * requested;
   return static_cast<int>(std::min(wanted, maximum));
@@ -138,9 +139,9 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
   update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
+  StepRollback<Real> rollback(w);
   try {
     w.scheduler.session([&] { solve_motion(w, h, substeps); });
-    w.last_h = h;
     clock.end(WorldStage::Solver);
     report_impacts(w), clock.end(WorldStage::Events);
     w.scheduler.session([&] { finalize_bodies(w, static_cast<Real>(dt)); });
@@ -157,7 +158,9 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     }
     clock.end(WorldStage::Continuous);
   } catch (...) {
+    rollback.restore();
     restore_consistency(w);
+    rollback.restore();  // rotations too, which are those of the angles but for rounding
     throw;
   }
   break_joints(w);
