@@ -42,29 +42,29 @@ void expect_pulled(BasicWorld<Real>& world, BodyId body, Vec2d along) {
   EXPECT_NEAR(velocity.y, right.y, 1e-4);
 }
 
-TYPED_TEST(ForceLimits, OfMouseJointsPullTowardsTheTarget) {
+// Expects a joint between a static body and a puck, of the kind that `towards` makes for a direction, to pull
+// it there in all directions.
+template <class Real, class Kind>
+void expect_pulled_towards_all(const Kind& towards) {
   for (int degrees = 0; degrees < 360; degrees += 15) {
     SCOPED_TRACE(degrees);
-    BasicWorld<TypeParam> world({.gravity = {0, 0}});
+    BasicWorld<Real> world({.gravity = {0, 0}});
     const Puck puck = add_puck(world);
     const Vec2d along = direction_of(degrees);
-    world.create_joint(puck.base, puck.body,
-                       {.kind = MouseDefinition{.target = 1e4 * along, .max_force = kForce}});
+    world.create_joint(puck.base, puck.body, {.kind = towards(along)});
     expect_pulled(world, puck.body, along);
   }
 }
 
+TYPED_TEST(ForceLimits, OfMouseJointsPullTowardsTheTarget) {
+  expect_pulled_towards_all<TypeParam>(
+      [](Vec2d along) { return MouseDefinition{.target = 1e4 * along, .max_force = kForce}; });
+}
+
 TYPED_TEST(ForceLimits, OfMotorJointsPullTowardsTheTarget) {
-  for (int degrees = 0; degrees < 360; degrees += 15) {
-    SCOPED_TRACE(degrees);
-    BasicWorld<TypeParam> world({.gravity = {0, 0}});
-    const Puck puck = add_puck(world);
-    const Vec2d along = direction_of(degrees);
-    world.create_joint(
-        puck.base, puck.body,
-        {.kind = MotorDefinition{.target_position = 1e4 * along, .max_force = kForce, .max_torque = 100}});
-    expect_pulled(world, puck.body, along);
-  }
+  expect_pulled_towards_all<TypeParam>([](Vec2d along) {
+    return MotorDefinition{.target_position = 1e4 * along, .max_force = kForce, .max_torque = 100};
+  });
 }
 
 // A puck on a table seen from above slides straight on for v^2 m / (2 F).
