@@ -17,28 +17,33 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kPi = std::numbers::pi;
 
-// Returns the farthest that three rods at rest move which two hinges join near their ends. Rods of 1 m
-// overlap at the hinges; shorter ones do not.
+// Returns the farthest that three rods at rest move which two hinges join near their ends. The outer rods lie
+// under the ends of the middle one like shingles. Rods of 1 m overlap there by 0.03 m, and shorter ones do
+// not touch. A push out of this overlap is across the rods, so that it turns them about the hinges, and a
+// correction of the joints cannot take it back. The hinges are at the ends of the outer rods, so that a push
+// at the points of contact has a lever as well.
 double three_rods_move(const Lab& lab, double l) {
-  constexpr double kPitch = 0.9;  // m, from hinge to hinge
+  constexpr double kPitch = 0.9, kRaised = 0.07;            // m, from centre to centre
+  constexpr double kOuter = 0.5, kInner = kPitch - kOuter;  // m, from a centre to the hinge
   std::vector<Body> rods;
   for (const char* name : {"a", "b", "c"})
-    rods.push_back(make(Crate{.name = name,
-                              .position = {kPitch * static_cast<double>(rods.size()), 0},
-                              .width = l,
-                              .height = 0.1}));
+    rods.push_back(
+        make(Crate{.name = name,
+                   .position = {kPitch * static_cast<double>(rods.size()), rods.size() == 1 ? kRaised : 0},
+                   .width = l,
+                   .height = 0.1}));
   Scene scene = scene_of("three rods", {}, std::move(rods));
-  const auto join = [&](const char* a, const char* b, double side) {
+  const auto join = [&](const char* outer, double side) {
     RevoluteJoint hinge;
-    hinge.name = std::string(a) + b;
-    hinge.body_a = a;
-    hinge.body_b = b;
-    hinge.anchor_a = {side * kPitch / 2, 0};
-    hinge.anchor_b = {-side * kPitch / 2, 0};
+    hinge.name = outer;
+    hinge.body_a = outer;
+    hinge.body_b = "b";
+    hinge.anchor_a = {side * kOuter, kRaised / 2};
+    hinge.anchor_b = {-side * kInner, -kRaised / 2};
     scene.joints.emplace_back(hinge);
   };
-  join("a", "b", 1);
-  join("c", "b", -1);
+  join("a", 1);
+  join("c", -1);
   const Trace trace = lab.run(scene, 0.5);
   double most = 0;
   for (const auto& states : trace.states)
