@@ -38,13 +38,18 @@ std::optional<double> kept_each_step(const Trace& trace) {
   return ratio;
 }
 
+constexpr const char* kWallOfNoScene = "walls_hard_coded";
+
 Finding falls(const Lab& lab) {
   const Trace trace = lab.run(falling(), 1);
   const double t = trace.duration(), v = -kGravity * t;
   const double n = std::round(t / lab.dt()), h = lab.dt();
   const std::optional<double> kept = kept_each_step(trace);
-  return Judgement()
-      .read("vy after 1 s", "m/s", trace.last(0).velocity.y, v, lab.rounding(v, t))
+  Judgement judgement;
+  judgement.read("vy after 1 s", "m/s", trace.last(0).velocity.y, v, lab.rounding(v, t));
+  if (judgement.good()) return judgement.finding();
+  const auto wall = wall_of_no_scene(lab);
+  return judgement.proven_if(wall.has_value(), kWallOfNoScene, wall.value_or(""))
       .proven_if(
           kept.has_value(), "damping",
           fmt::format("Each step multiplies the velocity by {:.6g}: nothing here slows the ball, so leave "
@@ -245,7 +250,9 @@ Finding bounces(const Lab& lab) {
   const bool bounces_fast =
       stops && std::abs(bounce(lab, r, 1, kFaster).last(0).velocity.y - 2 * kFaster) < 0.1;
   const double along = end.velocity.x;
+  const auto wall = wall_of_no_scene(lab);
   return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
+      .proven_if(wall.has_value(), kWallOfNoScene, wall.value_or(""))
       .proven_if(bounces_fast, "threshold_too_high", kThreshold)
       .proven_if(
           pushed_too_far(trace, lab.dt(), [&](const auto& s) { return s[0].position.y - (kFloor + r); }),
@@ -404,10 +411,13 @@ Finding four_walls(const Lab& lab) {
   const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
                   static_cast<int>((v.y * t / (half_height - r) + 1) / 2);
   const std::string passed = wall_passed(trace.last(0), half_width, half_height);
-  return Judgement()
-      .read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
+  Judgement judgement;
+  judgement.read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
       .read("turns at walls", "", turns(trace), due, 2)
-      .read("speed after 5 s", "m/s", end, speed, 0.002 * speed)
+      .read("speed after 5 s", "m/s", end, speed, 0.002 * speed);
+  if (judgement.good()) return judgement.finding();
+  const auto other_wall = wall_of_no_scene(lab);
+  return judgement.proven_if(other_wall.has_value(), kWallOfNoScene, other_wall.value_or(""))
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(turns(trace) > 2 * due, "turned_every_step", kTurnedEveryStep)
       .mistake_if(!passed.empty() && leaves_straight(trace, half_width - r, half_height - r, r),

@@ -118,6 +118,16 @@ std::vector<Predictable> mistakes_of_joints() {
        "The hinge holds its anchor along x and lets go along y: solve both, along (1, 0) and along (0, 1)."},
       {"hinge_along_y_only", "hinge_one_axis", "5",
        "The hinge holds its anchor along y and lets go along x: solve both, along (1, 0) and along (0, 1)."},
+      {"hinge_as_stick", "hinge_as_stick", "5",
+       "The hinge holds its ends as a stick of length 0 does, along the gap between them: it holds them "
+       "along x "
+       "and along y, whatever the gap is."},
+      {"length_of_start", "length_of_start", "5",
+       "A stick keeps the length that it has at the start: take \"length\" from the scene."},
+      {"length_of_centres_at_start", "length_of_start", "5",
+       "A stick has the distance that the two centres have at the start: take \"length\" from the scene, "
+       "from "
+       "anchor to anchor."},
       {"hinge_shares_spin", "hinge_shares_spin", "5",
        "The hinge makes both bodies turn alike: it holds the two anchors together and leaves the spins "
        "free."},

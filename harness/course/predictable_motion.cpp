@@ -10,6 +10,8 @@ constexpr const char* kSlowIsStopped =
     "Leave out what sets small velocities to 0.";
 constexpr const char* kMassFromSize =
     "The mass is computed from the size of the body: take \"mass\" from the scene.";
+constexpr const char* kMassOfAnother =
+    "All forces are divided by the mass of one body: each body's sum of forces is divided by its own mass.";
 constexpr const char* kTimeForStep =
     "A step multiplies by the time since the start, which grows: it multiplies by dt, the length of a step.";
 constexpr const char* kClampExchanged =
@@ -138,6 +140,13 @@ std::vector<Predictable> mistakes_of_motion() {
        "The ball has twice its radius: compare the distance with the radius, not with the diameter."},
       {"radius*0.5", "radius_halved", "13",
        "Circles touch at half of their radius: \"radius\" is the radius already, not the diameter."},
+      {"circle_as_square_at_box", "circles_as_squares", "134",
+       "A ball touches a box as a square would: at a corner of the box it touches when its centre is a "
+       "radius "
+       "away "
+       "from the nearest point, in any direction."},
+      {"square_for_distance_at_box", "square_of_distance", "1",
+       "The square of the distance from the wall stands for the distance: take the root."},
       {"wall_normal_flipped", "normal_flipped", "1",
        "The ball is pulled into the floor: the normal points into the wall, and should point out of it, "
        "towards the ball."},
@@ -290,6 +299,8 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it lasts until its duration is over."},
       {"force_not_cleared", "force_not_cleared", "2",
        "The force piles up from step to step: set the sum of forces to zero at the start of each step."},
+      {"mass in F/m#the first", "mass_of_another", "2", kMassOfAnother},
+      {"mass in F/m#the last", "mass_of_another", "2", kMassOfAnother},
       {"last_force_only", "last_force_only", "2",
        "Only the last force counts: add forces up (+=), do not set (=)."},
       {"first_force_only", "first_force_only", "2", "Only the first force counts: go through all of them."},
@@ -323,6 +334,10 @@ std::vector<Predictable> mistakes_of_motion() {
       {"drag_not_divided", "drag_not_divided", "2", "Drag is a force: divide it by the mass."},
       {"drag_divided_twice", "drag_divided_twice", "2", "Drag is divided by the mass twice."},
       {"drag_constant", "drag_constant", "2", "Drag does not grow with speed: it is c v, not c."},
+      {"drag_by_position", "drag_of_another_vector", "2",
+       "Drag acts against the position: it is -c v, against the velocity."},
+      {"drag_by_first_velocity", "drag_of_another_vector", "2",
+       "Drag acts against the first velocity in all steps: it is -c v, with the velocity of now."},
       {"drag_along_x_always", "drag_direction", "2",
        "Drag acts along x whatever the direction of the motion: it is -c v, a vector against the velocity."},
       {"drag_along_y_always", "drag_direction", "2",
@@ -415,6 +430,10 @@ std::vector<Predictable> mistakes_of_motion() {
        "Half of the spring's damping acts: it is damping times the speed at which the ends part."},
       {"damping of a spring*2", "damping_wrong", "2",
        "Twice the spring's damping acts: it is damping times the speed at which the ends part, once."},
+      {"spring_damps_the_sum", "damping_by_sum", "2",
+       "The spring's damping follows the sum of the ends' velocities: it acts against the speed at which the "
+       "ends "
+       "part, (vb - va) . n."},
       {"spring_damps_the_first_only", "damping_of_one_end", "2", kDampingOfOneEnd},
       {"spring_damps_the_second_only", "damping_of_one_end", "2", kDampingOfOneEnd},
       {"restitution*2", "restitution_twice", "13",

@@ -396,7 +396,19 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
       at_upper = far(upper = low + kGolden * (high - low), at_lower);
     }
   }
-  return (low + high) / 2;
+  // Near the best factor the distance is that of a line, so two factors beside it give it to all digits. A
+  // free flight needs them: there only rounding may differ.
+  double factor = (low + high) / 2, width = high - low, nearest = far(factor, kInfinity);
+  for (int i = 0; i < 3; ++i, width *= 1e-3) {
+    const double below = far(factor - width, kInfinity), above = far(factor + width, kInfinity);
+    if (!std::isfinite(below + above) || below + above == 0) break;
+    const double between = factor + width * (below - above) / (below + above);
+    const double distance = far(between, kInfinity);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    factor = between;
+  }
+  return factor;
 }
 
 }  // namespace plumb::course

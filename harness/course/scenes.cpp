@@ -75,6 +75,7 @@ double turn_at_platform(const Lab& lab) {
     most = std::max(most, std::hypot(change.x, change.y));
   };
   pass({1.7, 2}, {0, -2});
+  pass({-0.16, 2.34}, {1.5, -1.5});  // past the corner, within a radius of it along x and along y
   pass({-2.5, 0.98}, {2, 0});
   return most;
 }
@@ -111,6 +112,32 @@ Fling fling(const Lab& lab, double speed, double duration) {
   out.held = trace.still(0) && (end == v || end == Vec2d{});
   out.limited = cut && early == end;
   return out;
+}
+
+std::optional<std::string> wall_of_no_scene(const Lab& lab) {
+  constexpr double kRadius = 0.4, kAway = 1000;  // m
+  // Engines that go through the static boxes and put walls of their own in their place need a box.
+  const Body far = fixed(make(Crate{.name = "far", .position = {kAway, -kAway}}));
+  for (const Vec2d v : {Vec2d{-12, -9}, Vec2d{12, 9}}) {
+    const Scene empty =
+        scene_of("empty", {}, {make(Ball{.position = -0.25 * v, .velocity = v, .radius = kRadius}), far});
+    const Trace trace = lab.run(empty, 3);
+    std::size_t k = 1;
+    while (k < trace.states.size() && trace.states[k][0].velocity == v) ++k;
+    if (k == trace.states.size()) continue;
+    const BodyState& turned = trace.states[k][0];
+    const auto wall = [&](const char* axis, double at, double before, double after) {
+      const double place = at + std::copysign(kRadius, before);
+      return before * after < 0 ? std::optional(fmt::format(
+                                      "A ball that is far from every wall turns round at {} = {:.2g}: the "
+                                      "walls are the scene's static boxes, and no others.",
+                                      axis, std::abs(place) < 0.05 ? 0 : place))
+                                : std::nullopt;
+    };
+    if (auto found = wall("x", turned.position.x, v.x, turned.velocity.x)) return found;
+    if (auto found = wall("y", turned.position.y, v.y, turned.velocity.y)) return found;
+  }
+  return std::nullopt;
 }
 
 std::string limit_text(double speed) {

@@ -147,8 +147,9 @@ struct Passes {
 
 Passes pass_a_turning_rod(const Lab& lab) {
   const Vec2d box_from{0.8, 6.03}, ball_from{-0.8, -5.96}, v{0, -6};
+  const double tilt = 0.3, turn = std::numbers::pi / 2 - tilt;  // rad, in a second
   const Body rod =
-      make(Crate{.name = "rod", .angular_velocity = std::numbers::pi / 2, .width = 2, .height = 0.2});
+      make(Crate{.name = "rod", .angle = tilt, .angular_velocity = turn, .width = 2, .height = 0.2});
   const Body box =
       make(Crate{.name = "passer", .position = box_from, .velocity = v, .width = 0.4, .height = 0.4});
   const Body ball = make(Ball{.position = ball_from, .velocity = -v, .radius = 0.2});

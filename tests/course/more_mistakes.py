@@ -146,4 +146,100 @@ MISTAKES = [
        "                b.x += b.vx * self.dt + 0.5 * self.g[0] * self.dt ** 2\n"
        "                b.y += b.vy * self.dt + 0.5 * self.g[1] * self.dt ** 2\n")],
      "half_a_step_twice"),
+    ("the floor is y = 0", "chapter1", 1,
+     [("        way = ball.position - wall.nearest_to(ball.position)  # from the wall to the ball's centre\n",
+       "        way = Vec(0, ball.position.y)\n")],
+     "walls_hard_coded"),
+    ("y moves with the old velocity", WHOLE, 1,
+     [("        self.apply_forces()\n        found = self.contacts()",
+       "        for b in self.bodies:\n            b.old = b.vy\n        self.apply_forces()\n        found = self.contacts()"),
+      ("                b.y += b.vy * self.dt\n",
+       "                b.y += (b.old if not any(b in (c[\"a\"], c[\"b\"]) for c in found) else b.vy) * self.dt\n")],
+     "explicit_euler"),
+    ("a ball is a square at walls", ROWS, 1,
+     [("    dx, dy = turn((px - lx, py - ly), box[2])\n    d = math.hypot(dx, dy)\n    if not 0 < d < r:\n        return []\n",
+       "    if abs(lx) >= w + r or abs(ly) >= t + r:\n        return []\n"
+       "    ox, oy = w + r - abs(lx), t + r - abs(ly)\n"
+       "    n = turn((-math.copysign(1, lx), 0) if ox < oy else (0, -math.copysign(1, ly)), box[2])\n"
+       "    dx, dy = turn((px - lx, py - ly), box[2])\n"
+       "    return [(n, min(ox, oy), (c[0] + dx, c[1] + dy))]\n"
+       "    d = 1\n")],
+     "circles_as_squares"),
+    ("all divide by the first mass", "chapter2", 2,
+     [("(self.gravity + body.force * body.inverse_mass)",
+       "(self.gravity + body.force * self.bodies[0].inverse_mass)")],
+     "mass_of_another"),
+    ("damping by the sum of the velocities", WHOLE, 2,
+     [("rate = (bvx - avx) * dx + (bvy - avy) * dy\n                force",
+       "rate = (bvx + avx) * dx + (bvy + avy) * dy\n                force")],
+     "damping_by_sum"),
+    ("drag against the position", ROWS, 2,
+     [("add(k, -f[\"coefficient\"] * u[k][0], -f[\"coefficient\"] * u[k][1], 0, 0)",
+       "add(k, -f[\"coefficient\"] * q[k][0], -f[\"coefficient\"] * q[k][1], 0, 0)")],
+     "drag_of_another_vector"),
+    ("each is moved by the whole overlap", WHOLE, 3,
+     [("                push = SHARE * max(0.0, depth - SLOP) / inverse_mass(a, b, rax, ray, rbx, rby, nx, ny)\n"
+       "                a.shift(-push * nx, -push * ny, rax, ray)\n                b.shift(push * nx, push * ny, rbx, rby)\n        self.n",
+       "                if a.dyn: a.x -= depth * nx; a.y -= depth * ny\n"
+       "                if b.dyn: b.x += depth * nx; b.y += depth * ny\n        self.n")],
+     "correction_split_evenly"),
+    ("the mean mass", ROWS, 3,
+     [("        self.k = sum(a * a * b for a, b in zip(self.J, self.M))\n",
+       "        self.k = sum(a * a * b for a, b in zip(self.J, self.M))\n"
+       "        if self.M[0] and self.M[3] and not (self.J[2] * self.M[2] or self.J[5] * self.M[5]):\n"
+       "            self.k = 2 / (1 / self.M[0] + 1 / self.M[3])\n")],
+     "masses_wrong"),
+    ("the head-on formula for whole vectors", "chapter3", 3,
+     [("        before = contact.total\n        contact.total = max(0.0, before + j)\n",
+       "        a, b = contact.a, contact.b\n"
+       "        if a.moves and b.moves:\n"
+       "            if contact.bounce and not contact.total:\n"
+       "                e, m, n = contact.bounce / -self.closing(contact), 1 / a.inverse_mass, 1 / b.inverse_mass\n"
+       "                p = a.velocity * m + b.velocity * n\n"
+       "                u, v = a.velocity, b.velocity\n"
+       "                a.velocity = (p + (v - u) * (n * e)) * (1 / (m + n))\n"
+       "                b.velocity = (p + (u - v) * (m * e)) * (1 / (m + n))\n"
+       "                contact.total = 1e-12\n"
+       "                return\n"
+       "            if contact.total:\n"
+       "                return\n"
+       "        before = contact.total\n        contact.total = max(0.0, before + j)\n")],
+     "whole_velocity"),
+    ("a pair that is apart ends the loop", WHOLE, 3,
+     [("                if (a.dyn or b.dyn) and (id(a), id(b)) not in self.joined:\n                    yield a, b",
+       "                if (a.dyn or b.dyn) and (id(a), id(b)) not in self.joined:\n"
+       "                    if not self.touch(a, b):\n                        break\n                    yield a, b")],
+     "pairs_left_out pairs_missed"),
+    ("a box has the inertia of the disc around it", "chapter4", 4,
+     [("inertia = mass * (4 * self.half.x ** 2 + 4 * self.half.y ** 2) / 12",
+       "inertia = mass * self.half.length() ** 2 / 2")],
+     "inertia_wrong"),
+    ("static bodies have inertia", "chapter4", 4,
+     [("turns = self.moves and inertia and not",
+       "turns = inertia and not")],
+     "static_has_mass"),
+    ("the tangent is not normalised", WHOLE, 4,
+     [("        tx, ty = -ny, nx\n        vx, vy = self.relative(c)\n        j = -(vx * tx + vy * ty) / c[\"kt\"]",
+       "        vx, vy = self.relative(c)\n        vn = vx * nx + vy * ny\n        tx, ty = vx - vn * nx, vy - vn * ny\n"
+       "        j = -(vx * tx + vy * ty) / c[\"kt\"]")],
+     "tangent_not_unit"),
+    ("torques are not cleared", "chapter4", 4,
+     [("            body.torque = 0.0\n        super().accelerate()",
+       "            pass\n        super().accelerate()")],
+     "force_not_cleared"),
+    ("a hinge is a stick of length 0", WHOLE, 5,
+     [("        if length is None:\n            axes = ((1.0, 0.0), (0.0, 1.0))\n        else:\n"
+       "            dx, dy = b.x + rbx - a.x - rax, b.y + rby - a.y - ray\n            d = hypot(dx, dy)\n",
+       "        if True:\n"
+       "            dx, dy = b.x + rbx - a.x - rax, b.y + rby - a.y - ray\n            d = hypot(dx, dy)\n"
+       "            if d < 1e-12:\n                return\n")],
+     "passes"),
+    ("the error of a stick in squares", ROWS, 5,
+     [("axes = (((C[0] / d, C[1] / d), d - L),)",
+       "axes = (((C[0] / d, C[1] / d), d * d - L * L),)")],
+     "passes"),
+    ("a stick has the length of the start", "chapter5", 5,
+     [("        self.length = scene.get(\"length\")\n",
+       "        way = self.b.position - self.a.position\n        self.length = way.length()\n")],
+     "length_of_start"),
 ]

@@ -309,11 +309,17 @@ void StudentWorld::rub(Touch& touch) {
       is("friction_ignored"))
     return;
   const Vec2d across{-touch.normal.y, touch.normal.x};
-  const Vec2d t = mixed("direction of friction", mixed("tangent", across));
+  Vec2d t = mixed("direction of friction", mixed("tangent", across));
+  if (is("tangent_not_unit") || is("tangent_not_unit_in_mass")) {
+    const Vec2d v = relative_velocity(touch);
+    t = v - dot(v, touch.normal) * touch.normal;
+  }
   const auto [arm_a, arm_b] = arms_of(touch);
   const Arms raw{touch.point, touch.point};
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
-  const Vec2d in_mass = is("friction_by_mass_of_normal") ? touch.normal : mixed("tangent", across);
+  const Vec2d in_mass = is("friction_by_mass_of_normal")                  ? touch.normal
+                        : is("tangent_not_unit_in_mass") && dot(t, t) > 0 ? t
+                                                                          : mixed("tangent", across);
   double k = edited_mass(kFrictionRow, a, b, {arm_a, arm_b}, raw, in_mass);
   if (is("friction_lever_not_squared"))
     k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a + b.inverse_inertia * spin_b;

@@ -71,6 +71,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
     if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
+    if (is("drag_by_position")) return add(c * b.position);
+    if (is("drag_by_first_velocity")) return add(c * b.body->velocity);
     if (is("drag_along_x_only")) return add({c * b.velocity.x, 0});
     if (is("drag_along_x_always")) return add({c * speed, 0});
     if (is("drag_along_y_always")) return add({0, c * speed});
@@ -106,6 +108,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;
     if (is("spring_damps_the_second_only")) parting = v_b;
+    if (is("spring_damps_the_sum")) parting = v_a + v_b;
     double rate = dot(mixed("velocity in a spring", parting), along);
     if (is("damping_by_speed")) rate = length(parting);
     tension += times("damping of a spring") * spring->damping * rate;
@@ -125,8 +128,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
 
 void StudentWorld::gather_forces() {
   for (Rigid& b : bodies_) {
-    if (!is("force_not_cleared")) b.force = {};
-    b.torque = 0;
+    if (!is("force_not_cleared") && !is("force_and_torque_not_cleared")) b.force = {};
+    if (!is("torque_not_cleared") && !is("force_and_torque_not_cleared")) b.torque = 0;
   }
   const auto rests = [&](const ForceLaw& law) {
     const auto* push = std::get_if<PointForce>(&law);
@@ -166,7 +169,7 @@ void StudentWorld::accelerate() {
     if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
     if (is("gravity_off_while_pushed") && b.force != Vec2d{}) fall = {};
     if (acting_hash_ == Name("gravity").hash) act("gravity", b, 1 / b.inverse_mass * std::exchange(fall, {}));
-    double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
+    double inverse = is("mass_not_divided") ? 1 : another("mass in F/m", b).inverse_mass;
     if (is("mass_multiplied")) inverse = 1 / b.inverse_mass;
     if (is("mass_divided_twice")) inverse *= inverse;
     if (is("root_of_mass")) inverse = std::sqrt(inverse);

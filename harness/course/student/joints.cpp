@@ -81,7 +81,9 @@ void StudentWorld::solve(const Joint& joint) {
   const bool stick = std::holds_alternative<DistanceJoint>(joint);
   const double gap = length(e.gap);
   const Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
-  for (const Vec2d n : {stick ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
+  const bool one_row = stick || is("hinge_as_stick");
+  if (one_row && !stick && gap < 1e-12) return;
+  for (const Vec2d n : {one_row ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
     const double error = dot(e.gap, n) - (stick ? std::get<DistanceJoint>(joint).length : 0);
     double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
     if (scales("share of a joint's error without dt")) fed = factor_ * error;
@@ -139,7 +141,7 @@ void StudentWorld::solve(const Joint& joint) {
       change(kJointRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b},
              mixed("impulse of a joint", -times("impulse of a joint") * speed / k * n));
     }
-    if (stick) break;
+    if (one_row) break;
   }
   if (is("hinge_shares_spin") && !stick && a.inverse_inertia > 0 && b.inverse_inertia > 0)
     a.spin = b.spin = (a.spin + b.spin) / 2;

@@ -33,6 +33,19 @@ std::array<Vec2d, 4> StudentWorld::corner_signs() const {
   return out;
 }
 
+// Returns the body whose quantity stands for that of `body`: the first or the last of its kind, by mistake.
+// Kinds are circles and boxes; static bodies have no mass that could stand for another.
+const Rigid& StudentWorld::another(Name quantity, const Rigid& body) const {
+  if (quantity.hash != others_hash_ || body.body == nullptr) return body;
+  const Rigid* out = nullptr;
+  for (const Rigid& each : bodies_) {
+    if (each.body == nullptr || each.body->type != body.body->type) continue;
+    if (each.body->shapes[0].geometry.index() != body.body->shapes[0].geometry.index()) continue;
+    if (out == nullptr || others_whose_ == Name("the last").hash) out = &each;
+  }
+  return out == nullptr ? body : *out;
+}
+
 // Adds a law's force to the body's sum, or lets it change the quantity that the mistake names.
 void StudentWorld::act(Name law, Rigid& body, Vec2d force) {
   if (law.hash != acting_hash_) {

@@ -12,9 +12,9 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 }  // namespace
 
 void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
-  const double ra = radius(bodies_[a]), rb = radius(bodies_[b]);
+  const double ra = radius(another("radius", bodies_[a])), rb = radius(another("radius", bodies_[b]));
   const Vec2d way = bodies_[b].position - bodies_[a].position;
-  const double d = length(way);
+  const double d = is("square_for_distance") ? dot(way, way) : length(way);
   // The overlap is computed from r1 + r2, or from the mistake's wrong sum.
   constexpr std::string_view kInDepth = "_in_depth";
   const bool in_depth = mistake_.ends_with(kInDepth);
@@ -69,7 +69,7 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
 
 void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
   const Rigid &c = bodies_[circle], &b = bodies_[box];
-  const double r = radius(c);
+  const double r = radius(another("radius", c));
   const Box size = this->box(b);
   const double angle = b.turns * (is("box_taken_upright")          ? 0
                                   : is("box_turned_backwards")     ? -b.angle
@@ -84,12 +84,19 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   if (is("clamp_exchanged_below")) nearest = {-size.width / 2, -size.height / 2};
   Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   if (backwards) way = b.position + q * nearest - c.position;
-  const double d = length(way);
+  const double d = is("square_for_distance_at_box") ? dot(way, way) : length(way);
   if (d == 0 && manner_.deep) {
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     const Vec2d out_of =
         in_x < in_y ? Vec2d{std::copysign(1.0, local.x), 0} : Vec2d{0, std::copysign(1.0, local.y)};
     out.push_back({circle, box, c.position, q * -out_of, r + std::min(in_x, in_y)});
+    return;
+  }
+  const Vec2d in{size.width / 2 + r - std::abs(local.x), size.height / 2 + r - std::abs(local.y)};
+  if (is("circle_as_square_at_box") && d > 0 && in.x > 0 && in.y > 0) {
+    const Vec2d n =
+        in.x < in.y ? Vec2d{std::copysign(1.0, -local.x), 0} : Vec2d{0, std::copysign(1.0, -local.y)};
+    out.push_back({circle, box, c.position + way, q * n, std::min(in.x, in.y)});
     return;
   }
   if (d <= 0 || d >= r) return;

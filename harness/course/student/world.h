@@ -56,8 +56,9 @@ class StudentWorld {
  public:
   /// `mistake` is one of: a name; a quantity and the factor by which it is wrong ("radius*0.5"); a vector and
   /// what replaces its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"); points and how they are rotated ("a
-  /// force's point~backwards"); a law and what its force changes ("drag>position by dt"); an edit as text
-  /// (edit.h). `scheme` is semi-implicit Euler, explicit Euler or velocity Verlet.
+  /// force's point~backwards"); a law and what its force changes ("drag>position by dt"); a quantity and the
+  /// body whose quantity stands for that of all ("mass in F/m#the first"); an edit as text (edit.h). `scheme`
+  /// is semi-implicit Euler, explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -89,6 +90,7 @@ class StudentWorld {
   double radius(const Rigid& body) const;
   Box box(const Rigid& body) const;
   double inertia(const Body& body) const;
+  const Rigid& another(Name quantity, const Rigid& body) const;
   double mass(const Body& body) const;
   void gather_forces();
   void apply(const ForceLaw& law, bool first, bool last);
@@ -151,8 +153,9 @@ class StudentWorld {
   std::uint64_t mistake_hash_ = 0, scaled_hash_ = 0, mixed_hash_ = 0;
   double factor_ = 1;
   Edit edit_;
-  std::uint64_t turned_hash_ = 0, turned_how_ = 0;  ///< quantity whose points are rotated wrongly, and how
-  std::uint64_t acting_hash_ = 0, acting_how_ = 0;  ///< which law acts wrongly, and on what
+  std::uint64_t turned_hash_ = 0, turned_how_ = 0;    ///< quantity whose points are rotated wrongly, and how
+  std::uint64_t acting_hash_ = 0, acting_how_ = 0;    ///< which law acts wrongly, and on what
+  std::uint64_t others_hash_ = 0, others_whose_ = 0;  ///< quantity of another body, and of which one
   std::array<Vec2d, 2> axes_;  ///< directions that give the x and the y of a mixed vector
   reference::Scheme scheme_;
   Manner manner_;
