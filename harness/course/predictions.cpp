@@ -232,7 +232,10 @@ void Predictions::tell_apart(std::vector<Fit>& found) {
   for (std::size_t i = 0; i < experiments_.size() && !found.empty(); ++i) {
     const auto& seen = seen_in(i);
     if (!seen) continue;
-    const bool free = flies_freely(*seen);
+    // A spring's force is a formula of several terms, of which learners spoil more than one.
+    const auto is_spring = [](const ForceLaw& law) { return std::holds_alternative<SpringForce>(law); };
+    const bool free =
+        flies_freely(*seen) && std::none_of(seen->scene.forces.begin(), seen->scene.forces.end(), is_spring);
     // A body that is alone has no contacts, not even by mistake: only rounding differs.
     const bool alone = seen->scene.bodies.size() == 1 && seen->scene.joints.empty();
     if (!free && std::all_of(found.begin(), found.end(), same_name)) continue;
