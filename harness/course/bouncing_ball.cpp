@@ -38,13 +38,18 @@ std::optional<double> kept_each_step(const Trace& trace) {
   return ratio;
 }
 
+constexpr const char* kWallOfNoScene = "walls_hard_coded";
+
 Finding falls(const Lab& lab) {
   const Trace trace = lab.run(falling(), 1);
   const double t = trace.duration(), v = -kGravity * t;
   const double n = std::round(t / lab.dt()), h = lab.dt();
   const std::optional<double> kept = kept_each_step(trace);
-  return Judgement()
-      .read("vy after 1 s", "m/s", trace.last(0).velocity.y, v, lab.rounding(v, t))
+  Judgement judgement;
+  judgement.read("vy after 1 s", "m/s", trace.last(0).velocity.y, v, lab.rounding(v, t));
+  if (judgement.good()) return judgement.finding();
+  const auto wall = wall_of_no_scene(lab);
+  return judgement.proven_if(wall.has_value(), kWallOfNoScene, wall.value_or(""))
       .proven_if(
           kept.has_value(), "damping",
           fmt::format("Each step multiplies the velocity by {:.6g}: nothing here slows the ball, so leave "
@@ -117,10 +122,16 @@ Finding scene_says_gravity(const Lab& lab) {
   // If a different gravity adds the same velocity, the engine uses a constant.
   const Vec2d gain = v - v0, gain_of_other = other.last(0).velocity;
   const bool same_gain = std::hypot(gain.x - gain_of_other.x, gain.y - gain_of_other.y) < 1e-6 && gain.y != 0;
+  const Fling slow = fling(lab, kSlow, 1), fast = fling(lab, kFast, 0.5);
   return Judgement()
       .read("vx after 1 s", "m/s", v.x, right.x, tolerance)
       .read("vy after 1 s", "m/s", v.y, right.y, tolerance)
       .read("x after 1 s", "m", trace.last(0).position.x, lab.way(v0.x, gravity.x, t), tolerance)
+      .read("way of a slow ball, without gravity", "m", slow.way, slow.due, tolerance)
+      .read("way of a fast ball, without gravity", "m", fast.way, fast.due, lab.rounding(kFast, 1))
+      .proven_if(slow.held && !fast.held, "slow_is_stopped", kSlowIsHeld)
+      .proven_if(fast.limited && std::abs(slow.way - slow.due) <= tolerance, "speed_limited",
+                 limit_text(fast.speed))
       .proven_if(
           same_gain, "gravity_hard_coded",
           fmt::format("Gravity is {:.4g} m/s^2 downwards whatever the scene says: take \"gravity\" from the "
@@ -239,7 +250,9 @@ Finding bounces(const Lab& lab) {
   const bool bounces_fast =
       stops && std::abs(bounce(lab, r, 1, kFaster).last(0).velocity.y - 2 * kFaster) < 0.1;
   const double along = end.velocity.x;
+  const auto wall = wall_of_no_scene(lab);
   return judgement.mistake_if(trace.still(0), "starts_at_rest", kStill)
+      .proven_if(wall.has_value(), kWallOfNoScene, wall.value_or(""))
       .proven_if(bounces_fast, "threshold_too_high", kThreshold)
       .proven_if(
           pushed_too_far(trace, lab.dt(), [&](const auto& s) { return s[0].position.y - (kFloor + r); }),
@@ -374,28 +387,6 @@ Finding restitution(const Lab& lab) {
       .finding();
 }
 
-// Returns a wall that the ball has passed, right and left first; empty if the ball is in the room.
-std::string wall_passed(const BodyState& s, double half_width, double half_height) {
-  if (s.position.x > half_width) return "right";
-  if (s.position.x < -half_width) return "left";
-  if (s.position.y > half_height) return "upper";
-  return s.position.y < -half_height ? "lower" : "";
-}
-
-// Returns true if the velocity along the axis on which the ball leaves the room is constant from the last
-// state before the wall: the wall has then not acted. Walls stop the centre at `x` and `y`. A ball of radius
-// `r` that may jump over a wall within a step does not count.
-bool leaves_straight(const Trace& trace, double x, double y, double r) {
-  const auto at = [&](std::size_t i) { return trace.states[i][0]; };
-  const std::size_t last = trace.states.size() - 1;
-  const bool by_side = std::abs(at(last).position.x) > x;
-  const auto axis = by_side ? &Vec2d::x : &Vec2d::y;
-  std::size_t k = last;
-  while (k > 0 && std::abs(at(k).position.*axis) >= (by_side ? x : y)) --k;
-  const double step = at(std::min(k + 1, last)).position.*axis - at(k).position.*axis;
-  return at(k).velocity.*axis == at(last).velocity.*axis && std::abs(step) < r;
-}
-
 Finding four_walls(const Lab& lab) {
   const double half_width = 2, half_height = 1.5, r = 0.25, thick = 1;
   const Vec2d v{3.1, 2.3};
@@ -420,10 +411,13 @@ Finding four_walls(const Lab& lab) {
   const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
                   static_cast<int>((v.y * t / (half_height - r) + 1) / 2);
   const std::string passed = wall_passed(trace.last(0), half_width, half_height);
-  return Judgement()
-      .read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
+  Judgement judgement;
+  judgement.read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
       .read("turns at walls", "", turns(trace), due, 2)
-      .read("speed after 5 s", "m/s", end, speed, 0.002 * speed)
+      .read("speed after 5 s", "m/s", end, speed, 0.002 * speed);
+  if (judgement.good()) return judgement.finding();
+  const auto other_wall = wall_of_no_scene(lab);
+  return judgement.proven_if(other_wall.has_value(), kWallOfNoScene, other_wall.value_or(""))
       .mistake_if(trace.still(0), "starts_at_rest", kStill)
       .mistake_if(turns(trace) > 2 * due, "turned_every_step", kTurnedEveryStep)
       .mistake_if(!passed.empty() && leaves_straight(trace, half_width - r, half_height - r, r),

@@ -146,12 +146,19 @@ Finding push_ends(const Lab& lab) {
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), v = force / mass * duration, step = force / mass * lab.dt();
   const double vx = trace.last(0).velocity.x;
+  // A force that has no end comes after the push in the list.
+  const double steady = 3, other_mass = 2;
+  scene.bodies.push_back(make(Ball{.name = "other", .position = {0, 5}, .mass = other_mass}));
+  scene.forces.emplace_back(push("other", {steady, 0}));
+  const double other = lab.run(scene, 1).last(1).velocity.x, other_due = steady / other_mass * t;
   // An engine that evaluates forces only at the start of each step may apply the push for up to one step too
   // long or too short.
   return Judgement()
       .read("vx after the push", "m/s", vx, v, step + lab.rounding(v, t))
       .read("way after 1 s, at the speed that the push gave", "m", trace.last(0).position.x,
             vx * (t - start - duration / 2), 2 * std::abs(vx) * lab.dt() + 1e-6)
+      .read("vx of a ball whose force has no end and comes second", "m/s", other, other_due,
+            lab.rounding(other_due, t))
       .mistake("push_never_ends", {force / mass * (t - start)},
                "The push goes on: it ends at start + duration. Clear forces at the end of each step.")
       .mistake("push_starts_at_once", {force / mass * (start + duration)},

@@ -30,9 +30,9 @@ constexpr const char* kNormalFlipped =
 
 Finding detects(const Lab& lab) {
   const double r = 0.3, v = 1, reach = 2 * r;
-  const auto meet = [&](double second) {
-    return head_on(lab, {.position = {-1, 0}, .velocity = {v, 0}, .radius = r},
-                   {.position = {1, 0}, .velocity = {-v, 0}, .radius = second});
+  const auto meet = [&](double second, double aside = 0) {
+    return head_on(lab, {.position = {aside - 1, aside}, .velocity = {v, 0}, .radius = r},
+                   {.position = {aside + 1, aside}, .velocity = {-v, 0}, .radius = second});
   };
   const auto nearest_of = [](const Trace& t) {
     double nearest = distance(t, 0);
@@ -45,11 +45,18 @@ Finding detects(const Lab& lab) {
   const double last = distance(trace, trace.states.size() - 1);
   const bool caught = last < 0.9 * reach && nearest < reach / 4;
   const bool through = !caught && trace.last(0).position.x > trace.last(1).position.x;
+  constexpr double kAside = 0.45;  // m, off the borders of cells that begin at the origin
+  const bool elsewhere = through && std::abs(nearest_of(meet(r, kAside)) - reach) <= tolerance;
   return Judgement()
       .read("nearest that the centres came", "m", nearest, reach, tolerance)
       .read("nearest of radii 0.3 m and 0.5 m", "m", nearest_of(with_larger), r + larger, tolerance)
       .read("nearest of radii 0.3 m and 0.1 m", "m", nearest_of(with_smaller), r + smaller, tolerance)
       .mistake_if(caught, "normal_flipped", kNormalFlipped)
+      .proven_if(
+          elsewhere, "place_matters",
+          "Two circles go through each other, and collide half a metre beside that: whether two collide "
+          "must not depend on the place. If bodies are sorted into cells, compare those of neighbouring "
+          "cells as well.")
       .mistake_if(
           through, "no_detection",
           "The circles go through each other: they touch when their centres are nearer than r1 + r2. Is the "
@@ -62,6 +69,19 @@ Finding detects(const Lab& lab) {
       .finding();
 }
 
+// Returns the velocity of a ball that lands on a post while it moves away from another one, which it still
+// overlaps.
+Vec2d lands_between(const Lab& lab, bool ball_last) {
+  const double r = 0.4, large = 0.9, at = r - 0.01;
+  const Body ball = make(Ball{.position = {at, at}, .velocity = {0.5, -1}, .radius = r, .restitution = 0.5});
+  const auto post = [&](const char* name, Vec2d centre) {
+    return fixed(make(Ball{.name = name, .position = centre, .radius = large, .restitution = 0.5}));
+  };
+  std::vector<Body> bodies{post("below", {at, -large}), post("left", {-large, at})};
+  bodies.insert(ball_last ? bodies.end() : bodies.begin(), ball);
+  return lab.run(scene_of("corner", {}, bodies), 0.2).last(ball_last ? 2 : 0).velocity;
+}
+
 // Starts two overlapping balls that move apart: their velocities should not change.
 Finding parting_is_left_alone(const Lab& lab) try {
   const double v = 1, deep = 0.06, r = 0.4;
@@ -69,8 +89,13 @@ Finding parting_is_left_alone(const Lab& lab) try {
       head_on(lab, {.position = {-r + deep / 2, 0}, .velocity = {-v / 2, 0}, .radius = r, .restitution = 0.5},
               {.position = {r - deep / 2, 0}, .velocity = {v / 2, 0}, .radius = r, .restitution = 0.5}, 0.5);
   const double apart = parting(trace.states.back());
+  const Vec2d first = lands_between(lab, false), last = lands_between(lab, true);
   return Judgement()
       .read("speed apart of two that overlap and part", "m/s", apart, v, 0.05 * v)
+      .read("speed away from a post of a ball that lands on another", "m/s", first.x, 0.5, 0.05 * v)
+      .read("speed up after it has landed", "m/s", first.y, 0.5, 0.05 * v)
+      .read("speed away from the post if the ball is the last body", "m/s", last.x, 0.5, 0.05 * v)
+      .read("speed up in this case", "m/s", last.y, 0.5, 0.05 * v)
       .mistake_if(apart < 0.95 * v, "no_test_of_parting", kPulledBack)
       .mistake_if(
           apart > 1.05 * v, "correction_adds_energy",

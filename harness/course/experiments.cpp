@@ -10,7 +10,8 @@ namespace plumb::course {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr int kCollisions = 3, kBoxes = 4;  // the chapters in which balls collide and boxes turn
+// The chapters in which forces act, balls collide and boxes turn.
+constexpr int kForces = 2, kCollisions = 3, kBoxes = 4;
 
 Body disc(Ball ball, double spin, double friction) {
   Body out = make(ball);
@@ -53,6 +54,21 @@ Experiment three_discs(double friction) {
                     fixed(disc({.name = "c", .position = {0.7, 0.5}, .radius = 0.4, .restitution = 0.5}, 0,
                                friction))}),
           2};
+}
+
+// Two balls of unequal mass on a damped spring that fall together: the sum of their velocities is not 0.
+Experiment falling_spring() {
+  Scene scene = scene_of("falling spring", {0.5, -7},
+                         {make(Ball{.name = "a", .position = {-1, 2}, .mass = 1, .radius = 0.2}),
+                          make(Ball{.name = "b", .position = {0.6, 2.9}, .mass = 3, .radius = 0.2})});
+  SpringForce spring;
+  spring.body_a = "a";
+  spring.body_b = "b";
+  spring.stiffness = 12;
+  spring.damping = 0.8;
+  spring.rest_length = 1.3;
+  scene.forces.emplace_back(spring);
+  return {std::move(scene), 1};
 }
 
 // A ball in the air.
@@ -209,6 +225,7 @@ Experiment two_rods(bool hangs) {
 }  // namespace
 
 std::vector<Experiment> experiments(int chapter) {
+  if (chapter == kForces) return {free_ball(), falling_spring()};
   if (chapter < kCollisions) return {free_ball()};
   if (chapter == kCollisions) return {free_ball(), three_discs(0)};
   if (chapter == kBoxes)

@@ -17,6 +17,41 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kPi = std::numbers::pi;
 
+// Returns the farthest that three rods at rest move which two hinges join near their ends. The outer rods lie
+// under the ends of the middle one like shingles. Rods of 1 m overlap there by 0.03 m, and shorter ones do
+// not touch. A push out of this overlap is across the rods, so that it turns them about the hinges, and a
+// correction of the joints cannot take it back. The hinges are at the ends of the outer rods, so that a push
+// at the points of contact has a lever as well.
+double three_rods_move(const Lab& lab, double l) {
+  constexpr double kPitch = 0.9, kRaised = 0.07;            // m, from centre to centre
+  constexpr double kOuter = 0.5, kInner = kPitch - kOuter;  // m, from a centre to the hinge
+  std::vector<Body> rods;
+  for (const char* name : {"a", "b", "c"})
+    rods.push_back(
+        make(Crate{.name = name,
+                   .position = {kPitch * static_cast<double>(rods.size()), rods.size() == 1 ? kRaised : 0},
+                   .width = l,
+                   .height = 0.1}));
+  Scene scene = scene_of("three rods", {}, std::move(rods));
+  const auto join = [&](const char* outer, double side) {
+    RevoluteJoint hinge;
+    hinge.name = outer;
+    hinge.body_a = outer;
+    hinge.body_b = "b";
+    hinge.anchor_a = {side * kOuter, kRaised / 2};
+    hinge.anchor_b = {-side * kInner, -kRaised / 2};
+    scene.joints.emplace_back(hinge);
+  };
+  join("a", 1);
+  join("c", -1);
+  const Trace trace = lab.run(scene, 0.5);
+  double most = 0;
+  for (const auto& states : trace.states)
+    for (std::size_t i = 0; i < states.size(); ++i)
+      most = std::max(most, length(states[i].position - trace.first(i).position));
+  return most;
+}
+
 }  // namespace
 
 Finding hinged_rod(const Lab& lab) {
@@ -109,12 +144,14 @@ Finding hinged_rod(const Lab& lab) {
   const double due = period_with(about_end);
   const std::optional<double> period = period_of(trace, swing);
   const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
+  const std::optional<double> stiffness = held ? std::nullopt : stiffness_of_joints(lab, true);
   return Judgement()
       .read("period", "s", period.value_or(0), due, due * lab.method_error(2 * kPi / due, 0.005))
       .read("largest gap at the hinge", "m", gap, 0, 0.01 * l * lab.coarseness())
       .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
       .read("fastest that the hinged end moves, by the velocity and spin of the rod", "m/s", slides, 0,
             0.5 * lab.coarseness())
+      .proven_if(stiffness.has_value(), "joint_as_spring", spring_text(stiffness.value_or(0)))
       .proven_if(held && at_post > 0.01 * l * lab.coarseness(), "joined_bodies_collide",
                  "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "
                  "collide, unless \"collide\" is true.")
@@ -197,11 +234,18 @@ Finding hinge_turns_both(const Lab& lab) {
     return ratio > 1 ? 0.05 : std::max(0.05, 1 - least);
   };
   const double off_spin = tolerance(l / l0, kept);
+  const double still = 1e-3, moves = three_rods_move(lab, 1);
   return Judgement()
       .read("momentum lost", "of all", moved, 0, 1e-6)
       .read("angular momentum kept", "of all", l / l0, 1, off_spin)
       .read("energy kept", "of all", energy / e0, 1, tolerance(energy / e0, kept * kept - 0.05))
       .read("widest gap at the hinge", "m", gap, 0, 0.02 * lab.coarseness())
+      .read("motion of three rods at rest that overlap at their hinges", "m", moves, 0, still)
+      .proven_if(
+          moves > still && three_rods_move(lab, 0.8) <= still, "joined_bodies_collide",
+          "Three rods at rest on two hinges drive each other away where they overlap, and do not where "
+          "they do not: the two bodies of every joint do not collide, unless \"collide\" is true. Keep "
+          "the pairs of all joints, in either order.")
       .mistake_if(gap > half_b, "joint_ignored",
                   "The rods leave each other: a hinge holds the two anchors together.")
       .symptom_if(moved > 1e-6,

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "harness/course/lab.h"
@@ -11,6 +12,14 @@ namespace plumb::course {
 
 /// Returns the mean period between zero crossings, s; none if there are fewer than three.
 std::optional<double> period_of(const std::vector<double>& zeros);
+
+/// Returns the stiffness, N/m, of joints that give way as springs do, in proportion to the weight that hangs
+/// on them; none if a joint gives way by the same distance under any weight, as one that is solved for does.
+/// `hinge` selects a hinge instead of a stick.
+std::optional<double> stiffness_of_joints(const Lab& lab, bool hinge);
+
+/// Returns the description of joints that are springs.
+std::string spring_text(double stiffness);
 
 /// Returns the ratio of the period of a pendulum of `amplitude`, rad, to that of a small swing: 1/agm(1,
 /// cos(amplitude/2)) (Gauss).

@@ -23,6 +23,11 @@ constexpr const char* kPointAtCentre =
 constexpr const char* kFrictionOnOne =
     "Friction spins only one of the two bodies: each changes its w by r x j/I, with its own r and I, and a "
     "gets the opposite impulse.";
+constexpr const char* kTorqueNotCleared =
+    "The torque piles up from step to step: set the sums of forces and of torques to zero at the start of "
+    "each step.";
+constexpr const char* kTangentNotUnit =
+    "The tangent is the sliding velocity itself: divide it by its length, or take (-ny, nx).";
 constexpr const char* kOneSide =
     "Friction is limited on one side only: its sum stays between -mu and +mu times the sum of the impulses "
     "along "
@@ -87,6 +92,15 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"torque_without_dt", "torque_without_dt", "4",
        "dt is missing: a step adds torque dt/I to the spin, not torque/I."},
       {"torque_dt_twice", "torque_dt_twice", "4", "dt enters twice: a step adds torque dt/I to the spin."},
+      {"torque_not_cleared", "force_not_cleared", "4", kTorqueNotCleared},
+      {"force_and_torque_not_cleared", "force_not_cleared", "4", kTorqueNotCleared},
+      {"a box for boxes~by the first angle", "first_angle_kept", "45",
+       "Two boxes touch as if they had their first angles: turn their sides and corners by the angle of now, "
+       "in "
+       "each step."},
+      {"static_has_inertia", "static_has_mass", "4",
+       "A static body takes spin: its inverse inertia is 0, as its inverse mass is, in the effective mass as "
+       "well."},
       {"spin_damping", "spin_damped", "4",
        "Each step multiplies the spin by 0.99: nothing here slows it, so leave that out."},
       {"wrapped", "wrapped", "4", "The angle is wrapped at half a turn: it should count whole turns."},
@@ -258,6 +272,8 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"friction_limited_below_only", "friction_limited_on_one_side", "4", kOneSide},
       {"rough_limited_above_only", "friction_limited_on_one_side", "4", kOneSide},
       {"rough_limited_below_only", "friction_limited_on_one_side", "4", kOneSide},
+      {"tangent_not_unit", "tangent_not_unit", "4", kTangentNotUnit},
+      {"tangent_not_unit_in_mass", "tangent_not_unit", "4", kTangentNotUnit},
       {"friction_at_its_limit", "friction_at_its_limit", "4",
        "Friction always acts with its largest impulse: it acts with the one that stops the sliding, if that "
        "is "

@@ -15,10 +15,34 @@ constexpr const char* kTestReversed =
     "they close "
     "when (vb - va) . n < 0.";
 
+constexpr const char* kSumShared =
+    "Several contacts share one sum of impulses, so that one may pull as long as another pushes: each "
+    "contact of "
+    "each pair keeps a sum of its own, which is 0 at the start of the step and never negative.";
+
+constexpr const char* kRadiusOfAnother =
+    "All circles have the radius of one of them: each body keeps its own.";
+
+constexpr const char* kCells =
+    "Circles are compared only with those in the same cell of a grid, so that two go through each other at "
+    "the "
+    "border of two cells: compare those of neighbouring cells as well.";
+
 }  // namespace
 
 std::vector<Predictable> mistakes_of_contacts() {
   return {
+      {"size of the cells in which circles are compared*0.5", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*1", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*2", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*5", "place_matters", "3", kCells},
+      {"size of the cells in which circles are compared*10", "place_matters", "3", kCells},
+      {"sum_of_the_first_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_second_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_earlier_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_later_body", "sum_shared", "34", kSumShared},
+      {"sum_of_the_pair", "sum_shared", "4", kSumShared},
+      {"sum_of_all_contacts", "sum_shared", "34", kSumShared},
       {"impulse of a contact*0.5", "impulse_halved", "13",
        "The impulse is half of what it should be: it is -(1 + e) vn/(1/m1 + 1/m2)."},
       {"impulse of a contact*-1", "impulse_backwards", "3",
@@ -76,6 +100,10 @@ std::vector<Predictable> mistakes_of_contacts() {
        "They touch at twice the radius of the second: they touch at r1 + r2."},
       {"mean_of_radii", "mean_of_radii", "3", "They touch at (r1 + r2)/2: they touch at r1 + r2."},
       {"mean_of_radii_in_depth", "mean_of_radii", "3", "They touch at (r1 + r2)/2: they touch at r1 + r2."},
+      {"square_for_distance", "square_of_distance", "3",
+       "The square of the distance stands for the distance: take the root, for the comparison with r1 + r2, "
+       "the "
+       "normal and the overlap."},
       {"square_of_distance", "square_of_distance", "3",
        "The square of the distance is compared with r1 + r2: compare it with (r1 + r2)^2."},
       {"normal_flipped", "normal_flipped", "3",
@@ -188,6 +216,8 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"circles_as_squares", "circles_as_squares", "34",
        "Circles collide when the squares around them overlap: they touch when their distance is below r1 + "
        "r2."},
+      {"radius#the first", "radius_of_another", "3", kRadiusOfAnother},
+      {"radius#the last", "radius_of_another", "3", kRadiusOfAnother},
       {"static_bodies_not_answered", "static_bodies_not_answered", "134",
        "A contact with a static body gives no impulse: its inverse mass is 0, and 1/ma + 1/mb is that of the "
        "other body."},

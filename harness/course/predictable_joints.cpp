@@ -16,6 +16,8 @@ constexpr const char* kOneAnchor =
 constexpr const char* kOneTurnsBackwards =
     "Correcting the hinge's positions turns one of the bodies the wrong way: the angle of a changes by (ra x "
     "push)/Ia, that of b by minus (rb x push)/Ib.";
+constexpr const char* kJoinedCollide =
+    "Some bodies that a joint connects collide: keep the pairs of all joints, in either order.";
 constexpr const char* kJointsLeftOut =
     "Not all joints act: go over all of them, the first and the last included.";
 constexpr const char* kOneEnd =
@@ -25,6 +27,13 @@ constexpr const char* kOneEnd =
 
 std::vector<Predictable> mistakes_of_joints() {
   return {
+      {"joint_arms_of_before", "joint_arms_of_before", "5",
+       "Positions of joints are corrected with arms of before the bodies moved: turn each anchor by its "
+       "body's "
+       "angle of now, again for each correction."},
+      {"last_joined_pair_only", "joined_bodies_collide", "5", kJoinedCollide},
+      {"first_joined_pair_only", "joined_bodies_collide", "5", kJoinedCollide},
+      {"joined_in_one_order", "joined_bodies_collide", "5", kJoinedCollide},
       {"joint_ignored", "joint_ignored", "5", "The joint does nothing: nothing holds the two together."},
       {"last_joint_left_out", "joints_left_out", "5", kJointsLeftOut},
       {"first_joint_left_out", "joints_left_out", "5", kJointsLeftOut},
@@ -109,6 +118,16 @@ std::vector<Predictable> mistakes_of_joints() {
        "The hinge holds its anchor along x and lets go along y: solve both, along (1, 0) and along (0, 1)."},
       {"hinge_along_y_only", "hinge_one_axis", "5",
        "The hinge holds its anchor along y and lets go along x: solve both, along (1, 0) and along (0, 1)."},
+      {"hinge_as_stick", "hinge_as_stick", "5",
+       "The hinge holds its ends as a stick of length 0 does, along the gap between them: it holds them "
+       "along x "
+       "and along y, whatever the gap is."},
+      {"length_of_start", "length_of_start", "5",
+       "A stick keeps the length that it has at the start: take \"length\" from the scene."},
+      {"length_of_centres_at_start", "length_of_start", "5",
+       "A stick has the distance that the two centres have at the start: take \"length\" from the scene, "
+       "from "
+       "anchor to anchor."},
       {"hinge_shares_spin", "hinge_shares_spin", "5",
        "The hinge makes both bodies turn alike: it holds the two anchors together and leaves the spins "
        "free."},

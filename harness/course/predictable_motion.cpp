@@ -10,6 +10,8 @@ constexpr const char* kSlowIsStopped =
     "Leave out what sets small velocities to 0.";
 constexpr const char* kMassFromSize =
     "The mass is computed from the size of the body: take \"mass\" from the scene.";
+constexpr const char* kMassOfAnother =
+    "All forces are divided by the mass of one body: each body's sum of forces is divided by its own mass.";
 constexpr const char* kTimeForStep =
     "A step multiplies by the time since the start, which grows: it multiplies by dt, the length of a step.";
 constexpr const char* kClampExchanged =
@@ -102,6 +104,9 @@ std::vector<Predictable> mistakes_of_motion() {
       {"speed below which bodies stop*0.3", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*0.5", "slow_is_stopped", "1", kSlowIsStopped},
       {"speed below which bodies stop*1", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies do not move*0.05", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies do not move*0.1", "slow_is_stopped", "1", kSlowIsStopped},
+      {"speed below which bodies do not move*0.5", "slow_is_stopped", "1", kSlowIsStopped},
       {"gravity_off_while_touching", "gravity_off_while_touching", "1",
        "Gravity does nothing in the step after a contact: it acts in each step, also on a body that touches "
        "something; the contact's impulse holds it up."},
@@ -135,6 +140,13 @@ std::vector<Predictable> mistakes_of_motion() {
        "The ball has twice its radius: compare the distance with the radius, not with the diameter."},
       {"radius*0.5", "radius_halved", "13",
        "Circles touch at half of their radius: \"radius\" is the radius already, not the diameter."},
+      {"circle_as_square_at_box", "circles_as_squares", "134",
+       "A ball touches a box as a square would: at a corner of the box it touches when its centre is a "
+       "radius "
+       "away "
+       "from the nearest point, in any direction."},
+      {"square_for_distance_at_box", "square_of_distance", "1",
+       "The square of the distance from the wall stands for the distance: take the root."},
       {"wall_normal_flipped", "normal_flipped", "1",
        "The ball is pulled into the floor: the normal points into the wall, and should point out of it, "
        "towards the ball."},
@@ -287,6 +299,8 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it lasts until its duration is over."},
       {"force_not_cleared", "force_not_cleared", "2",
        "The force piles up from step to step: set the sum of forces to zero at the start of each step."},
+      {"mass in F/m#the first", "mass_of_another", "2", kMassOfAnother},
+      {"mass in F/m#the last", "mass_of_another", "2", kMassOfAnother},
       {"last_force_only", "last_force_only", "2",
        "Only the last force counts: add forces up (+=), do not set (=)."},
       {"first_force_only", "first_force_only", "2", "Only the first force counts: go through all of them."},
@@ -305,6 +319,9 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it acts in all steps that begin from start to start + duration."},
       {"push_a_step_late", "push_a_step_late", "2",
        "The force begins a step late: it acts in the step that begins at \"start\" as well."},
+      {"inactive_force_ends_the_loop", "forces_after_another_lost", "2",
+       "A force that does not act now ends the loop over all forces, so that those after it in the list do "
+       "not act: go on with the next one (continue, not break or return)."},
       {"push_outside_its_time", "push_outside_its_time", "2",
        "The push acts before \"start\" and after its end, and not between: its test is reversed."},
       {"push_from_zero", "push_from_zero", "2",
@@ -317,6 +334,10 @@ std::vector<Predictable> mistakes_of_motion() {
       {"drag_not_divided", "drag_not_divided", "2", "Drag is a force: divide it by the mass."},
       {"drag_divided_twice", "drag_divided_twice", "2", "Drag is divided by the mass twice."},
       {"drag_constant", "drag_constant", "2", "Drag does not grow with speed: it is c v, not c."},
+      {"drag_by_position", "drag_of_another_vector", "2",
+       "Drag acts against the position: it is -c v, against the velocity."},
+      {"drag_by_first_velocity", "drag_of_another_vector", "2",
+       "Drag acts against the first velocity in all steps: it is -c v, with the velocity of now."},
       {"drag_along_x_always", "drag_direction", "2",
        "Drag acts along x whatever the direction of the motion: it is -c v, a vector against the velocity."},
       {"drag_along_y_always", "drag_direction", "2",
@@ -359,6 +380,16 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_not_unit", "spring_not_unit", "2",
        "The spring's force is multiplied by its length: divide the way from end to end by its length to get "
        "the direction."},
+      {"spring_by_strain", "spring_by_strain", "2",
+       "The spring's force is stiffness times the strain, (length - rest_length)/rest_length: it is "
+       "stiffness "
+       "(length - rest_length), as the stiffness is in N/m."},
+      {"spring_by_strain_of_now", "spring_by_strain", "2",
+       "The spring's stretch is divided by its length: the force is stiffness (length - rest_length), as the "
+       "stiffness is in N/m."},
+      {"spring_times_rest_length", "spring_by_strain", "2",
+       "The spring's force is multiplied by its rest length: it is stiffness (length - rest_length), as the "
+       "stiffness is in N/m."},
       {"spring_mass_not_divided", "mass_not_divided", "2", "The spring's force is not divided by the mass."},
       {"spring_divided_by_mass_twice", "mass_divided_twice", "2",
        "The spring's force is divided by the mass twice."},
@@ -399,6 +430,10 @@ std::vector<Predictable> mistakes_of_motion() {
        "Half of the spring's damping acts: it is damping times the speed at which the ends part."},
       {"damping of a spring*2", "damping_wrong", "2",
        "Twice the spring's damping acts: it is damping times the speed at which the ends part, once."},
+      {"spring_damps_the_sum", "damping_by_sum", "2",
+       "The spring's damping follows the sum of the ends' velocities: it acts against the speed at which the "
+       "ends "
+       "part, (vb - va) . n."},
       {"spring_damps_the_first_only", "damping_of_one_end", "2", kDampingOfOneEnd},
       {"spring_damps_the_second_only", "damping_of_one_end", "2", kDampingOfOneEnd},
       {"restitution*2", "restitution_twice", "13",

@@ -31,6 +31,7 @@ struct Turn {
 constexpr const char* kStay = "not";
 constexpr Turn kTurns[] = {
     {kStay, "not_turned", "not with the body"},
+    {"by the first angle", "first_angle_kept", "by the angle of the start, so turn them again in each step"},
     {"backwards", "turned_backwards", "against the body, as by minus its angle"},
     {"overwriting x", "turn_overwrites_x",
      "with the new x in the formula of y, so keep the old x until both are known"},

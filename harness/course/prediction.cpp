@@ -226,6 +226,28 @@ double plain_factor(double factor, double dt) {
   return factor;
 }
 
+// Adds a quantity that is wrong by a factor; returns false if it does not fit. `several` is true if a chapter
+// has more than one wrong reading.
+bool add_factor(Predictions& predictions, const Outcome& outcome, std::size_t check, const Scaled& scaled,
+                double factor, std::size_t manner, bool several, std::vector<Fit>& out) {
+  const Planted planted{fmt::format("{}*{:.17g}", scaled.quantity, factor), manner};
+  const auto& wrong = predictions.of(planted, check);
+  if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) return false;
+  if (changes_nothing(predictions, manner, check, *wrong)) return false;
+  if (!same_readings(outcome.finding, wrong->finding)) return false;
+  const double share = predictions.off(check, manner, wrong->runs);
+  if (!(share <= (several && !predictions.design_known() ? kFittedPath : kExactPath))) return false;
+  if (predictions.design_known() && !predictions.exactly(check, manner, wrong->runs)) return false;
+  Fit fit{.name = scaled.name,
+          .says = fmt::format(fmt::runtime(scaled.says), factor_text(factor, predictions.dt())),
+          .planted = planted,
+          .off = share};
+  predictions.refute(planted, check, fit);
+  if (fit.refuted || !explains_all(fit)) return false;
+  out.push_back(std::move(fit));
+  return true;
+}
+
 // Adds the quantity whose factor can best be fitted to the motion. The factor is fitted to one check; the
 // other checks, or the whole path, must agree with it.
 void add_fitted(Predictions& predictions, const std::vector<Outcome>& chapter, std::size_t check, long until,
@@ -243,23 +265,11 @@ void add_fitted(Predictions& predictions, const std::vector<Outcome>& chapter, s
       continue;
     }
     for (const std::size_t manner : std::span(likely).first(tried)) {
-      auto factor = predictions.factor(scaled.quantity, manner, check);
-      if (!factor) continue;
-      factor = plain_factor(*factor, predictions.dt());
-      const Planted planted{fmt::format("{}*{:.17g}", scaled.quantity, *factor), manner};
-      const auto& wrong = predictions.of(planted, check);
-      if (!wrong || wrong->finding.verdict != Verdict::Fail || !finite(wrong->finding)) continue;
-      if (changes_nothing(predictions, manner, check, *wrong)) continue;
-      if (!same_readings(outcome.finding, wrong->finding)) continue;
-      const double share = predictions.off(check, manner, wrong->runs);
-      if (!(share <= (several && !predictions.design_known() ? kFittedPath : kExactPath))) continue;
-      if (predictions.design_known() && !predictions.exactly(check, manner, wrong->runs)) continue;
-      Fit fit{.name = scaled.name,
-              .says = fmt::format(fmt::runtime(scaled.says), factor_text(*factor, predictions.dt())),
-              .planted = planted,
-              .off = share};
-      predictions.refute(planted, check, fit);
-      if (!fit.refuted && fit.verdicts == 0 && fit.readings == 0) out.push_back(fit);
+      const auto fitted = predictions.factor(scaled.quantity, manner, check);
+      if (!fitted) continue;
+      const double plain = plain_factor(*fitted, predictions.dt());
+      if (!add_factor(predictions, outcome, check, scaled, plain, manner, several, out) && plain != *fitted)
+        add_factor(predictions, outcome, check, scaled, *fitted, manner, several, out);
     }
   }
   std::stable_sort(out.begin(), out.end(), better);
@@ -428,8 +438,10 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     // Drops a suspicion that no motion confirms, including checks whose motions cannot be compared.
     if (!chapter[i].check->repeatable && finding.observed && !finding.proven && finding.mistake != known)
       unname(finding);
-    // Names no second mistake for a failure that the first mistake explains equally well.
-    if (found[i].fits.empty() && !known.empty() && finding.mistake != known &&
+    // Names no second mistake for a failure that the first mistake explains equally well, nor one that
+    // contradicts the figures of other checks: it gives this motion by chance.
+    if (std::none_of(found[i].fits.begin(), found[i].fits.end(), explains_all) && !known.empty() &&
+        finding.mistake != known &&
         fails_as_well(ways_to_make(mistakes, known, found), predictions, i,
                       finding.proven ? finding.mistake : "")) {
       finding.mistake.clear();

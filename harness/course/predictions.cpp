@@ -34,6 +34,10 @@ constexpr double kClearlyNearer = 5;
 // confirmed, as a fraction of that engine's distance from the correct paths.
 constexpr double kNearest = 0.05;
 
+// m, over all states: a design is dropped if it is farther than this from the engine in a check in which
+// another one gives its paths. Iterations that end sooner or later cause smaller differences.
+constexpr double kSameDesign = 1e-4;
+
 // A mistake changes nothing if its paths are nearer than this to those of a correct engine.
 constexpr double kUnchanged = 1e-6;
 
@@ -54,6 +58,21 @@ struct TooFar : std::runtime_error {
   TooFar() : std::runtime_error("too far") {}
 };
 
+// Returns true for each design that gives the tested engine's paths in all checks that a mistake does not
+// spoil: those in which some design gives its paths. A mistake may change the paths of a check that the
+// engine passes, such as angles where only a spin is read; no design gives these paths, and they tell nothing
+// about designs. Returns true for all designs if unspoilt checks contradict each other.
+std::vector<bool> designs_of_unspoilt_checks(const std::vector<std::vector<double>>& off) {
+  std::vector<bool> out(off.size(), true);
+  for (std::size_t check = 0; check < off.front().size(); ++check) {
+    const auto gives = [&](const std::vector<double>& design) { return design[check] <= kUnchanged; };
+    if (std::none_of(off.begin(), off.end(), gives)) continue;
+    for (std::size_t i = 0; i < off.size(); ++i) out[i] = out[i] && off[i][check] <= kSameDesign;
+  }
+  if (std::find(out.begin(), out.end(), true) == out.end()) out.assign(off.size(), true);
+  return out;
+}
+
 }  // namespace
 
 Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
@@ -62,25 +81,35 @@ Predictions::Predictions(const Lab& lab, const std::vector<Outcome>& chapter)
       manners_(manners_of(chapter.front().chapter->number, lab)),
       experiments_(experiments(chapter.front().chapter->number)) {
   for (const Outcome& outcome : chapter) seen_.push_back(outcome.finding.mistake);
-  std::vector<double> far;
-  for (std::size_t manner = 0; manner < manners_.size(); ++manner) far.push_back(misfit(manner));
+  const std::vector<std::vector<double>> off = misfits();
+  std::vector<double> far;  // over all checks
+  for (const std::vector<double>& each : off) {
+    double sum = 0;
+    for (const double distance : each) sum = std::hypot(sum, distance);
+    far.push_back(sum);
+  }
   const double least = *std::min_element(far.begin(), far.end());
   for (std::size_t manner = 0; manner < manners_.size(); ++manner)
     if (far[manner] <= kClearlyNearer * std::max(least, kUnchanged)) likely_.push_back(manner);
+  const std::vector<bool> agrees = designs_of_unspoilt_checks(off);
+  std::stable_partition(likely_.begin(), likely_.end(), [&](std::size_t manner) { return agrees[manner]; });
   const bool told_apart = manners_.size() == 1 || likely_.size() < manners_.size();
   known_ = least <= kUnchanged && (told_apart || (chapter.front().chapter->number < 4 && measured_push(lab)));
 }
 
-// Returns the distance of the tested engine's paths from those of a correct engine of a design, in the checks
-// that it passes.
-double Predictions::misfit(std::size_t manner) {
-  double sum = 0;
+// Returns the distances of the tested engine's paths from those of a correct engine of each design, in each
+// of the checks that it passes.
+std::vector<std::vector<double>> Predictions::misfits() {
+  std::vector<std::vector<double>> out(manners_.size());
   for (std::size_t i = 0; i < chapter_.size(); ++i) {
     if (!chapter_[i].check->repeatable || chapter_[i].finding.verdict != Verdict::Pass) continue;
-    if (const auto& right = of({"", manner}, i))
-      sum = std::hypot(sum, distance(chapter_[i].runs, chapter_[i].runs, right->runs, right->runs.size()));
+    for (std::size_t manner = 0; manner < manners_.size(); ++manner)
+      if (const auto& right = of({"", manner}, i); right)
+        out[manner].push_back(distance(chapter_[i].runs, chapter_[i].runs, right->runs, right->runs.size()));
+      else
+        out[manner].push_back(0);
   }
-  return sum;
+  return out;
 }
 
 const std::optional<Attempt>& Predictions::of(const Planted& planted, std::size_t check) {
@@ -203,7 +232,12 @@ void Predictions::tell_apart(std::vector<Fit>& found) {
   for (std::size_t i = 0; i < experiments_.size() && !found.empty(); ++i) {
     const auto& seen = seen_in(i);
     if (!seen) continue;
-    const bool free = flies_freely(*seen);
+    // A spring's force is a formula of several terms, of which learners spoil more than one.
+    const auto is_spring = [](const ForceLaw& law) { return std::holds_alternative<SpringForce>(law); };
+    const bool free =
+        flies_freely(*seen) && std::none_of(seen->scene.forces.begin(), seen->scene.forces.end(), is_spring);
+    // A body that is alone has no contacts, not even by mistake: only rounding differs.
+    const bool alone = seen->scene.bodies.size() == 1 && seen->scene.joints.empty();
     if (!free && std::all_of(found.begin(), found.end(), same_name)) continue;
     std::vector<double> far, limit;
     std::vector<bool> moves_right;
@@ -213,7 +247,7 @@ void Predictions::tell_apart(std::vector<Fit>& found) {
       if (!right || !wrong) break;
       far.push_back(*wrong);
       moves_right.push_back(*wrong == *right);
-      limit.push_back(std::max(kUnchanged, std::min(kMostLeft, kExactly * *right)));
+      limit.push_back(std::max(kUnchanged, std::min(kMostLeft, (alone ? kExactlyFree : kExactly) * *right)));
       least = std::min(least, *wrong);
       all = std::min(all, *right);
     }
@@ -365,7 +399,19 @@ std::optional<double> Predictions::factor(const std::string& quantity, std::size
       at_upper = far(upper = low + kGolden * (high - low), at_lower);
     }
   }
-  return (low + high) / 2;
+  // Near the best factor the distance is that of a line, so two factors beside it give it to all digits. A
+  // free flight needs them: there only rounding may differ.
+  double factor = (low + high) / 2, width = high - low, nearest = far(factor, kInfinity);
+  for (int i = 0; i < 3; ++i, width *= 1e-3) {
+    const double below = far(factor - width, kInfinity), above = far(factor + width, kInfinity);
+    if (!std::isfinite(below + above) || below + above == 0) break;
+    const double between = factor + width * (below - above) / (below + above);
+    const double distance = far(between, kInfinity);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    factor = between;
+  }
+  return factor;
 }
 
 }  // namespace plumb::course

@@ -69,7 +69,7 @@ class Predictions {
   std::size_t manners() const { return manners_.size(); }
 
   /// Returns the designs that fit the tested engine about as well as the best one, in the checks that it
-  /// passes.
+  /// passes. First come those that give its paths in each of these checks in which some design does.
   const std::vector<std::size_t>& likely() const { return likely_; }
 
   /// Returns true if a correct engine of a likely design gives the tested engine's paths in all checks that
@@ -110,7 +110,7 @@ class Predictions {
   double spread(std::size_t check);
   double farthest(std::size_t check, std::size_t manner);
   double exact_limit(std::size_t check, std::size_t manner);
-  double misfit(std::size_t manner);
+  std::vector<std::vector<double>> misfits();
   std::optional<Attempt> attempt(const Planted& planted, std::size_t check, Lab::Watcher watcher);
   std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit);
 

@@ -152,6 +152,20 @@ Finding stick_keeps_its_length(const Lab& lab) {
   const double spin = cross(trace.last(1).position - trace.last(0).position,
                             trace.last(1).velocity - trace.last(0).velocity) /
                       (end * end);
+  // Two balls at rest on a stick that is too long, or too short, at the start.
+  constexpr double kOff = 0.1;  // m
+  const auto settles_at = [&](double start) {
+    Scene still = scene;
+    for (Body& body : still.bodies) body.velocity = {};
+    still.bodies[1].position = still.bodies[0].position + Vec2d{start, 0};
+    const Trace rest = lab.run(still, 1);
+    return length(rest.last(1).position - rest.last(0).position);
+  };
+  const bool corrects = lab.corrects_positions();
+  const double from_long = corrects ? settles_at(d + kOff) : d,
+               from_short = corrects ? settles_at(d - kOff) : d;
+  const bool keeps_start =
+      std::abs(from_long - d - kOff) < 1e-6 && std::abs(from_short - d + kOff) < 1e-6 && worst <= tolerance;
   // An engine that corrects positions may lose as much as that method loses, to second order.
   const double slowed = w * lab.spin_kept_by_positions(w, t);
   const bool by_positions = lab.first_order() && std::abs(spin - slowed) <= wh * wh * slowed;
@@ -160,6 +174,13 @@ Finding stick_keeps_its_length(const Lab& lab) {
       .read("spin after 5 s", "rad/s", spin, by_positions ? slowed : w,
             by_positions ? wh * wh * slowed : w - 0.95 * w * lab.turn_kept(w, t))
       .read("fastest that the ends part or close, by their velocities", "m/s", along, 0, 6 * v * wh + 0.01)
+      .read("distance of two at rest whose stick was 0.1 m too long at the start", "m", from_long, d,
+            kOff / 4)
+      .read("distance of two whose stick was 0.1 m too short", "m", from_short, d, kOff / 4)
+      .proven_if(
+          keeps_start, "length_of_start",
+          "A stick that is too long or too short at the start stays so: it keeps the distance that its ends "
+          "have at the start. Take \"length\" from the scene.")
       .mistake("joint_ignored", {std::hypot(d, 2 * v * t) - d, kAny},
                "The stick does nothing: the balls fly apart.")
       .mistake("no_position_correction", {drifted - d, kAny},
@@ -281,6 +302,8 @@ Finding pendulum(const Lab& lab) {
   const bool by_positions = lab.first_order() &&
                             std::abs(period.value_or(0) - slowed.period) <= share * slowed.period &&
                             std::abs(high - slowed.last) <= share * slowed.last;
+  const bool holds = stretched <= 0.02 * l * lab.coarseness();
+  const std::optional<double> stiffness = holds ? std::nullopt : stiffness_of_joints(lab, false);
   return Judgement()
       .read("period", "s", period.value_or(0), by_positions ? slowed.period : due,
             by_positions ? share * slowed.period : due * lab.method_error(2 * kPi / due, 0.005))
@@ -289,6 +312,7 @@ Finding pendulum(const Lab& lab) {
       .read("largest change of length", "m", stretched, 0, 0.02 * l * lab.coarseness())
       .mistake_if(trace.still(0), "no_gravity",
                   "The bob hangs still, at 60 degrees: gravity pulls at it as well.")
+      .proven_if(stiffness.has_value(), "joint_as_spring", spring_text(stiffness.value_or(0)))
       .proven_if(!period && stretched > 0.2 * l && free_stick_holds(), "joint_ignored",
                  "A stick between two balls holds, and one to \"world\" does not: the end named \"world\" is "
                  "a fixed "

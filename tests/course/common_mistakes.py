@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants mistakes that learners often make in whole_engine.py and in the course's solved engines, and asks `plumb check`.
+"""Plants common mistakes in whole_engine.py, rows.py and the course's solved engines, and asks `plumb check`.
 
 usage: common_mistakes.py PLUMB WARM_START STARTERS [--part I/N | NAME...]
   --part I/N   every N-th mistake, from the I-th on
@@ -15,9 +15,10 @@ import subprocess
 import sys
 import tempfile
 
+import more_mistakes
 from warm_start import WarmStart
 
-WHOLE = "whole_engine"
+WHOLE, ENGINES = "whole_engine", (more_mistakes.WHOLE, more_mistakes.ROWS)
 UNNAMED, PASSES = "unnamed", "passes"
 
 # name, the file and its first chapter, the edits (old text, new text), the names that describe it or what comes of it
@@ -392,8 +393,8 @@ MISTAKES = [
 def planted(folder, starters, mistake):
     """Writes the engine with the mistake and returns the program of a chapter."""
     name, file, _, edits, _ = mistake
-    if file == WHOLE:
-        text = pathlib.Path(__file__).with_name("whole_engine.py").read_text(encoding="utf-8")
+    if file in ENGINES:
+        text = pathlib.Path(__file__).with_name(f"{file}.py").read_text(encoding="utf-8")
     else:
         shutil.copytree(starters / "python", folder / "python")
         text = (starters / "python" / "solved" / f"{file}.py").read_text(encoding="utf-8")
@@ -402,9 +403,9 @@ def planted(folder, starters, mistake):
             sys.exit(f"{name}: its text is there {text.count(old)} times")
         text = text.replace(old, new)
     solved = folder / "python" / "solved"
-    place = folder / "engine.py" if file == WHOLE else solved / f"{file}.py"
+    place = folder / "engine.py" if file in ENGINES else solved / f"{file}.py"
     place.write_text(text, encoding="utf-8")
-    return lambda chapter: place if file == WHOLE else solved / f"chapter{chapter}.py"
+    return lambda chapter: place if file in ENGINES else solved / f"chapter{chapter}.py"
 
 
 def outcome(plumb, warm, starters, mistake):
@@ -431,10 +432,10 @@ def outcome(plumb, warm, starters, mistake):
 
 def main():
     plumb, client, starters, chosen = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[4:]
-    mistakes = MISTAKES
+    mistakes = MISTAKES + more_mistakes.MISTAKES
     if chosen[:1] == ["--part"]:
         first, parts = map(int, chosen[1].split("/"))
-        mistakes, chosen = MISTAKES[first - 1 :: parts], []
+        mistakes, chosen = mistakes[first - 1 :: parts], []
     counts, failures = {"named": 0, UNNAMED: 0, PASSES: 0}, 0
     with WarmStart(client) as warm:
         for mistake in mistakes:

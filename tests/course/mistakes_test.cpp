@@ -190,6 +190,23 @@ constexpr Seed kSeeds[] = {
     {"circles_as_squares", "oblique", "circles_as_squares"},
     {"point_taken_for_world", "central_force", "point_taken_for_world"},
     {"friction_bounds_exchanged", "slides", "friction_bounds_exchanged"},
+    {"speed below which bodies do not move*0.1", "scene_says_gravity", "slow_is_stopped"},
+    {"size of the cells in which circles are compared*1", "detects", "place_matters"},
+    {"inactive_force_ends_the_loop", "push_ends", "forces_after_another_lost"},
+    {"spring_by_strain", "spring", "spring_by_strain"},
+    {"sum_of_the_later_body", "parting_is_left_alone", "sum_shared"},
+    {"a box~by the first angle", "turned_box", "first_angle_kept"},
+    {"last_joined_pair_only", "hinge_turns_both", "joined_bodies_collide"},
+    {"joint_arms_of_before", "hinged_rod", "joint_arms_of_before"},
+    {"circle_as_square_at_box", "bounces", "circles_as_squares"},
+    {"mass in F/m#the first", "push_ends", "mass_of_another"},
+    {"drag_by_position", "drag", "drag_of_another_vector"},
+    {"spring_damps_the_sum", "damped_spring", "damping_by_sum"},
+    {"square_for_distance", "detects", "square_of_distance"},
+    {"torque_not_cleared", "torque_spins", "force_not_cleared"},
+    {"static_has_inertia", "lands_flat", "static_has_mass"},
+    {"tangent_not_unit", "slides", "tangent_not_unit"},
+    {"length_of_start", "stick_keeps_its_length", "length_of_start"},
 };
 
 // Runs the whole chapter: what a mistake does in the other checks tells it from others.

@@ -89,7 +89,7 @@ MISTAKES = [
     ('neighbours only', 3,
      'for b in self.bodies[i + 1:]:\n                if (a',
      'for b in self.bodies[i + 1:i + 2]:\n                if (a',
-     "pairs_missed"),
+     "pairs_left_out"),
     ('correction shares swapped', 3,
      '                a.shift(-push * nx, -push * ny, rax, ray)\n                b.shift(push * nx, push * ny, rbx, rby)',
      '                if a.dyn and b.dyn and a.r and b.r:\n                    k = push * (a.im + b.im)\n                    fa, fb = b.im / (a.im + b.im), a.im / (a.im + b.im)\n                    a.x -= k * fa * nx; a.y -= k * fa * ny; b.x += k * fb * nx; b.y += k * fb * ny\n                    continue\n                a.shift(-push * nx, -push * ny, rax, ray)\n                b.shift(push * nx, push * ny, rbx, rby)',

@@ -163,6 +163,16 @@ bool StudentWorld::answer_wrongly(Touch& touch, double closing) {
   return false;
 }
 
+// Returns the sum of impulses that a contact's impulse is added to: its own, or one of several contacts.
+double& StudentWorld::sum_of(Touch& touch) {
+  if (is("sum_of_the_first_body")) return bodies_[touch.a].sum;
+  if (is("sum_of_the_second_body")) return bodies_[touch.b].sum;
+  if (is("sum_of_the_earlier_body")) return bodies_[std::min(touch.a, touch.b)].sum;
+  if (is("sum_of_the_later_body")) return bodies_[std::max(touch.a, touch.b)].sum;
+  if (is("sum_of_the_pair")) return pair_sums_[std::minmax(touch.a, touch.b)];
+  return is("sum_of_all_contacts") ? bodies_.back().sum : touch.sum;
+}
+
 void StudentWorld::answer(Touch& touch) {
   Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
   const Vec2d n = touch.normal;
@@ -203,13 +213,14 @@ void StudentWorld::answer(Touch& touch) {
       edit_(Quantity::Arm, kContactRow, kInChange, std::array{arm_a, arm_b}, {touch.point, touch.point});
   spin_a = cross(in_change[0], n), spin_b = cross(in_change[1], n);
   double j = times("impulse of a contact") * (touch.bounce - closing) / k;
+  double& total = sum_of(touch);
   const auto new_sum = [&](double change) {
-    if (is("each_push_clamped")) return touch.sum + std::max(0.0, change);
+    if (is("each_push_clamped")) return total + std::max(0.0, change);
     if (is("closing_test_reversed") || is("closing_test_reversed_with_bounce"))
-      return std::min(0.0, touch.sum + change);
-    return is("no_test_of_parting") ? touch.sum + change : std::max(0.0, touch.sum + change);
+      return std::min(0.0, total + change);
+    return is("no_test_of_parting") ? total + change : std::max(0.0, total + change);
   };
-  const double before = touch.sum, sum = new_sum(j);
+  const double before = total, sum = new_sum(j);
   j = sum - before;
   const auto [changes, turns] = eases(kContactRow, kInChange, a, b);
   double share_a = changes[0], share_b = changes[1];
@@ -247,10 +258,10 @@ void StudentWorld::answer(Touch& touch) {
     first_now ? apply_to_first(j) : apply_to_second(j);
     const double again = new_sum((touch.bounce - dot(relative_velocity(touch), n)) / k) - before;
     first_now ? apply_to_second(again) : apply_to_first(again);
-    touch.sum = sum;
+    touch.sum = total = sum;
     return rub(touch);
   }
-  touch.sum = sum;
+  touch.sum = total = sum;
   touch.last = j;
   Vec2d push = j * n;
   if (is("along_wall_changed") && j > 0 && touch.sum == j) {
@@ -298,11 +309,17 @@ void StudentWorld::rub(Touch& touch) {
       is("friction_ignored"))
     return;
   const Vec2d across{-touch.normal.y, touch.normal.x};
-  const Vec2d t = mixed("direction of friction", mixed("tangent", across));
+  Vec2d t = mixed("direction of friction", mixed("tangent", across));
+  if (is("tangent_not_unit") || is("tangent_not_unit_in_mass")) {
+    const Vec2d v = relative_velocity(touch);
+    t = v - dot(v, touch.normal) * touch.normal;
+  }
   const auto [arm_a, arm_b] = arms_of(touch);
   const Arms raw{touch.point, touch.point};
   const double spin_a = cross(arm_a, t), spin_b = cross(arm_b, t);
-  const Vec2d in_mass = is("friction_by_mass_of_normal") ? touch.normal : mixed("tangent", across);
+  const Vec2d in_mass = is("friction_by_mass_of_normal")                  ? touch.normal
+                        : is("tangent_not_unit_in_mass") && dot(t, t) > 0 ? t
+                                                                          : mixed("tangent", across);
   double k = edited_mass(kFrictionRow, a, b, {arm_a, arm_b}, raw, in_mass);
   if (is("friction_lever_not_squared"))
     k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * spin_a + b.inverse_inertia * spin_b;

@@ -10,8 +10,9 @@ namespace plumb::course {
 
 // Returns the name of a part of a box, or of all of the box if the mistake turns all of it.
 Name StudentWorld::part_of_box(const Rigid& body, Name part) const {
-  constexpr Name kBox("a box"), kStatic("a static box");
+  constexpr Name kBox("a box"), kForBoxes("a box for boxes"), kStatic("a static box");
   if (turned_hash_ == kBox.hash) return kBox;
+  if (turned_hash_ == kForBoxes.hash) return kForBoxes;
   return turned_hash_ == kStatic.hash && body.inverse_mass == 0 ? kStatic : part;
 }
 

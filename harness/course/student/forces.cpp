@@ -71,6 +71,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
     if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
+    if (is("drag_by_position")) return add(c * b.position);
+    if (is("drag_by_first_velocity")) return add(c * b.body->velocity);
     if (is("drag_along_x_only")) return add({c * b.velocity.x, 0});
     if (is("drag_along_x_always")) return add({c * speed, 0});
     if (is("drag_along_y_always")) return add({0, c * speed});
@@ -92,6 +94,9 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     double tension = spring->stiffness * stretch * times("stiffness of a spring");
     if (is("spring_always_pulls")) tension = std::abs(tension);
     if (is("spring_always_pushes")) tension = -std::abs(tension);
+    if (is("spring_by_strain")) tension /= rest != 0 ? rest : 1;
+    if (is("spring_by_strain_of_now")) tension /= length(way);
+    if (is("spring_times_rest_length")) tension *= rest;
     if (is("spring_dt_twice")) tension *= dt_;
     if (is("spring_only_pulls")) tension = std::max(tension, 0.0);
     if (is("spring_only_pushes")) tension = std::min(tension, 0.0);
@@ -103,6 +108,7 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;
     if (is("spring_damps_the_second_only")) parting = v_b;
+    if (is("spring_damps_the_sum")) parting = v_a + v_b;
     double rate = dot(mixed("velocity in a spring", parting), along);
     if (is("damping_by_speed")) rate = length(parting);
     tension += times("damping of a spring") * spring->damping * rate;
@@ -122,11 +128,17 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
 
 void StudentWorld::gather_forces() {
   for (Rigid& b : bodies_) {
-    if (!is("force_not_cleared")) b.force = {};
-    b.torque = 0;
+    if (!is("force_not_cleared") && !is("force_and_torque_not_cleared")) b.force = {};
+    if (!is("torque_not_cleared") && !is("force_and_torque_not_cleared")) b.torque = 0;
   }
-  for (std::size_t i = 0; i < scene_.forces.size(); ++i)
+  const auto rests = [&](const ForceLaw& law) {
+    const auto* push = std::get_if<PointForce>(&law);
+    return push != nullptr && (time() < push->start - 1e-9 || time() >= push->start + push->duration - 1e-9);
+  };
+  for (std::size_t i = 0; i < scene_.forces.size(); ++i) {
+    if (is("inactive_force_ends_the_loop") && rests(scene_.forces[i])) break;
     apply(scene_.forces[i], i == 0, i + 1 == scene_.forces.size());
+  }
 }
 
 void StudentWorld::accelerate() {
@@ -157,7 +169,7 @@ void StudentWorld::accelerate() {
     if (is("weight_not_divided")) fall *= 1 / b.inverse_mass;
     if (is("gravity_off_while_pushed") && b.force != Vec2d{}) fall = {};
     if (acting_hash_ == Name("gravity").hash) act("gravity", b, 1 / b.inverse_mass * std::exchange(fall, {}));
-    double inverse = is("mass_not_divided") ? 1 : b.inverse_mass;
+    double inverse = is("mass_not_divided") ? 1 : another("mass in F/m", b).inverse_mass;
     if (is("mass_multiplied")) inverse = 1 / b.inverse_mass;
     if (is("mass_divided_twice")) inverse *= inverse;
     if (is("root_of_mass")) inverse = std::sqrt(inverse);
@@ -179,6 +191,7 @@ void StudentWorld::accelerate() {
 void StudentWorld::move() {
   for (Rigid& b : bodies_) {
     if (b.body == nullptr || b.body->type != BodyType::Dynamic) continue;
+    if (scales("speed below which bodies do not move") && length(b.velocity) < factor_) continue;
     if (is("moves_by_first_velocity")) {
       b.position += dt_ * b.body->velocity;
     } else {

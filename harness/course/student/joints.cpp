@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "harness/course/student/world.h"
@@ -34,6 +35,9 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
               neither || is("first_anchor_not_turned") ? anchor_a : to_world("first", turns_a, anchor_a);
           out.arm_b =
               neither || is("second_anchor_not_turned") ? anchor_b : to_world("second", turns_b, anchor_b);
+          if (is("joint_arms_of_before") && !kept_arms_.empty())
+            std::tie(out.arm_a, out.arm_b) =
+                kept_arms_[static_cast<std::size_t>(&joint - scene_.joints.data())];
           out.raw_a = anchor_a;
           out.raw_b = anchor_b;
           out.gap = b.position + out.arm_b - a.position - out.arm_a;
@@ -43,11 +47,30 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
       joint);
 }
 
+// Keeps the arms of all joints as they are now, for the mistake that uses them after the bodies have moved.
+void StudentWorld::keep_arms() {
+  kept_arms_.clear();
+  if (!is("joint_arms_of_before")) return;
+  std::vector<std::pair<Vec2d, Vec2d>> now;
+  for (const Joint& joint : scene_.joints) {
+    const Ends e = ends(joint);
+    now.emplace_back(e.arm_a, e.arm_b);
+  }
+  kept_arms_ = std::move(now);
+}
+
 bool StudentWorld::joined(std::size_t a, std::size_t b) const {
   if (is("joined_bodies_collide")) return false;
-  return std::any_of(ends_.begin(), ends_.end(), [&](const auto& ends) {
+  const auto is_pair = [&](const auto& ends) {
     return (ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a);
-  });
+  };
+  if (ends_.empty()) return false;
+  if (is("last_joined_pair_only")) return is_pair(ends_.back());
+  if (is("first_joined_pair_only")) return is_pair(ends_.front());
+  if (is("joined_in_one_order"))
+    return std::any_of(ends_.begin(), ends_.end(),
+                       [&](const auto& ends) { return ends[0] == a && ends[1] == b; });
+  return std::any_of(ends_.begin(), ends_.end(), is_pair);
 }
 
 // A stick as one row along it, a hinge as two, x and y, one after the other.
@@ -58,7 +81,9 @@ void StudentWorld::solve(const Joint& joint) {
   const bool stick = std::holds_alternative<DistanceJoint>(joint);
   const double gap = length(e.gap);
   const Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
-  for (const Vec2d n : {stick ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
+  const bool one_row = stick || is("hinge_as_stick");
+  if (one_row && !stick && gap < 1e-12) return;
+  for (const Vec2d n : {one_row ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
     const double error = dot(e.gap, n) - (stick ? std::get<DistanceJoint>(joint).length : 0);
     double fed = is("no_position_correction") ? 0 : manner_.fed * error / dt_;
     if (scales("share of a joint's error without dt")) fed = factor_ * error;
@@ -116,7 +141,7 @@ void StudentWorld::solve(const Joint& joint) {
       change(kJointRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b},
              mixed("impulse of a joint", -times("impulse of a joint") * speed / k * n));
     }
-    if (stick) break;
+    if (one_row) break;
   }
   if (is("hinge_shares_spin") && !stick && a.inverse_inertia > 0 && b.inverse_inertia > 0)
     a.spin = b.spin = (a.spin + b.spin) / 2;

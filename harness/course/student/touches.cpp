@@ -12,9 +12,9 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 }  // namespace
 
 void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
-  const double ra = radius(bodies_[a]), rb = radius(bodies_[b]);
+  const double ra = radius(another("radius", bodies_[a])), rb = radius(another("radius", bodies_[b]));
   const Vec2d way = bodies_[b].position - bodies_[a].position;
-  const double d = length(way);
+  const double d = is("square_for_distance") ? dot(way, way) : length(way);
   // The overlap is computed from r1 + r2, or from the mistake's wrong sum.
   constexpr std::string_view kInDepth = "_in_depth";
   const bool in_depth = mistake_.ends_with(kInDepth);
@@ -69,11 +69,12 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
 
 void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const {
   const Rigid &c = bodies_[circle], &b = bodies_[box];
-  const double r = radius(c);
+  const double r = radius(another("radius", c));
   const Box size = this->box(b);
-  const double angle = b.turns * (is("box_taken_upright")      ? 0
-                                  : is("box_turned_backwards") ? -b.angle
-                                                               : b.angle);
+  const double angle = b.turns * (is("box_taken_upright")          ? 0
+                                  : is("box_turned_backwards")     ? -b.angle
+                                  : is("a box~by the first angle") ? b.body->angle
+                                                                   : b.angle);
   const Rotation<double> q{std::cos(angle), std::sin(angle)};
   const bool backwards = is("centre_turned_backwards");
   const Vec2d local = (backwards ? q : q.inverse()) * (c.position - b.position);
@@ -83,12 +84,19 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   if (is("clamp_exchanged_below")) nearest = {-size.width / 2, -size.height / 2};
   Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   if (backwards) way = b.position + q * nearest - c.position;
-  const double d = length(way);
+  const double d = is("square_for_distance_at_box") ? dot(way, way) : length(way);
   if (d == 0 && manner_.deep) {
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     const Vec2d out_of =
         in_x < in_y ? Vec2d{std::copysign(1.0, local.x), 0} : Vec2d{0, std::copysign(1.0, local.y)};
     out.push_back({circle, box, c.position, q * -out_of, r + std::min(in_x, in_y)});
+    return;
+  }
+  const Vec2d in{size.width / 2 + r - std::abs(local.x), size.height / 2 + r - std::abs(local.y)};
+  if (is("circle_as_square_at_box") && d > 0 && in.x > 0 && in.y > 0) {
+    const Vec2d n =
+        in.x < in.y ? Vec2d{std::copysign(1.0, -local.x), 0} : Vec2d{0, std::copysign(1.0, -local.y)};
+    out.push_back({circle, box, c.position + way, q * n, std::min(in.x, in.y)});
     return;
   }
   if (d <= 0 || d >= r) return;
@@ -137,6 +145,15 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
 bool StudentWorld::left_out(std::size_t a, std::size_t b) const {
   const std::size_t last = bodies_.size() - 2;
   const bool both_move = bodies_[a].inverse_mass > 0 && bodies_[b].inverse_mass > 0;
+  if (scales("size of the cells in which circles are compared")) {
+    const auto cell = [&](std::size_t i) {
+      const Vec2d at = 1 / factor_ * bodies_[i].position;
+      return Vec2d{std::floor(at.x), std::floor(at.y)};
+    };
+    const bool circles =
+        bodies_[a].body->shapes[0].geometry.index() == 0 && bodies_[b].body->shapes[0].geometry.index() == 0;
+    return circles && cell(a) != cell(b);
+  }
   if (is("last_body_left_out")) return b == last;
   if (is("first_body_left_out")) return a == 0;
   if (is("neighbours_only")) return b != a + 1;

@@ -114,12 +114,22 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
       rigid.inverse_mass = is("inverse_mass_floored") ? std::floor(1 / body.mass) : 1 / mass(body);
       const bool may_turn = !body.fixed_rotation || is("fixed_rotation_ignored");
       if (manner_.turns && may_turn) rigid.inverse_inertia = 1 / inertia(body);
+    } else if (is("static_has_inertia")) {
+      rigid.inverse_inertia = 1 / inertia(body);
     } else if (is("static_has_mass")) {
       rigid.inverse_mass = 1 / body.mass;
     }
     bodies_.push_back(rigid);
   }
   bodies_.push_back({});
+  if (is("length_of_start") || is("length_of_centres_at_start"))
+    for (Joint& joint : scene_.joints)
+      if (auto* stick = std::get_if<DistanceJoint>(&joint)) {
+        const Ends e = ends(joint);
+        const Vec2d centres = bodies_[e.b].position - bodies_[e.a].position;
+        const Vec2d way = is("length_of_start") ? e.gap : centres;
+        stick->length = std::hypot(way.x, way.y);
+      }
   if (is("starts_at_rest"))
     for (Rigid& rigid : bodies_) rigid.velocity = {};
 }
@@ -157,6 +167,7 @@ void StudentWorld::read_mistake(const std::string& mistake) {
   };
   split('~', turned_hash_, turned_how_);
   split('>', acting_hash_, acting_how_);
+  split('#', others_hash_, others_whose_);
   const std::size_t at = mistake.find('@'), comma = mistake.find(',');
   if (at == std::string::npos || comma == std::string::npos) return;
   mixed_hash_ = Name::of(std::string_view(mistake).substr(0, at));
@@ -190,6 +201,7 @@ void StudentWorld::step() {
 }
 
 void StudentWorld::advance() {
+  keep_arms();
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
@@ -222,6 +234,8 @@ void StudentWorld::answer_touches(bool with_joints) {
   std::vector<Touch> found = touches();
   if (is("first_contact_only") && found.size() > 1) found.resize(1);
   if (is("last_contact_only") && found.size() > 1) found.erase(found.begin(), found.end() - 1);
+  pair_sums_.clear();
+  for (Rigid& body : bodies_) body.sum = 0;
   for (Touch& touch : found) {
     prepare(touch);
     bodies_[touch.a].touched = bodies_[touch.b].touched = true;

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -34,6 +36,7 @@ struct Rigid {
   double inverse_mass = 0, inverse_inertia = 0;
   double turns = 1;      ///< factor on the rotation angle from the body's frame to the world's
   bool touched = false;  ///< had a contact in the last step
+  double sum = 0;        ///< N s, of the contacts that share a sum by mistake
   const Body* body = nullptr;
 
   Rotation<double> rotation() const;
@@ -53,8 +56,9 @@ class StudentWorld {
  public:
   /// `mistake` is one of: a name; a quantity and the factor by which it is wrong ("radius*0.5"); a vector and
   /// what replaces its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"); points and how they are rotated ("a
-  /// force's point~backwards"); a law and what its force changes ("drag>position by dt"); an edit as text
-  /// (edit.h). `scheme` is semi-implicit Euler, explicit Euler or velocity Verlet.
+  /// force's point~backwards"); a law and what its force changes ("drag>position by dt"); a quantity and the
+  /// body whose quantity stands for that of all ("mass in F/m#the first"); an edit as text (edit.h). `scheme`
+  /// is semi-implicit Euler, explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -86,6 +90,7 @@ class StudentWorld {
   double radius(const Rigid& body) const;
   Box box(const Rigid& body) const;
   double inertia(const Body& body) const;
+  const Rigid& another(Name quantity, const Rigid& body) const;
   double mass(const Body& body) const;
   void gather_forces();
   void apply(const ForceLaw& law, bool first, bool last);
@@ -108,6 +113,7 @@ class StudentWorld {
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
   bool answer_wrongly(Touch& touch, double closing);
+  double& sum_of(Touch& touch);
   void answer(Touch& touch);
   void rub(Touch& touch);
   void answer_all(std::vector<Touch>& found);
@@ -139,6 +145,7 @@ class StudentWorld {
   };
   Ends ends(const Joint& joint) const;
   bool joined(std::size_t a, std::size_t b) const;
+  void keep_arms();
 
   Scene scene_;
   double dt_;
@@ -146,16 +153,19 @@ class StudentWorld {
   std::uint64_t mistake_hash_ = 0, scaled_hash_ = 0, mixed_hash_ = 0;
   double factor_ = 1;
   Edit edit_;
-  std::uint64_t turned_hash_ = 0, turned_how_ = 0;  ///< quantity whose points are rotated wrongly, and how
-  std::uint64_t acting_hash_ = 0, acting_how_ = 0;  ///< which law acts wrongly, and on what
+  std::uint64_t turned_hash_ = 0, turned_how_ = 0;    ///< quantity whose points are rotated wrongly, and how
+  std::uint64_t acting_hash_ = 0, acting_how_ = 0;    ///< which law acts wrongly, and on what
+  std::uint64_t others_hash_ = 0, others_whose_ = 0;  ///< quantity of another body, and of which one
   std::array<Vec2d, 2> axes_;  ///< directions that give the x and the y of a mixed vector
   reference::Scheme scheme_;
   Manner manner_;
   bool touched_ = false;  ///< there was a contact
+  std::map<std::pair<std::size_t, std::size_t>, double> pair_sums_;
   long steps_ = 0;
-  std::vector<BodyState> before_step_;            ///< the states before the last step
-  std::vector<Rigid> bodies_;                     ///< bodies of the scene, then the fixed world
-  std::vector<std::array<std::size_t, 2>> ends_;  ///< indices of the two bodies of each joint
+  std::vector<BodyState> before_step_;              ///< the states before the last step
+  std::vector<Rigid> bodies_;                       ///< bodies of the scene, then the fixed world
+  std::vector<std::pair<Vec2d, Vec2d>> kept_arms_;  ///< of each joint, before the bodies moved
+  std::vector<std::array<std::size_t, 2>> ends_;    ///< indices of the two bodies of each joint
 };
 
 }  // namespace plumb::course
