@@ -237,6 +237,8 @@ class BasicWorld {
   ChainDefinition definition(ChainId chain) const;  ///< as at present; could be added again
 
   // Joints.
+  /// Joins two different bodies of any types. The joint acts while one of them is dynamic and both are
+  /// enabled.
   JointId create_joint(BodyId a, BodyId b, const JointDefinition& definition);
   void destroy(JointId joint);
   bool valid(JointId joint) const;

@@ -174,13 +174,13 @@ struct BodyVelocity {
   Real angular_velocity = 0;  ///< rad/s
 };
 
-/// External velocity change of a body in a substep: forces and damping.
+/// External velocity change of a body in a substep, by forces and damping: v' = damping_factor v + velocity.
 template <class Real>
 struct VelocityIncrement {
   int body = 0;
-  Vec2<Real> velocity{};                             ///< m/s
-  Real spin = 0;                                     ///< rad/s
-  Real damping_factor = 1, spin_damping_factor = 1;  ///< factors by damping
+  Vec2<Real> velocity{};                             ///< m/s, by forces, as far as damping leaves it
+  Real spin = 0;                                     ///< rad/s, the same
+  Real damping_factor = 1, spin_damping_factor = 1;  ///< of the velocities before
   bool locked_x = false, locked_y = false;
   bool in_tree = false;          ///< moved as part of its articulated body
   Vec2<Real> velocity_before{};  ///< m/s, after forces, before contact impulses of this substep

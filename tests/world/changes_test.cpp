@@ -2,9 +2,12 @@
 // Readers that fill a span give what those that return a vector give.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/world/queries.h"
 #include "engine/world/recorder.h"
@@ -169,6 +172,89 @@ TYPED_TEST(Changes, AJointOfADisabledBodyHoldsAgainWhenItIsEnabled) {
   this->run(60);
   EXPECT_NEAR(w.position(hung).y, 5, 1e-3);
   EXPECT_NEAR(w.read(joint).force, 9.81, 0.1);
+}
+
+// A prefab is built disabled, joint by joint, in any order of the bodies: enabled, it moves as one that was
+// built enabled.
+TYPED_TEST(Changes, JointsOfDisabledBodiesHoldFromWhenTheyAreEnabled) {
+  const auto build = [](BasicWorld<TypeParam>& w, bool disabled) {
+    const BodyId wall = w.create_body({.type = BodyType::Static, .position = {0, 5}});
+    std::vector<BodyId> links;
+    for (int i = 0; i < 3; ++i)
+      links.push_back(w.create_body({.position = {i + 0.5, 5}}, ShapeDefinition{.geometry = Box{1, 0.2}}));
+    if (disabled)
+      for (const BodyId link : links) w.set_enabled(link, false);
+    const RevoluteDefinition hinge{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}};
+    const JointId first = w.create_joint(wall, links[0], {.kind = RevoluteDefinition{.anchor_b = {-0.5, 0}}});
+    w.create_joint(links[0], links[1], {.kind = hinge});
+    w.create_joint(links[1], links[2], {.kind = WeldDefinition{.anchor_a = {0.5, 0}, .anchor_b = {-0.5, 0}}});
+    const JointId mouse = w.create_joint(
+        wall, links[2], {.kind = MouseDefinition{.anchor_b = {0.5, 0}, .target = {3, 5}, .max_force = 1}});
+    w.change(first, w.kind(first)), w.change(mouse, w.kind(mouse));
+    if (disabled) {
+      for (int i = 0; i < 30; ++i) w.step();
+      EXPECT_EQ(w.position(links[2]).y, 5) << "a disabled body does not move";
+      for (const BodyId link : links) w.set_enabled(link, true);
+    }
+    for (int i = 0; i < 60; ++i) w.step();
+    return w.position(links[2]);
+  };
+  BasicWorld<TypeParam> plain, late;
+  const Vec2d expected = build(plain, false);
+  EXPECT_LT(expected.y, 4);
+  EXPECT_EQ(build(late, true), expected);
+}
+
+// Bodies that are frozen, held by a joint that was there or made while they were, then released.
+TYPED_TEST(Changes, JointsBetweenFrozenBodiesHoldOnceOneIsDynamic) {
+  for (const BodyType frozen : {BodyType::Static, BodyType::Kinematic}) {
+    for (const bool made_frozen : {false, true}) {
+      BasicWorld<TypeParam> w;
+      const BodyId wall = w.create_body({.type = frozen, .position = {0, 5}});
+      const BodyId bob = w.create_body({.type = made_frozen ? frozen : BodyType::Dynamic, .position = {1, 5}},
+                                       ShapeDefinition{.geometry = Box{0.2, 0.2}});
+      const JointId joint = w.create_joint(wall, bob, {.kind = RevoluteDefinition{.anchor_b = {-1, 0}}});
+      w.set_type(bob, frozen);
+      w.change(joint, w.kind(joint));
+      w.change(joint, DistanceDefinition{.length = 1});
+      for (int i = 0; i < 30; ++i) w.step();
+      EXPECT_EQ(w.position(bob), (Vec2d{1, 5}));
+      EXPECT_EQ(w.read(joint).force, 0);
+      const std::vector<std::byte> saved = save(w);
+      w.set_type(bob, BodyType::Dynamic);
+      double farthest = 0, lowest = 5;
+      for (int i = 0; i < 60; ++i) {
+        w.step();
+        lowest = std::min(lowest, w.position(bob).y);
+        farthest = std::max(farthest, std::abs(length(w.position(bob) - Vec2d{0, 5}) - 1));
+      }
+      EXPECT_LT(lowest, 4.01) << "it swings";
+      EXPECT_LT(farthest, 1e-3);
+      BasicWorld<TypeParam> again;
+      restore(again, saved);
+      again.set_type(bob, BodyType::Dynamic);
+      for (int i = 0; i < 60; ++i) again.step();
+      EXPECT_EQ(again.hash(), w.hash());
+      w.set_type(bob, BodyType::Static);
+      w.set_enabled(wall, false), w.set_enabled(wall, true);
+      w.step();
+      EXPECT_EQ(w.read(joint).force, 0);
+    }
+  }
+}
+
+// Mouse joints pull only their body b: one that is frozen stays, and its partner does not feel it.
+TYPED_TEST(Changes, AMouseJointWaitsForItsBodyToBecomeDynamic) {
+  BasicWorld<TypeParam> w({.gravity = {0, 0}});
+  const BodyId partner = w.create_body({}, ShapeDefinition{}),
+               held = w.create_body({.type = BodyType::Static, .position = {5, 0}}, ShapeDefinition{});
+  w.create_joint(partner, held, {.kind = MouseDefinition{.target = {5, 3}, .max_force = 1000}});
+  for (int i = 0; i < 30; ++i) w.step();
+  EXPECT_EQ(w.position(held), (Vec2d{5, 0}));
+  EXPECT_EQ(w.position(partner), (Vec2d{0, 0}));
+  w.set_type(held, BodyType::Dynamic);
+  for (int i = 0; i < 300; ++i) w.step();
+  EXPECT_NEAR(w.position(held).y, 3, 1e-2);
 }
 
 TYPED_TEST(Changes, AreReplayed) {

@@ -99,6 +99,63 @@ TYPED_TEST(Motion, DampingIsExponential) {
   EXPECT_NEAR(world.angular_velocity(body), 4 * std::exp(-3 * 1.5), rounding<TypeParam>(4, 360));
 }
 
+// A body on a rail, two welded ones, one on a frictionless slope, a rotor under a torque and a link that
+// falls by its hinge's side all have the force / damping of a free body as terminal speed.
+TYPED_TEST(Motion, TheTerminalSpeedOfDampedBodiesWithJointsAndContactsIsTheFreeOne) {
+  constexpr double kSlope = 0.5;  // rad
+  for (const Solver solver :
+       {Solver::SoftSteps, Solver::SequentialImpulses, Solver::Jakobsen, Solver::Xpbd, Solver::Direct}) {
+    for (const double c : {2.0, 10.0, 100.0}) {
+      WorldDefinition settings = without_sleep();
+      settings.solver = solver;
+      BasicWorld<TypeParam> world(settings);
+      const Vec2d along{std::cos(kSlope), std::sin(kSlope)}, up{-along.y, along.x};
+      const Material smooth{.friction = 0};
+      const BodyId fixed = world.create_body({.type = BodyType::Static});
+      world.create_shape(fixed, {.geometry = Box{400, 1},
+                                 .position = Vec2d{0, 500} - 0.5 * up,
+                                 .angle = kSlope,
+                                 .material = smooth});
+      const auto body = [&](Vec2d at, double angle = 0) {
+        return world.create_body({.position = at, .angle = angle, .linear_damping = c, .angular_damping = c},
+                                 ShapeDefinition{.geometry = Box{1, 1}, .material = smooth});
+      };
+      const BodyId bead = body({0, 0}), left = body({4, 0}), right = body({6, 0}), rotor = body({10, 0}),
+                   slider = body(Vec2d{0, 500} + 0.5 * up, kSlope);
+      world.create_joint(fixed, bead, {.kind = PrismaticDefinition{.axis = {0, 1}}});
+      world.create_joint(left, right, {.kind = WeldDefinition{.anchor_a = {2, 0}}});
+      world.create_joint(fixed, rotor,
+                         {.kind = RevoluteDefinition{.anchor_a = {10, 0}, .motor = Motor{0, 0}}});
+      for (int i = 0; i < 60 + static_cast<int>(600 / c); ++i) {
+        world.apply_torque(rotor, 3 * world.inertia(rotor));
+        world.step(1.0 / 60, 4);
+      }
+      // Rounding in float: half a unit in the last place per substep, of which 1 / (c h) add up.
+      const double tolerance = 5e-5;
+      EXPECT_NEAR(world.velocity(bead).y * c / kGravity, -1, tolerance) << c << int(solver);
+      EXPECT_NEAR(world.velocity(left).y * c / kGravity, -1, tolerance) << c << int(solver);
+      EXPECT_NEAR(world.angular_velocity(rotor) * c / 3, 1, tolerance) << c << int(solver);
+      EXPECT_NEAR(dot(world.velocity(slider), along) * c / (kGravity * std::sin(kSlope)), -1, tolerance)
+          << c << int(solver);
+    }
+  }
+}
+
+// A damped pendulum's hinge hides no damping: the tree takes substeps in parts when it turns fast.
+TYPED_TEST(Motion, AHingedRotorThatTurnsFastReachesTorqueOverDamping) {
+  for (const double c : {10.0, 100.0}) {
+    BasicWorld<TypeParam> world(weightless());
+    const BodyId fixed = world.create_body({.type = BodyType::Static});
+    const BodyId rotor = world.create_body({.angular_damping = c}, ShapeDefinition{.geometry = Box{1, 1}});
+    world.create_joint(fixed, rotor, {.kind = RevoluteDefinition{}});
+    for (int i = 0; i < 120; ++i) {
+      world.apply_torque(rotor, 90 * c * world.inertia(rotor));
+      world.step(1.0 / 60, 4);
+    }
+    EXPECT_NEAR(world.angular_velocity(rotor), 90, 90 * 1e-4) << c;
+  }
+}
+
 TYPED_TEST(Motion, GravityScaleAndLocks) {
   BasicWorld<TypeParam> world;
   BodyDefinition definition;

@@ -43,8 +43,11 @@ DampedMeans damped_means(double x) {
 
 }  // namespace
 
+namespace {
+
+// Returns the change of a body's velocities by gravity and loads alone, with the factors of its damping.
 template <class Real>
-VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time) {
+VelocityIncrement<Real> undamped_increment_of(const WorldData<Real>& w, int body, double time) {
   const BodyRecord<Real>& record = w.bodies[body];
   const SolverBody<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(time);
@@ -64,12 +67,26 @@ VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body
   return increment;
 }
 
+}  // namespace
+
+template <class Real>
+VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time) {
+  VelocityIncrement<Real> increment = undamped_increment_of(w, body, time);
+  const auto first_mean = [time](Real damping) {
+    return static_cast<Real>(damped_means(time * double(damping)).first);
+  };
+  if (increment.damping_factor != 1)
+    increment.velocity = first_mean(w.extras_of(body).linear_damping) * increment.velocity;
+  if (increment.spin_damping_factor != 1) increment.spin *= first_mean(w.extras_of(body).angular_damping);
+  return increment;
+}
+
 namespace {
 
 template <class Real>
 void apply(const VelocityIncrement<Real>& increment, SolverBody<Real>& motion) {
-  motion.velocity = increment.damping_factor * (motion.velocity + increment.velocity);
-  motion.angular_velocity = increment.spin_damping_factor * (motion.angular_velocity + increment.spin);
+  motion.velocity = increment.damping_factor * motion.velocity + increment.velocity;
+  motion.angular_velocity = increment.spin_damping_factor * motion.angular_velocity + increment.spin;
   if (increment.locked_x) motion.velocity.x = 0;
   if (increment.locked_y) motion.velocity.y = 0;
 }
@@ -98,7 +115,7 @@ Value integrate_damped(Value& velocity, Value gain, Real damping_factor, double 
 // Moves a body in free flight through the step. Exact for constant acceleration.
 template <class Real>
 void integrate_free_body(WorldData<Real>& w, int body, double dt) {
-  const VelocityIncrement<Real> increment = velocity_increment_of(w, body, dt);
+  const VelocityIncrement<Real> increment = undamped_increment_of(w, body, dt);
   const BodyExtras<Real>& own = w.extras_of(body);
   SolverBody<Real>& motion = w.motion[body];
   const Real t = static_cast<Real>(dt);

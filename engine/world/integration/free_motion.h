@@ -6,7 +6,9 @@
 /// change the velocity, and the velocity moves the body.
 namespace plumb {
 
-/// Returns the changes of a body's velocities by gravity and loads in `time`, s, and its damping factors.
+/// Returns the changes of a body's velocities by gravity, loads and damping in `time`, s: exact for a
+/// constant acceleration a and a damping c, v' = e^-x v + (1 - e^-x) / x t a with x = c t. So the terminal
+/// speed is a / c for every length of the substep.
 template <class Real>
 VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body, double time);
 

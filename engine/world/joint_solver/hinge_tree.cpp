@@ -30,10 +30,14 @@ constexpr double kDivergence = 2;
 
 // ---- Motion
 
-// Returns a damping factor to the power of `fraction`, a power of two up to 1.
-double damping_power(double factor, double fraction) {
-  for (; fraction < 1 && factor != 1; fraction *= 2) factor = std::sqrt(factor);
-  return factor;
+// Returns the velocity after a fraction of a substep, a power of two up to 1, in which forces and damping
+// make v to factor v + increment. A half does half of both: factor^(1/2) and increment / (1 + factor^(1/2)),
+// which applied twice give the whole.
+template <class Value>
+Value after_forces(Value velocity, Value increment, double factor, double fraction) {
+  if (factor == 1) return velocity + fraction * increment;
+  for (; fraction < 1; fraction *= 2) factor = std::sqrt(factor), increment *= 1 / (1 + factor);
+  return factor * velocity + increment;
 }
 
 // Applies a fraction of the forces and the damping of a substep.
@@ -41,10 +45,8 @@ void apply_forces(std::span<ArticulatedLink> tree, double fraction) {
   if (fraction == 0) return;
   for (ArticulatedLink& link : tree) {
     if (!link.is_dynamic) continue;
-    link.velocity += fraction * link.velocity_increment;
-    link.spin += fraction * link.spin_increment;
-    link.velocity *= damping_power(link.damping_factor, fraction);
-    link.spin *= damping_power(link.spin_damping_factor, fraction);
+    link.velocity = after_forces(link.velocity, link.velocity_increment, link.damping_factor, fraction);
+    link.spin = after_forces(link.spin, link.spin_increment, link.spin_damping_factor, fraction);
   }
 }
 

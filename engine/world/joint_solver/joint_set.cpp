@@ -15,16 +15,10 @@
 namespace plumb {
 namespace {
 
-void check_bodies(const JointKind& definition, int body_a, int body_b, bool dynamic_a, bool dynamic_b) {
-  const std::string subject = name_of(definition);
+void check_bodies(const JointKind& definition, int body_a, int body_b) {
   if (body_a == body_b)
-    throw Error(Error::Kind::Value, subject, "body_b", std::to_string(body_b),
+    throw Error(Error::Kind::Value, name_of(definition), "body_b", std::to_string(body_b),
                 "must not be body_a: a joint needs two bodies");
-  const bool mouse = std::holds_alternative<MouseDefinition>(definition);
-  if (!dynamic_b && (mouse || !dynamic_a))
-    throw Error(Error::Kind::Value, subject, mouse ? "body_b" : "bodies", "",
-                mouse ? "must be dynamic: nothing else can be pulled"
-                      : "must not both be static or kinematic: a joint moves neither");
 }
 
 template <class Real>
@@ -177,7 +171,7 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
                         Vec2<Real> centre_b, bool dynamic_a, bool dynamic_b,
                         const SolverBodies<Real>& bodies) {
   validate(definition);
-  check_bodies(definition, body_a, body_b, dynamic_a, dynamic_b);
+  check_bodies(definition, body_a, body_b);
   Parts& p = *parts_;
   ensure_capacity(p.free, p.slots.size() + 1);  // so that removing a joint does not allocate
   if (p.free.empty()) {
@@ -196,7 +190,7 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
                    .used = true,
                    .dynamic_a = dynamic_a,
                    .dynamic_b = dynamic_b,
-                   .active = true};
+                   .active = dynamic_a || dynamic_b};
   try {
     p.create(joint);
   } catch (...) {
@@ -205,7 +199,7 @@ int JointSet<Real>::add(const JointKind& definition, int body_a, int body_b, Vec
     throw;
   }
   ++p.count;
-  ++p.active;
+  if (p.slot(joint).active) ++p.active;
   return joint;
 }
 
@@ -231,11 +225,13 @@ void JointSet<Real>::set_active(int joint, bool active) {
 }
 
 template <class Real>
-void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b) {
+void JointSet<Real>::set_dynamic(int joint, bool dynamic_a, bool dynamic_b, bool active) {
   Parts& p = *parts_;
   const JointSlot& s = p.slot(joint);
-  if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b) return;
-  p.relocate(joint, s.active, dynamic_a, dynamic_b);
+  if (s.dynamic_a == dynamic_a && s.dynamic_b == dynamic_b && s.active == active) return;
+  const int before = s.active ? 1 : 0;
+  p.relocate(joint, active, dynamic_a, dynamic_b);
+  p.active += (active ? 1 : 0) - before;
 }
 
 template <class Real>
@@ -243,7 +239,6 @@ void JointSet<Real>::change(int joint, const JointKind& definition) {
   Parts& p = *parts_;
   JointSlot& s = p.slot(joint);
   validate(definition);
-  check_bodies(definition, s.a, s.b, s.dynamic_a, s.dynamic_b);
   if (form_of(definition) == s.form) {
     s.definition = definition;
     reload(p, joint);

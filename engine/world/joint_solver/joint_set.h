@@ -105,14 +105,14 @@ class JointSet {
   /// Adds a joint between bodies `body_a` and `body_b`. Returns its slot, which is valid until `remove`; the
   /// slot freed last is reused first. `centre_a` and `centre_b` are the centres of mass in the bodies'
   /// frames. The pose in which `bodies` are is the joint's reference, at which its springs have their
-  /// stiffness (spring_stiffness.h). Throws Error (Value) for a definition that `validate` rejects, for a
-  /// body joined to itself, and if no body is dynamic.
+  /// stiffness (spring_stiffness.h). The joint is active if one of them is dynamic. Throws Error (Value) for
+  /// a definition that `validate` rejects, and for a body joined to itself.
   int add(const JointKind& definition, int body_a, int body_b, Vec2<Real> centre_a, Vec2<Real> centre_b,
           bool dynamic_a, bool dynamic_b, const SolverBodies<Real>& bodies);
   void remove(int joint);
 
   /// Activates or deactivates a joint. An inactive joint keeps its impulses and takes no part in steps (its
-  /// bodies sleep).
+  /// bodies sleep, or none of them is dynamic now).
   void set_active(int joint, bool active);
 
   const JointKind& definition(int joint) const;
@@ -124,8 +124,8 @@ class JointSet {
   void change(int joint, const JointKind& definition);
   /// Updates the centres of mass, after one has moved in its body's frame.
   void recentre(int joint, Vec2<Real> centre_a, Vec2<Real> centre_b);
-  /// Updates which bodies are dynamic.
-  void set_dynamic(int joint, bool dynamic_a, bool dynamic_b);
+  /// Updates which bodies are dynamic, and activates or deactivates the joint.
+  void set_dynamic(int joint, bool dynamic_a, bool dynamic_b, bool active);
   /// Sets the angles of bodies a and b, rad, with their turns: a gear before its first step is assembled at
   /// these. Without it, such angles are in [-pi, pi].
   void set_initial_angles(int joint, double angle_a, double angle_b);

@@ -62,21 +62,25 @@ void reserve_proxies(WorldData<Real>& w, int body, BodyType type) {
   ensure_capacity(w.awake, w.awake.size() + 1);
 }
 
-// Tells all joints of a body whether it is dynamic. If that throws, no joint is changed.
+// Tells all joints of a body whether it is dynamic. Those without a dynamic body take no part in steps. All
+// bodies of the joints must be awake. If that throws, no joint is changed.
 template <class Real>
 void set_joints_dynamic(WorldData<Real>& w, int body, bool is_dynamic) {
   const auto set = [&](const JointRecord& joint, bool to) {
-    w.joint_set.set_dynamic(joint.slot, joint.body_a == body ? to : w.is_dynamic(joint.body_a),
-                            joint.body_b == body ? to : w.is_dynamic(joint.body_b));
+    const bool dynamic_a = joint.body_a == body ? to : w.is_dynamic(joint.body_a),
+               dynamic_b = joint.body_b == body ? to : w.is_dynamic(joint.body_b),
+               active = !has_quarantined_body(w, joint) && (dynamic_a || dynamic_b);
+    w.joint_set.set_dynamic(joint.slot, dynamic_a, dynamic_b, active);
   };
+  const int first = w.bodies[body].first_joint;
   try {
-    for_each_edge(w.joints, w.bodies[body].first_joint,
-                  [&](int, JointRecord& joint) { set(joint, is_dynamic); });
+    for_each_edge(w.joints, first, [&](int, const JointRecord& joint) { set(joint, is_dynamic); });
   } catch (...) {
-    for_each_edge(w.joints, w.bodies[body].first_joint,
-                  [&](int, JointRecord& joint) { set(joint, w.is_dynamic(body)); });
+    for_each_edge(w.joints, first, [&](int, const JointRecord& joint) { set(joint, w.is_dynamic(body)); });
     throw;
   }
+  for_each_edge(w.joints, first,
+                [&](int, JointRecord& joint) { joint.active = w.joint_set.active(joint.slot); });
 }
 
 template <class Real>

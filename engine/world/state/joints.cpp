@@ -53,7 +53,7 @@ int add_joint(WorldData<Real>& w, int body_a, int body_b, const JointDefinition&
   record.body_a = body_a, record.body_b = body_b;
   record.slot = slot;
   record.collide = definition.collide;
-  record.active = true;
+  record.active = w.joint_set.active(slot);
   record.break_force = definition.break_force, record.break_torque = definition.break_torque;
   record.report_force = definition.report_force, record.report_torque = definition.report_torque;
   record.user_data = definition.user_data;

@@ -51,10 +51,12 @@ template <class Real>
 void reattach_joint(WorldData<Real>& w, JointRecord& joint) {
   if (has_quarantined_body(w, joint)) return;  // the joint stays inactive because of the other body
   ++w.bodies[joint.body_a].constraints, ++w.bodies[joint.body_b].constraints;
-  w.joint_set.set_dynamic(joint.slot, w.is_dynamic(joint.body_a), w.is_dynamic(joint.body_b));
+  const bool dynamic_a = w.is_dynamic(joint.body_a), dynamic_b = w.is_dynamic(joint.body_b);
+  w.joint_set.set_dynamic(joint.slot, dynamic_a, dynamic_b, joint.active);
   w.joint_set.reset(joint.slot);
   wake_body(w, joint.body_a), wake_body(w, joint.body_b);
-  if (!joint.active) w.joint_set.set_active(joint.slot, true), joint.active = true;
+  if (!joint.active && (dynamic_a || dynamic_b))
+    w.joint_set.set_active(joint.slot, true), joint.active = true;
 }
 
 // Removes a body from the simulation: until its release it is static, without contacts, joints and proxies.
