@@ -465,6 +465,7 @@ struct WorldData {
   Events pending;  ///< since then; reported with the next step
   bool stepping = false;
   bool profiled = false;  ///< stages are timed
+  int last_substeps = 0;  ///< of the last step
   WorldProfile profile{};
   LoopScheduler scheduler;  ///< the threads that share a step
   mutable std::atomic<int> active_callbacks{

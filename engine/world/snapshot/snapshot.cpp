@@ -12,7 +12,7 @@ namespace plumb {
 namespace {
 
 // Version of the format. Increase it if the meaning of bytes changes while their sizes stay the same.
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 
 // "plumbsav" in little-endian order.
 constexpr std::uint64_t kMagic = 0x766173626D756C70u;
