@@ -183,8 +183,9 @@ struct VelocityIncrement {
   Real damping_factor = 1, spin_damping_factor = 1;  ///< of the velocities before
   bool locked_x = false, locked_y = false;
   bool in_tree = false;          ///< moved as part of its articulated body
-  Vec2<Real> velocity_before{};  ///< m/s, after forces, before contact impulses of this substep
-  Real spin_before = 0;          ///< rad/s
+  Vec2<Real> velocity_before{};  ///< m/s, after forces, before contact impulses of this substep. Before the
+                                 ///< first: m, the displacement of the last step
+  Real spin_before = 0;          ///< rad/s, the same; rad
 };
 
 /// A body whose motion in a step is tested for impacts, because it moved far for its size, or because a
@@ -468,6 +469,7 @@ struct WorldData {
   Events pending;  ///< since then; reported with the next step
   bool stepping = false;
   bool profiled = false;  ///< stages are timed
+  int last_substeps = 0;  ///< of the last step
   WorldProfile profile{};
   LoopScheduler scheduler;  ///< the threads that share a step
   mutable std::atomic<int> active_callbacks{

@@ -230,6 +230,8 @@ MUTATIONS = [
     # The real-time world.
     Mutation("world: a limit pulls", "engine/world/joint_solver/joint_rule.h",
              "return role == RowRole::Limit ? Real(0) : Real(-max_impulse);", "return -max_impulse;", "world"),
+    Mutation("world: lifts jerk at every step's start", "engine/world/solvers/soft_step.cpp",
+             "ramps = ramp_kinematic_velocities(w, h, substeps);", "ramps = false;", "world"),
     Mutation("world: flight falls g t^2", "engine/world/integration/free_motion.cpp",
              "const Vec2<Real> before = motion.velocity; motion.velocity += gain;",
              "motion.velocity += gain; const Vec2<Real> before = motion.velocity;", "world"),

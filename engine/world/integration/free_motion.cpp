@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/capacity.h"
 #include "engine/math/small_rotation.h"
@@ -210,8 +211,10 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
       return;
     }
     SolverBody<Real>& motion = w.motion[body];
-    motion.delta_position = {}, motion.delta_angle = 0;
     VelocityIncrement<Real> increment = velocity_increment_of(w, body, h);
+    // The displacement of the last step, for `ramp_kinematic_velocities`.
+    increment.velocity_before = motion.delta_position, increment.spin_before = motion.delta_angle;
+    motion.delta_position = {}, motion.delta_angle = 0;
     increment.in_tree = articulated && w.scratch.trees.is_link[body];
     add(increment, BodyVelocity<Real>{motion.velocity, motion.angular_velocity});
   };
@@ -235,6 +238,73 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
       });
     }
   });
+}
+
+namespace {
+
+// Returns the displacement of a body that moves by equal velocities in the substeps, as their sum rounds it.
+template <class Value, class Real>
+Value displacement_by(Value velocity, Real h, int substeps) {
+  Value sum{};
+  for (int i = 0; i < substeps; ++i) sum += h * velocity;
+  return sum;
+}
+
+// Returns the fraction of a change of `size` that is at most `limit`.
+template <class Real>
+Real fraction_within(Real size, Real limit) {
+  return size > limit ? limit / size : 1;
+}
+
+}  // namespace
+
+template <class Real>
+bool ramp_kinematic_velocities(WorldData<Real>& w, double h, int substeps) {
+  const double last_dt = w.last_h * w.last_substeps;
+  const Real most = static_cast<Real>(h * substeps * std::sqrt(length_squared(w.settings.gravity)));
+  if (substeps == 1 || !(most > 0)) return false;
+  const Real last_h = static_cast<Real>(w.last_h),
+             per_time = last_dt > 0 ? static_cast<Real>(1 / last_dt) : 0,
+             per_substep = Real(1) / static_cast<Real>(substeps);
+  // Relative rounding of a displacement that is a sum over the substeps, or a single product in free motion.
+  const Real rounding = static_cast<Real>(w.last_substeps + 1) * std::numeric_limits<Real>::epsilon();
+  // Returns the change from the mean velocity of the last step; none if its displacement is that of `now`.
+  const auto change_to = [&](Real now, Real last_displacement) {
+    if (per_time == 0) return now;
+    const Real expected = displacement_by(now, last_h, w.last_substeps),
+               missed = expected - last_displacement;
+    return std::abs(missed) <= rounding * std::abs(expected) ? Real(0) : per_time * missed;
+  };
+  bool any = false;
+  for (VelocityIncrement<Real>& increment : w.scratch.velocity_increments) {
+    SolverBody<Real>& motion = w.motion[increment.body];
+    if (is_dynamic(motion) || w.bodies[increment.body].type != BodyType::Kinematic) continue;
+    Vec2<Real> change{change_to(motion.velocity.x, increment.velocity_before.x),
+                      change_to(motion.velocity.y, increment.velocity_before.y)};
+    Real spin_change = change_to(motion.angular_velocity, increment.spin_before);
+    if (change == Vec2<Real>{} && spin_change == 0) continue;
+    change = fraction_within(std::sqrt(length_squared(change)), most) * change;
+    spin_change *= fraction_within(std::abs(spin_change) * w.extents[increment.body], most);
+    increment.velocity = per_substep * change, increment.spin = per_substep * spin_change;
+    // The first substep adds an increment to this, so that the mean is the given velocity.
+    const Real lead = Real(0.5) * (1 + per_substep);
+    motion.velocity -= lead * change, motion.angular_velocity -= lead * spin_change;
+    any = true;
+  }
+  return any;
+}
+
+template <class Real>
+void end_kinematic_ramps(WorldData<Real>& w, double h, int substeps) {
+  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  for (std::size_t i = 0; i < increments.size(); ++i) {
+    SolverBody<Real>& motion = w.motion[increments[i].body];
+    if (is_dynamic(motion) || w.bodies[increments[i].body].type != BodyType::Kinematic) continue;
+    const BodyVelocity<Real>& given = w.scratch.start_velocities[i];
+    motion.velocity = given.velocity, motion.angular_velocity = given.angular_velocity;
+    motion.delta_position = displacement_by(given.velocity, static_cast<Real>(h), substeps);
+    motion.delta_angle = displacement_by(given.angular_velocity, static_cast<Real>(h), substeps);
+  }
 }
 
 template <class Real>
@@ -272,7 +342,8 @@ void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
     Real delta_angle = h * motion.angular_velocity;
     if (weight != 0 && motion.velocity == increment.velocity_before &&
         motion.angular_velocity == increment.spin_before && increment.damping_factor == 1 &&
-        increment.spin_damping_factor == 1 && w.bodies[increment.body].first_joint == kNone) {
+        increment.spin_damping_factor == 1 && w.bodies[increment.body].first_joint == kNone &&
+        is_dynamic(motion)) {
       motion.delta_position -= (weight * h) * increment.velocity;
       delta_angle -= (weight * h) * increment.spin;
       if (increment.locked_x) motion.delta_position.x = 0;
@@ -310,6 +381,8 @@ Real bounce_threshold(const WorldData<Real>& w, double dt) {
 #define PLUMB_FOR(Real)                                                                        \
   template VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>&, int, double); \
   template void prepare_integration(WorldData<Real>&, double, int, Integrator);                \
+  template bool ramp_kinematic_velocities(WorldData<Real>&, double, int);                      \
+  template void end_kinematic_ramps(WorldData<Real>&, double, int);                            \
   template void integrate_velocities(WorldData<Real>&);                                        \
   template void integrate_and_warm_start(WorldData<Real>&);                                    \
   template void integrate_positions(WorldData<Real>&, Real, Integrator);                       \

@@ -18,6 +18,20 @@ VelocityIncrement<Real> velocity_increment_of(const WorldData<Real>& w, int body
 template <class Real>
 void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator);
 
+/// Spreads the changes of kinematic bodies' velocities since the last step over the substeps of this one: the
+/// velocity in them rises by equal parts about the given one, which stays the mean. Such a body means a
+/// motion through poses. With its whole change at the step's start, bodies on a platform that accelerates at
+/// a carried a dt in the first substep and their weight alone in the others, and flew for 2 a / g of each
+/// step on its way down: stacks and pyramids walked apart. A change above |gravity| dt is spread up to that
+/// only, for rotation at the body's farthest point: the ramp itself then throws nothing off. Call it after
+/// `prepare_integration`; returns true if there are any, for `end_kinematic_ramps`.
+template <class Real>
+bool ramp_kinematic_velocities(WorldData<Real>& w, double h, int substeps);
+
+/// Gives kinematic bodies the velocities and displacements of the step that they were given.
+template <class Real>
+void end_kinematic_ramps(WorldData<Real>& w, double h, int substeps);
+
 /// Integrates velocities: v += h a.
 template <class Real>
 void integrate_velocities(WorldData<Real>& w);

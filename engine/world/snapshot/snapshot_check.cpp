@@ -110,7 +110,10 @@ class Check {
                   all_finite(std::get<0>(w_.joints.parts()));
     for (int c = 0; c <= w_.graph.kColours; ++c) finite = finite && all_finite(w_.graph.colour(c));
     require(finite, "state", "holds numbers that are not finite");
-    require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0 && w_.impulse_h >= 0, "time", "is negative");
+    require(w_.steps >= 0 && w_.time >= 0 && w_.last_h >= 0 && w_.impulse_h >= 0 && w_.last_substeps >= 0,
+            "time", "is negative");
+    // A step is asked for 1000 substeps at most, and takes 16 times as many at most (step.cpp).
+    require(w_.last_substeps <= 16000, "time", "has too many substeps");
     require(w_.last_h <= kLargestNumber && w_.impulse_h <= kLargestNumber, "time",
             "has steps that are longer than a world's");
     require(w_.steps <= kMaxSteps, "steps", "are more than a world takes");

@@ -122,6 +122,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinge_count;
   if (!jointed && all_bodies_moved(w)) return;
 
+  const bool ramps = ramp_kinematic_velocities(w, h, substeps);
   const Real warm_start = static_cast<Real>(warm_start_ratio(w, h));
   // A step shorter than those before keeps their stiffness, so that overlaps at rest do not change.
   const double longest = std::max(h, w.impulse_h), length_ratio = h / longest;
@@ -199,6 +200,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     has_struck = find_struck_bodies(w, h * substeps);
     contacts.warm_start = joints.warm_start = 1;
   }
+  if (ramps) end_kinematic_ramps(w, h, substeps);
   soft_contacts.finish();
   if (jointed) w.joint_set.store_results(&w.scheduler);
   if (jointed) close_joint_gaps(w, h, substeps);

@@ -1,5 +1,7 @@
 #include "engine/world/state/impulse_memory.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -55,7 +57,7 @@ void ImpulseMemory<Real>::finish(double dt) {
   } else {
     w_.impulse_h = h_;
   }
-  w_.last_h = h_;
+  w_.last_h = h_, w_.last_substeps = static_cast<int>(std::lround(dt / h_));
 }
 
 template class ImpulseMemory<float>;
