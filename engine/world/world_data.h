@@ -243,13 +243,14 @@ struct DirectIsland {
 /// A body of an island with joints: its motion through a substep, in double.
 struct JointedLink {
   int body = kNone;
-  Vec2d start_velocity{};                          ///< m/s, at the start of the substep
-  Vec2d velocity{};                                ///< m/s, without impulses, then with them
-  Vec2d mean_velocity{};                           ///< m/s, mean of the start and the end: moves the body
-  double start_spin = 0, spin = 0, mean_spin = 0;  ///< rad/s, the same for rotation
-  Vec2d velocity_increment{};                      ///< m/s, by the forces of the substep
-  double spin_increment = 0;                       ///< rad/s, the same
-  Vec2d delta_position{};                          ///< m, since the start of the step
+  bool yields = false;     ///< a driver (island_rows.h) whose joints had to yield in this step
+  Vec2d start_velocity{};  ///< m/s, at the start of the substep
+  Vec2d velocity{};        ///< m/s, without impulses, then with them
+  Vec2d mean_velocity{};   ///< m/s, mean of the start and the end: moves the body
+  double start_spin = 0, spin = 0, mean_spin = 0;          ///< rad/s, the same for rotation
+  Vec2d velocity_increment{};                              ///< m/s, by the forces of the substep
+  double spin_increment = 0;                               ///< rad/s, the same
+  Vec2d delta_position{};                                  ///< m, since the start of the step
   double delta_angle = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
 };
 

@@ -71,6 +71,18 @@ void hand_over_joints(WorldData<Real>& w, const Left& left) {
   });
 }
 
+// Keeps only the part of an island's impulses that balances a load if a driver pulls a load that is caught.
+// Its rows press on both sides with many times the load. Contacts that are left to iterations in the next
+// step, with or without the joint, would start from that: rooms of 15 boxes went from 25 to 6,000 m/s.
+template <class Real>
+void keep_loads(WorldData<Real>& w, JointedIsland<Real>& island) {
+  if (std::none_of(island.links.begin(), island.links.end(), [](const JointedLink& k) { return k.yields; }))
+    return;
+  const Real fraction = static_cast<Real>(w.joint_set.warm_start_fraction(island.joints[0]));
+  for (ContactConstraint<Real>* c : island.contacts) scale_impulses(*c, fraction);
+  for (const int joint : island.joints) w.joint_set.take_over(joint);
+}
+
 // Chooses the islands with joints that are solved as one system. These are islands with few bounded rows and
 // contacts, and islands with a large mass ratio; with Solver::Direct all.
 template <class Real>
@@ -355,6 +367,7 @@ void hand_over_all(WorldData<Real>& w) {
 
 template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
+  for (int i = 0; i < w.scratch.jointed_count; ++i) keep_loads(w, w.scratch.jointed_islands[i]);
   for (int i = 0; i < w.scratch.direct_count; ++i) {
     for (ContactConstraint<Real>* c : w.scratch.direct_islands[i].contacts) c->hardness = hardness_of(w, *c);
     w.scratch.island_index[w.scratch.direct_islands[i].root] = kNone;

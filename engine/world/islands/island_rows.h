@@ -24,14 +24,24 @@ inline BoundedRow::State state_of(double impulse, double lower, double upper) {
   return impulse >= upper ? BoundedRow::kUpper : BoundedRow::kFree;
 }
 
-/// Computes the rows of an island at the current positions, for one stage of a substep.
+/// Returns true if a body moves others with whatever force it takes: a kinematic one that moves.
+template <class Real>
+bool is_driver(const WorldData<Real>& w, const JointedLink& link) {
+  return w.bodies[link.body].type == BodyType::Kinematic &&
+         (link.start_velocity.x != 0 || link.start_velocity.y != 0 || link.start_spin != 0);
+}
+
+/// Computes the rows of an island at the current positions, for one stage of a substep. Joints of drivers get
+/// a compliance of `driver_compliance`, relative to their mobility.
 template <class Real>
 class RowBuilder {
  public:
-  RowBuilder(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, Stage stage)
+  RowBuilder(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, Stage stage,
+             double driver_compliance = 0)
       : w_(w),
         island_(island),
         h_(step.h),
+        driver_compliance_(driver_compliance),
         midpoint_(stage == Stage::Midpoint),
         correcting_(stage == Stage::Correct) {}
 
@@ -109,6 +119,7 @@ class RowBuilder {
     rows.clear();
     w_.joint_set.solver_rows(joint, w_.solver_bodies(), rows);
     const auto [link_a, link_b] = island_.blocks[block_];
+    const bool driven = driver_compliance_ > 0 && (is_driver(link_a) || is_driver(link_b));
     for (const JointSolverRow<Real>& from : rows) {
       BoundedRow row{.a = link_a, .b = link_b};
       row.linear_a = from.row.linear_a.template as<double>(),
@@ -139,6 +150,7 @@ class RowBuilder {
           row.softening = kMotorCompliance;
           break;
       }
+      if (driven) row.softening = std::max(row.softening, driver_compliance_);
       add(row, {.impulse = from.impulse, .max_impulse = from.max_impulse, .pair = from.pair}, lower, most,
           *from.impulse);
     }
@@ -170,7 +182,7 @@ class RowBuilder {
     tangent.target = midpoint_ ? 2 * double(c.surface_speed) - sliding : double(c.surface_speed);
     const double slip = std::abs(sliding - double(c.surface_speed));
     const FrictionRays rays = rays_of(last, friction);
-    const bool driven = !correcting_ && (is_driver(c.body_a, link_a) || is_driver(c.body_b, link_b));
+    const bool driven = !correcting_ && (is_driver(link_a) || is_driver(link_b));
     double pressure = 0;
     rigid_ = false;
     for (int i = 0; i < c.count; ++i) {
@@ -230,12 +242,7 @@ class RowBuilder {
     }
   }
 
-  // Returns true if a body pushes others with whatever force it takes: a kinematic one that moves.
-  bool is_driver(int body, int link) const {
-    const JointedLink& at = island_.links[link];
-    return w_.bodies[body].type == BodyType::Kinematic &&
-           (at.start_velocity.x != 0 || at.start_velocity.y != 0 || at.start_spin != 0);
-  }
+  bool is_driver(int link) const { return plumb::is_driver(w_, island_.links[link]); }
 
   // Makes a row compliant to the part of its impulse that exceeds the load: the part of the last known
   // impulse that balances forces. `last` is the impulse before the step.
@@ -261,7 +268,7 @@ class RowBuilder {
 
   WorldData<Real>& w_;
   JointedIsland<Real>& island_;
-  const double h_;
+  const double h_, driver_compliance_;
   const bool midpoint_, correcting_;
   int block_ = 0;
   bool rigid_ = false, warm_starts_ = false;

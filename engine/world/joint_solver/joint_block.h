@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/world/joint_solver/joint_rule.h"
@@ -37,11 +38,25 @@ struct JointBlock {
     for (int i = 0; i < N; ++i) v.apply(row[i], impulse[i]);
   }
 
+  /// Solves once. The rows close with the speed of the slowest, so that they stay in proportion.
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
                                     JointPass pass, Real factor) {
+    using std::min;
+    Real closing = 1;
+    if (pass == kSolve) {
+      for (int i = 0; i < N; ++i) {
+        const Real bias = factor * soft.bias_rate * row[i].residual;
+        closing = min(closing, closing_fraction(v, bias * bias, row[i]));
+      }
+    }
+    solve_unlimited(v, soft, pass, factor, closing);
+  }
+  /// Does the same with the fraction `closing` of the bias, whatever its speed.
+  [[gnu::always_inline]] void solve_unlimited(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
+                                              JointPass pass, Real factor, Real closing) {
     const Softness<Scalar<Real>> s = pass == kSolve ? soft : Softness<Scalar<Real>>{};
     Real x[N];
-    for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + factor * s.bias_rate * row[i].residual;
+    for (int i = 0; i < N; ++i) x[i] = v.along(row[i]) + closing * (factor * s.bias_rate * row[i].residual);
     for (int i = 1; i < N; ++i)
       for (int j = 0; j < i; ++j) x[i] -= lower[i][j] * x[j];
     for (int i = 0; i < N; ++i) x[i] *= inverse_pivot[i];

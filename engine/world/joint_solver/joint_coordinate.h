@@ -79,7 +79,7 @@ struct JointCoordinate {
                                        UnderRelaxation<Real> relaxation) {
     if (count == 0) return;
     inverse_mass = mobility(v);
-    evaluate(q, step, relaxation);
+    evaluate_rules(q, v, step, relaxation);
   }
   /// Does the same for a spring beside rigid rows, which reduce its mobility to `constrained`: its response
   /// if the joint is solved alone, with these rows before and after the spring.
@@ -87,7 +87,7 @@ struct JointCoordinate {
                                                     const JointStep<Scalar<Real>>& step,
                                                     UnderRelaxation<Real> relaxation) {
     inverse_mass = select(relaxation.factor < Real(1), mobility(v), constrained);
-    evaluate(q, step, relaxation);
+    evaluate_rules(q, v, step, relaxation);
   }
   [[gnu::always_inline]] void warm_start(JointVelocities<Real>& v) const {
     if (count > 0) apply(v, impulse());
@@ -111,9 +111,20 @@ struct JointCoordinate {
   }
 
  private:
-  [[gnu::always_inline]] void evaluate(Real q, const JointStep<Scalar<Real>>& step,
-                                       UnderRelaxation<Real> relaxation) {
-    for (int i = 0; i < count; ++i) rule[i].terms(q, inverse_mass, relaxation, step, solved[i].term);
+  [[gnu::always_inline]] void evaluate_rules(Real q, const JointVelocities<Real>& v,
+                                             const JointStep<Scalar<Real>>& step,
+                                             UnderRelaxation<Real> relaxation) {
+    for (int i = 0; i < count; ++i) {
+      rule[i].terms(q, inverse_mass, relaxation, step, solved[i].term);
+      if (rule[i].role != RowRole::Rigid && rule[i].role != RowRole::Limit) continue;
+      Real& bias = solved[i].term[kSolve].bias;
+      const Real closing = closing_fraction_of(v, bias * bias);
+      bias *= rule[i].role == RowRole::Rigid ? closing : select(bias < Real(0), closing, Real(1));
+    }
+  }
+  [[gnu::always_inline]] Real closing_fraction_of(const JointVelocities<Real>& v, Real bias_squared) const {
+    if constexpr (kAngular) return closing_fraction<Real>(v, bias_squared, 0, 1, 0, 1);
+    return closing_fraction(v, bias_squared, row);
   }
   [[gnu::always_inline]] Real along(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {

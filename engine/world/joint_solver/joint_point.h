@@ -77,11 +77,14 @@ struct RigidPoint {
   [[gnu::always_inline]] void solve(JointVelocities<Real>& v, const Softness<Scalar<Real>>& soft,
                                     JointPass pass, Real factor) {
     const Vec2<Real> rate = v.at(point.arm_a, point.arm_b);
-    const Vec2<Real> delta =
-        pass == kRelax
-            ? -(mass * rate)
-            : -(Real(soft.mass_scale) * (mass * (rate + (factor * Real(soft.bias_rate)) * point.gap)) +
-                Real(soft.impulse_scale) * impulse);
+    Vec2<Real> delta;
+    if (pass == kRelax) {
+      delta = -(mass * rate);
+    } else {
+      Vec2<Real> bias = (factor * Real(soft.bias_rate)) * point.gap;
+      bias = closing_fraction(v, length_squared(bias), point) * bias;
+      delta = -(Real(soft.mass_scale) * (mass * (rate + bias)) + Real(soft.impulse_scale) * impulse);
+    }
     impulse += delta;
     v.apply(delta, point.arm_a, point.arm_b);
   }
@@ -133,6 +136,8 @@ struct SoftPoint {
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
+    if (rule.role == RowRole::Rigid)
+      bias[kSolve] = closing_fraction(v, length_squared(bias[kSolve]), at) * bias[kSolve];
   }
   /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `constrained`:
   /// its response if the joint is solved alone.

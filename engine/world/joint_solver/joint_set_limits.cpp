@@ -45,7 +45,7 @@ void rotate_joint(JointConstraint<Real, RevoluteRows>& joint, const SolverBodies
   JointVelocities<Real> displacement(a, b);
   displacement.v_a = displacement.v_b = {}, displacement.w_a = displacement.w_b = 0;
   block.factorise(displacement);
-  block.solve(displacement, {.bias_rate = 1}, kSolve, Real(1));
+  block.solve_unlimited(displacement, {.bias_rate = 1}, kSolve, Real(1), Real(1));
   apply_displacement(a, rotation[joint.a], displacement.v_a, displacement.w_a);
   apply_displacement(b, rotation[joint.b], displacement.v_b, displacement.w_b);
 }
