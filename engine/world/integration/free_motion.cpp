@@ -42,10 +42,6 @@ DampedMeans damped_means(double x) {
   return {1 - x * second, second};
 }
 
-}  // namespace
-
-namespace {
-
 // Returns the change of a body's velocities by gravity and loads alone, with the factors of its damping.
 template <class Real>
 VelocityIncrement<Real> undamped_increment_of(const WorldData<Real>& w, int body, double time) {

@@ -94,9 +94,9 @@ constexpr auto state_of(World& w) {
          position, position_compensation, rest_displacements, extents, substep_changes, enlarged, awake,
          mass_changed_bodies, shapes, forms, tight_aabbs, corners, shape_data, chains, move_buffer,
          static_tree, dynamic_tree, contacts, pairs, nontouching_contacts, graph, sleeping_contacts, joints,
-         joint_set, sensors, load_limited_joints, quarantine, events, pending, stepping, profiled, last_substeps, profile,
-         scheduler, active_callbacks, abandoned, reports_hits, topology_changed, scratch, pre_solve, filter,
-         friction_rule, restitution_rule, disabled_pairs, enabled_pairs] = w;
+         joint_set, sensors, load_limited_joints, quarantine, events, pending, stepping, profiled,
+         last_substeps, profile, scheduler, active_callbacks, abandoned, reports_hits, topology_changed,
+         scratch, pre_solve, filter, friction_rule, restitution_rule, disabled_pairs, enabled_pairs] = w;
   return std::tie(settings, time, steps, last_h, impulse_h, bodies, body_extras, loads, body_data, motion,
                   rotation, position, position_compensation, rest_displacements, extents, substep_changes,
                   enlarged, awake, mass_changed_bodies, shapes, forms, tight_aabbs, corners, shape_data,
