@@ -19,7 +19,6 @@
 #include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/contact_solver/soft_contacts.h"
 #include "engine/world/contact_solver/solver_body.h"
-#include "engine/world/contact_solver/substep_change.h"
 #include "engine/world/definitions.h"
 #include "engine/world/events.h"
 #include "engine/world/joint_solver/direct_rows.h"
@@ -93,7 +92,6 @@ struct BodyMotion {
   double angle = 0;                  ///< rad
   Real sleep_time = 0;               ///< s
   RestDisplacement rest_displacement{};
-  SubstepChange<Real> substep_change{};
   Load<Real> load{};
 };
 
@@ -438,8 +436,7 @@ struct WorldData {
   LazyArray<Vec2d> position_compensation;          ///< m, Kahan compensation of the positions; in double only
   LazyArray<RestDisplacement> rest_displacements;  ///< of bodies whose sleep timer runs; unused without sleep
   std::vector<Real> extents;                       ///< m, from the centre of mass to the farthest point
-  std::vector<SubstepChange<Real>> substep_changes;  ///< of bodies that moved by substeps
-  std::vector<char> enlarged;                        ///< a shape of it left its fat AABB in the last step
+  std::vector<char> enlarged;                      ///< a shape of it left its fat AABB in the last step
   std::vector<int> awake;
   std::vector<int> mass_changed_bodies;  ///< their masses must be updated: mass.h
 

@@ -197,11 +197,4 @@ template <class Contact, class Real>
   c.tangent_impulse *= ratio, c.rolling_impulse *= ratio;
 }
 
-/// Forgets the impulses of the last substep, where `keep` is 0 (1: keeps them).
-template <class Contact, class Number>
-[[gnu::always_inline]] inline void forget_impulses(Contact& c, const Number& keep) {
-  c.normal_impulse[0] *= keep, c.normal_impulse[1] *= keep;
-  c.tangent_impulse *= keep, c.rolling_impulse *= keep;
-}
-
 }  // namespace plumb

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/world/contact_solver/solver_body.h"
-#include "engine/world/contact_solver/substep_change.h"
 
 namespace plumb {
 
@@ -14,7 +13,6 @@ struct ContactStep {
   Real bounce_threshold = 0;    ///< m/s; slower impacts do not bounce
   Real load_push_fraction = 0;  ///< fraction of the velocity change by a load that is added to the
                                 ///< depenetration speed of soft contacts
-  const SubstepChange<Real>* changes = nullptr;  ///< by body, if warm starting must look for struck ones
 };
 
 }  // namespace plumb

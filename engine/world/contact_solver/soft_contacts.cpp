@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 #include "engine/core/capacity.h"
 #include "engine/math/widest_register.h"
@@ -26,28 +25,10 @@ constexpr int kMinLanes = 2;
 // for the last thread, takes about 0.3 us. So a colour that fits into one task is solved by one thread.
 constexpr int kBlocksPerTask = 16, kSinglesPerTask = 48;
 
-// Returns 0 for contacts of a body that was struck in the last substep, otherwise 1.
-template <class Real>
-Real kept_share(const ContactConstraint<Real>& c, const SubstepChange<Real>* changes) {
-  return changes[c.body_a].struck || changes[c.body_b].struck ? Real(0) : Real(1);
-}
-template <class Number, class Real>
-[[gnu::always_inline]] inline Number kept_share(const ContactBlock<Number>& block,
-                                                const SubstepChange<Real>* changes) {
-  Real shares[ContactBlock<Number>::kLanes];
-  for (int i = 0; i < ContactBlock<Number>::kLanes; ++i) {
-    const auto struck = [&](std::uint32_t offset) { return changes[offset / kOffsetUnits<Real>].struck; };
-    shares[i] = struck(block.offset_a[i]) || struck(block.offset_b[i]) ? Real(0) : Real(1);
-  }
-  return Number::load(shares);
-}
-
 struct WarmStart {
   static constexpr bool kReadsDisplacement = false;
   template <class Number, class Pair, class Contact, class Real>
   [[gnu::always_inline]] static void run(Pair& pair, Contact& c, const ContactStep<Real>& step) {
-    if (step.changes != nullptr) [[unlikely]]
-      forget_impulses(c, Number(kept_share(c, step.changes)));
     if (step.warm_start != 1) scale_impulses(c, step.warm_start);
     warm_start_contact<Number>(pair, c);
   }

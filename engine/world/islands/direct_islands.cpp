@@ -197,9 +197,10 @@ bool press(WorldData<Real>& w, int a, int b) {
 }
 
 // Returns true if an open point without an impulse has a row. It may close within the step, and what falls
-// would have no floor in the system without it. Points that will bounce are left to their impact. If the two
-// bodies press on each other elsewhere, the point belongs to the same surface, and iterations suffice: with
-// rows for the segments ahead, a disc that slides over a chain loses more energy.
+// would have no floor in the system without it: stacks that land would hop. Points that will bounce are left
+// to their impact. If the two bodies press on each other elsewhere, the point belongs to the same surface,
+// and iterations suffice: with rows for the segments ahead, a disc that slides over a chain loses more
+// energy.
 template <class Real>
 bool takes_part(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   return !(c.restitution > 0) && !press(w, c.body_a, c.body_b);

@@ -174,7 +174,7 @@ class Check {
     require(none_or_by_body(w_.loads) && none_or_by_body(w_.body_data) &&
                 none_or_by_body(w_.position_compensation) && none_or_by_body(w_.rest_displacements) &&
                 is_by_body(w_.motion) && is_by_body(w_.rotation) && is_by_body(w_.position) &&
-                is_by_body(w_.extents) && is_by_body(w_.substep_changes) && is_by_body(w_.enlarged),
+                is_by_body(w_.extents) && is_by_body(w_.enlarged),
             "bodies", "are not as many everywhere");
     const std::size_t shapes = static_cast<std::size_t>(w_.shapes.size());
     const std::size_t data = std::get<0>(w_.shape_data.parts()).size();

@@ -55,8 +55,6 @@ PLUMB_MEMBERS(RestDisplacement, translation, rotation)
 PLUMB_REAL_MEMBERS(SolverBody, velocity, angular_velocity, delta_position, delta_angle, inverse_mass,
                    inverse_inertia)
 
-PLUMB_REAL_MEMBERS(SubstepChange, speed, struck)
-
 PLUMB_REAL_MEMBERS(ShapeForm, corner, count, chain, sensor, radius, extent)
 PLUMB_REAL_MEMBERS(ShapeRecord, body, next, previous, proxy, chain, moved, hit_events, pre_solve, filter,
                    friction, restitution, rolling_resistance, surface_speed, density)
@@ -91,18 +89,18 @@ PLUMB_MEMBERS(Events, begin, end, hits, sensor_begin, sensor_end, broken, loaded
 template <class World>
 constexpr auto state_of(World& w) {
   auto& [settings, time, steps, last_h, impulse_h, bodies, body_extras, loads, body_data, motion, rotation,
-         position, position_compensation, rest_displacements, extents, substep_changes, enlarged, awake,
-         mass_changed_bodies, shapes, forms, tight_aabbs, corners, shape_data, chains, move_buffer,
-         static_tree, dynamic_tree, contacts, pairs, nontouching_contacts, graph, sleeping_contacts, joints,
-         joint_set, sensors, load_limited_joints, quarantine, events, pending, stepping, profiled,
-         last_substeps, profile, scheduler, active_callbacks, abandoned, reports_hits, topology_changed,
-         scratch, pre_solve, filter, friction_rule, restitution_rule, disabled_pairs, enabled_pairs] = w;
+         position, position_compensation, rest_displacements, extents, enlarged, awake, mass_changed_bodies,
+         shapes, forms, tight_aabbs, corners, shape_data, chains, move_buffer, static_tree, dynamic_tree,
+         contacts, pairs, nontouching_contacts, graph, sleeping_contacts, joints, joint_set, sensors,
+         load_limited_joints, quarantine, events, pending, stepping, profiled, last_substeps, profile,
+         scheduler, active_callbacks, abandoned, reports_hits, topology_changed, scratch, pre_solve, filter,
+         friction_rule, restitution_rule, disabled_pairs, enabled_pairs] = w;
   return std::tie(settings, time, steps, last_h, impulse_h, bodies, body_extras, loads, body_data, motion,
-                  rotation, position, position_compensation, rest_displacements, extents, substep_changes,
-                  enlarged, awake, mass_changed_bodies, shapes, forms, tight_aabbs, corners, shape_data,
-                  chains, move_buffer, static_tree, dynamic_tree, contacts, pairs, nontouching_contacts,
-                  graph, sleeping_contacts, joints, joint_set, sensors, load_limited_joints, quarantine,
-                  events, pending, last_substeps, reports_hits);
+                  rotation, position, position_compensation, rest_displacements, extents, enlarged, awake,
+                  mass_changed_bodies, shapes, forms, tight_aabbs, corners, shape_data, chains, move_buffer,
+                  static_tree, dynamic_tree, contacts, pairs, nontouching_contacts, graph, sleeping_contacts,
+                  joints, joint_set, sensors, load_limited_joints, quarantine, events, pending, last_substeps,
+                  reports_hits);
 }
 
 }  // namespace plumb

@@ -11,7 +11,6 @@
 #include "engine/world/islands/jointed_islands.h"
 #include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
-#include "engine/world/solvers/struck_bodies.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/impulse_memory.h"
 
@@ -155,7 +154,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   soft_contacts.prepare(w.graph, bodies.motion, scalar_contacts(w), w.scheduler);
   using Bounce = RestitutionContact<Real>;
   const bool bounces = !w.scratch.restitution_contacts.empty();
-  bool has_impacts = false, has_struck = any_struck_body(w);
+  bool has_impacts = false;
   const auto handle_impacts = [&] {
     has_impacts = any_bounce(
         w, [&](std::span<Bounce> some) { return schedule_impacts(bodies.motion, some, contacts); });
@@ -167,9 +166,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (bounces && substep > 0) soft_contacts.scatter_restitution();
     const bool separated = any_bounce(
         w, [&](std::span<Bounce> some) { return record_approaches(bodies.motion, some, contacts); });
-    // Do not reuse all of the last substep's impulses after an impact, or if a contact separated.
-    const bool fuse_warm_start = substep > 0 && !jointed && !has_impacts && !separated && !has_struck;
-    contacts.changes = has_struck ? w.substep_changes.data() : nullptr;
+    // Do not reuse the last substep's impulses after an impact, or if a contact separated.
+    const bool fuse_warm_start = substep > 0 && !jointed && !has_impacts && !separated;
     begin_jointed_substep(w);
     fuse_warm_start ? integrate_and_warm_start(w) : integrate_velocities(w);
     // Find impacts before warm starting. Warm-start impulses cancel only in the solve; before that, they
@@ -197,7 +195,6 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     relax_jointed_islands(w, contacts, substep + 1 == substeps);
     add_island_loads(w, joints);
     restore_deferred(std::span<Bounce>(w.scratch.restitution_contacts));
-    has_struck = find_struck_bodies(w, h * substeps);
     contacts.warm_start = joints.warm_start = 1;
   }
   if (ramps) end_kinematic_ramps(w, h, substeps);

@@ -22,8 +22,8 @@ void reserve_body(WorldData<Real>& w, bool has_data) {
   const std::size_t capacity = static_cast<std::size_t>(size);
   ensure_capacity(w.motion, capacity), ensure_capacity(w.rotation, capacity),
       ensure_capacity(w.position, capacity);
-  ensure_capacity(w.extents, capacity), ensure_capacity(w.substep_changes, capacity),
-      ensure_capacity(w.enlarged, capacity), ensure_capacity(w.awake, capacity);
+  ensure_capacity(w.extents, capacity), ensure_capacity(w.enlarged, capacity),
+      ensure_capacity(w.awake, capacity);
   w.loads.reserve(size, false), w.body_data.reserve(size, has_data),
       w.position_compensation.reserve(size, false), w.rest_displacements.reserve(size, w.settings.sleeping);
 }
@@ -38,12 +38,10 @@ void reset_body_data(WorldData<Real>& w, int body) {
   const int size = w.bodies.size();
   resize_with_growth(w.motion, size), resize_with_growth(w.rotation, size),
       resize_with_growth(w.position, size);
-  resize_with_growth(w.extents, size), resize_with_growth(w.substep_changes, size),
-      resize_with_growth(w.enlarged, size);
+  resize_with_growth(w.extents, size), resize_with_growth(w.enlarged, size);
   w.loads.reset(body, size), w.body_data.reset(body, size), w.position_compensation.reset(body, size);
   w.rest_displacements.reset(body, size);
-  w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0;
-  w.substep_changes[body] = {}, w.enlarged[body] = 0;
+  w.motion[body] = {}, w.rotation[body] = {}, w.extents[body] = 0, w.enlarged[body] = 0;
 }
 
 template <class Real>
@@ -238,7 +236,6 @@ void set_type(WorldData<Real>& w, int body, BodyType type) {
   for (int shape = record.first_shape; shape != kNone; shape = w.shapes[shape].next) destroy_proxy(w, shape);
   if (record.awake) remove_awake(w, body);
   record.type = type;
-  w.substep_changes[body] = {};
   w.position_compensation.reset(body, w.bodies.size());
   if (type != BodyType::Static) add_awake(w, body);
   if (type == BodyType::Static) w.motion[body] = {};

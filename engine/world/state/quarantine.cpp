@@ -76,7 +76,7 @@ void remove_from_simulation(WorldData<Real>& w, int body, const QuarantineEvent&
   record.quarantined = true;
   w.motion[body].delta_position = {}, w.motion[body].delta_angle = 0;
   w.loads.reset(body, w.bodies.size());
-  w.substep_changes[body] = {}, w.enlarged[body] = 0;
+  w.enlarged[body] = 0;
   w.topology_changed = true;
 }
 
@@ -119,7 +119,7 @@ void restore_start_state(WorldData<Real>& w, int body, const BodyVelocity<Real>&
   set_rotation_from_angle(w, body);
   w.bodies[body].sleep_time = 0;
   w.loads.reset(body, w.bodies.size());
-  w.substep_changes[body] = {}, w.enlarged[body] = 0;
+  w.enlarged[body] = 0;
 }
 
 // Returns the velocity before the step of a body in free flight, which moved by the mean of this velocity and

@@ -25,7 +25,6 @@ class StepRollback {
                    record.angle,
                    record.sleep_time,
                    w.rest_displacements.get(body),
-                   w.substep_changes[body],
                    w.loads.get(body)};
     }
     active_ = true;
@@ -40,7 +39,6 @@ class StepRollback {
       w_.motion[body] = before.motion, w_.rotation[body] = before.rotation;
       w_.position[body] = before.position;
       if (w_.position_compensation.used()) w_.position_compensation.data()[body] = before.compensation;
-      w_.substep_changes[body] = before.substep_change;
       record.angle = before.angle, record.sleep_time = before.sleep_time;
       if (w_.rest_displacements.used()) w_.rest_displacements.data()[body] = before.rest_displacement;
       if (w_.loads.used()) w_.loads.data()[body] = before.load;
