@@ -24,8 +24,10 @@ constexpr double kGravity = 9.81;
 class Draw {
  public:
   explicit Draw(unsigned seed) : generator_(seed) {}
-  double operator()(double low, double high) { return low + (high - low) * (generator_() / 4294967296.0); }
-  int below(int count) { return static_cast<int>(generator_() % static_cast<unsigned>(count)); }
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(generator_()) / 4294967296.0);
+  }
+  int below(int count) { return static_cast<int>(generator_() % static_cast<std::uint_fast32_t>(count)); }
   double size() { return std::exp((*this)(std::log(0.05), std::log(20.0))); }
 
  private:
