@@ -10,7 +10,6 @@
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/islands/jointed_islands.h"
 #include "engine/world/state/constants.h"
-#include "engine/world/state/contacts.h"
 
 namespace plumb {
 namespace {
@@ -183,38 +182,28 @@ Island& island_at(WorldData<Real>& w, std::vector<Island>& islands, int& count, 
   return islands[index];
 }
 
-// Returns true if two bodies press on each other.
+// Returns true if no contact of an island has an impulse: its bodies fly together, as a stack that falls.
 template <class Real>
-bool press(WorldData<Real>& w, int a, int b) {
-  const int from = w.is_dynamic(a) ? a : b;
-  bool found = false;
-  for_each_edge(w.contacts, w.bodies[from].first_contact, [&](int, const ContactRecord& record) {
-    if (record.home != ContactHome::Graph || record.body_a + record.body_b != a + b) return;
-    const ContactConstraint<Real>& c = constraint_of(w, record);
-    found |= c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+bool flies(const DirectIsland<Real>& island) {
+  return std::none_of(island.contacts.begin(), island.contacts.end(), [](const ContactConstraint<Real>* c) {
+    return c->normal_impulse[0] > 0 || c->normal_impulse[1] > 0;
   });
-  return found;
-}
-
-// Returns true if an open point without an impulse has a row. It may close within the step, and what falls
-// would have no floor in the system without it: stacks that land would hop. Points that will bounce are left
-// to their impact. If the two bodies press on each other elsewhere, the point belongs to the same surface,
-// and iterations suffice: with rows for the segments ahead, a disc that slides over a chain loses more
-// energy.
-template <class Real>
-bool takes_part(WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  return !(c.restitution > 0) && !press(w, c.body_a, c.body_b);
 }
 
 template <class Real>
-void add_rows(WorldData<Real>& w, DirectIsland<Real>& island) {
+void add_rows(DirectIsland<Real>& island) {
   std::pmr::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
+  const bool all_open = flies(island);
   int block = 0;
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
-      if (c->normal_impulse[i] == 0 && c->separation[i] > 0 && !takes_part(w, *c)) continue;
+      // Points that are separated and have no impulse are left to the iterations. Where nothing presses yet,
+      // they have rows: a stack that lands in this step would have no floor in the system, and hop. Points
+      // that will bounce are left to their impact.
+      const bool has_row = all_open && !(c->restitution > 0);
+      if (c->normal_impulse[i] == 0 && c->separation[i] > 0 && !has_row) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;
       row.linear_a = -free_of_a(c->normal, c->locks), row.linear_b = free_of_b(c->normal, c->locks);
@@ -327,7 +316,7 @@ void prepare_direct_islands(WorldData<Real>& w) {
   if (are_new && joints_outside_trees(w) > 0) hand_over_unselected(w);
   if (!w.scratch.has_direct_islands) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
-    add_rows(w, island);
+    add_rows(island);
     if (island.system.order(w.motion.data()) > tuning::kMaxDirectCost) return solve_by_iterations(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.assemble(w.motion.data());

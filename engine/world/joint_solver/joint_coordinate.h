@@ -118,13 +118,16 @@ struct JointCoordinate {
       rule[i].terms(q, inverse_mass, relaxation, step, solved[i].term);
       if (rule[i].role != RowRole::Rigid && rule[i].role != RowRole::Limit) continue;
       Real& bias = solved[i].term[kSolve].bias;
-      const Real closing = closing_fraction_of(v, bias * bias);
-      bias *= rule[i].role == RowRole::Rigid ? closing : select(bias < Real(0), closing, Real(1));
+      if constexpr (kAngular) {
+        // Both bodies' inertia cancels. A gap to a limit (> 0) may close at any speed.
+        using std::max, std::min;
+        bias = max(bias, Real(-kMaxClosingSpeed));
+        if (rule[i].role == RowRole::Rigid) bias = min(bias, Real(kMaxClosingSpeed));
+      } else {
+        const Real closing = closing_fraction(v, bias * bias, row);
+        bias *= rule[i].role == RowRole::Rigid ? closing : select(bias < Real(0), closing, Real(1));
+      }
     }
-  }
-  [[gnu::always_inline]] Real closing_fraction_of(const JointVelocities<Real>& v, Real bias_squared) const {
-    if constexpr (kAngular) return closing_fraction<Real>(v, bias_squared, 0, 1, 0, 1);
-    return closing_fraction(v, bias_squared, row);
   }
   [[gnu::always_inline]] Real along(const JointVelocities<Real>& v) const {
     if constexpr (kAngular) {

@@ -82,7 +82,7 @@ struct RigidPoint {
       delta = -(mass * rate);
     } else {
       Vec2<Real> bias = (factor * Real(soft.bias_rate)) * point.gap;
-      bias = closing_fraction(v, length_squared(bias), point) * bias;
+      limit_closing(v, point, bias);
       delta = -(Real(soft.mass_scale) * (mass * (rate + bias)) + Real(soft.impulse_scale) * impulse);
     }
     impulse += delta;
@@ -136,8 +136,7 @@ struct SoftPoint {
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
-    if (rule.role == RowRole::Rigid)
-      bias[kSolve] = closing_fraction(v, length_squared(bias[kSolve]), at) * bias[kSolve];
+    if (rule.role == RowRole::Rigid) limit_closing(v, at, bias[kSolve]);
   }
   /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `constrained`:
   /// its response if the joint is solved alone.
