@@ -117,6 +117,7 @@ struct JointCoordinate {
     for (int i = 0; i < count; ++i) {
       rule[i].terms(q, inverse_mass, relaxation, step, solved[i].term);
       if (rule[i].role != RowRole::Rigid && rule[i].role != RowRole::Limit) continue;
+      if (!(step.stiff_rate > 0)) continue;  // position-based: gaps close without velocity
       Real& bias = solved[i].term[kSolve].bias;
       if constexpr (kAngular) {
         // Both bodies' inertia cancels. A gap to a limit (> 0) may close at any speed.

@@ -136,7 +136,7 @@ struct SoftPoint {
       mass_scale[pass] = term[pass].mass;
       impulse_scale[pass] = term[pass].scale;
     }
-    if (rule.role == RowRole::Rigid) limit_closing(v, at, bias[kSolve]);
+    if (rule.role == RowRole::Rigid && step.stiff_rate > 0) limit_closing(v, at, bias[kSolve]);
   }
   /// Does the same for a spring beside a rigid angle, which reduces the point's mobility to `constrained`:
   /// its response if the joint is solved alone.
