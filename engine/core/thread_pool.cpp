@@ -9,12 +9,12 @@ namespace {
 // Number of polls before a thread yields the processor, and number of yields before it sleeps. A poll with
 // its pause takes 10 to 40 ns, so these take about 20 us, longer than the time between two loops of a stage.
 // A sleeping thread takes 5 to 50 us to wake.
-constexpr int kLooks = 1000, kYields = 20;
+constexpr int kSpins = 1000, kYields = 20;
 
 }  // namespace
 
 void wait_for_change(const std::atomic<int>& number, int old) {
-  for (int i = 0; i < kLooks; ++i) {
+  for (int i = 0; i < kSpins; ++i) {
     if (number.load(std::memory_order_acquire) != old) return;
     pause();
   }

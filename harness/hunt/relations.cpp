@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/hunt/outline.h"
 #include "harness/hunt/subject.h"
 #include "harness/hunt/views.h"
 
@@ -96,39 +95,10 @@ constexpr double kPushed = 0.01;
 
 // Returns the first sample at which shapes that may touch overlap by more than kPushed.
 std::size_t first_pushed(const Case& one, const Motion& motion) {
-  struct Part {
-    std::size_t body;
-    const Shape* shape;
-    Outline outline;
-    double extent;
-  };
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < one.scene.bodies.size(); ++i)
-    for (const Shape& shape : one.scene.bodies[i].shapes)
-      for (Outline& outline : outlines_of(shape)) {
-        const double extent = reach_of(outline);
-        parts.push_back({i, &shape, std::move(outline), extent});
-      }
-  const auto dynamic = [&](const Part& part) {
-    return one.scene.bodies[part.body].type == BodyType::Dynamic;
-  };
-  const auto boxes_meet = [](const Outline& a, const Outline& b) {
-    return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-  };
-  std::vector<Outline> now(parts.size());
-  for (std::size_t k = 0; k < motion.samples.size(); ++k) {
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      now[i] = placed(parts[i].outline, motion.samples[k].states[parts[i].body]);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      for (std::size_t j = i + 1; j < parts.size(); ++j) {
-        const Part &a = parts[i], &b = parts[j];
-        if (a.body == b.body || !boxes_meet(now[i], now[j]) || !(dynamic(a) || dynamic(b)) ||
-            !may_touch(a.shape->filter, b.shape->filter) || joined(one.scene, a.body, b.body))
-          continue;
-        if (separation(now[i], now[j]) < -kPushed * std::min(a.extent, b.extent)) return k;
-      }
-  }
-  return motion.samples.size();
+  OverlapTest overlaps(one.scene);
+  std::size_t k = 0;
+  while (k < motion.samples.size() && !overlaps.exceeds(motion.samples[k].states, kPushed)) ++k;
+  return k;
 }
 
 // Scales masses by sixteen, lengths by two and times by two: speeds and forces change with them. The speed at

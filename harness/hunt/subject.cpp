@@ -5,9 +5,9 @@
 #include <map>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "engine/math/trigonometry.h"
-#include "harness/hunt/outline.h"
 #include "harness/joint_gap.h"
 
 namespace plumb::harness::hunt {
@@ -236,31 +236,40 @@ double stored(const Scene& scene, double time) {
   return sum;
 }
 
-bool starts_apart(const Scene& scene) {
-  struct Part {
-    std::size_t body;
-    const Shape* shape;
-    Outline outline;
-    double extent;
-  };
-  std::vector<Part> parts;
+OverlapTest::OverlapTest(const Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (const Shape& shape : scene.bodies[i].shapes)
-      for (const Outline& outline : outlines_of(shape))
-        parts.push_back({i, &shape, placed(outline, initial_state(scene.bodies[i])), reach_of(outline)});
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (std::size_t k = i + 1; k < parts.size(); ++k) {
-      const Part &a = parts[i], &b = parts[k];
-      const bool dynamic =
-          scene.bodies[a.body].type == BodyType::Dynamic || scene.bodies[b.body].type == BodyType::Dynamic;
-      if (a.body == b.body || !dynamic || a.outline.low.x > b.outline.high.x ||
-          b.outline.low.x > a.outline.high.x || a.outline.low.y > b.outline.high.y ||
-          b.outline.low.y > a.outline.high.y || !may_touch(a.shape->filter, b.shape->filter) ||
-          joined(scene, a.body, b.body))
-        continue;
-      if (separation(a.outline, b.outline) < -0.01 * std::min(a.extent, b.extent)) return false;
+      for (Outline& outline : outlines_of(shape)) {
+        const double extent = reach_of(outline);
+        parts_.push_back({i, &shape, std::move(outline), extent});
+      }
+  now_.resize(parts_.size());
+}
+
+bool OverlapTest::may_collide(const Part& a, const Part& b) const {
+  const auto dynamic = [&](const Part& part) { return scene_.bodies[part.body].type == BodyType::Dynamic; };
+  return a.body != b.body && (dynamic(a) || dynamic(b)) && may_touch(a.shape->filter, b.shape->filter) &&
+         !joined(scene_, a.body, b.body);
+}
+
+bool OverlapTest::exceeds(std::span<const BodyState> states, double fraction) {
+  const auto boxes_meet = [](const Outline& a, const Outline& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+  };
+  for (std::size_t i = 0; i < parts_.size(); ++i) now_[i] = placed(parts_[i].outline, states[parts_[i].body]);
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    for (std::size_t k = i + 1; k < parts_.size(); ++k) {
+      const Part &a = parts_[i], &b = parts_[k];
+      if (!boxes_meet(now_[i], now_[k]) || !may_collide(a, b)) continue;
+      if (separation(now_[i], now_[k]) < -fraction * std::min(a.extent, b.extent)) return true;
     }
-  return true;
+  return false;
+}
+
+bool starts_apart(const Scene& scene) {
+  std::vector<BodyState> states;
+  for (const Body& body : scene.bodies) states.push_back(initial_state(body));
+  return !OverlapTest(scene).exceeds(states, 0.01);
 }
 
 bool starts_closed(const Scene& scene) {

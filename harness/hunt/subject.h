@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "harness/hunt/case.h"
+#include "harness/hunt/outline.h"
 
 /// Facts about a case that several judges need.
 namespace plumb::harness::hunt {
@@ -31,6 +33,29 @@ bool driven(const Case& one);
 /// Returns an upper bound of the energy from drives, J: the work of motors with a speed up to `time`, and the
 /// initial energy of springs and of motors that follow a pose.
 double stored(const Scene& scene, double time);
+
+/// Finds overlaps of shapes of two bodies that may touch: of which at least one is dynamic, that no joint or
+/// filter keeps from colliding. The scene must outlive it.
+class OverlapTest {
+ public:
+  explicit OverlapTest(const Scene& scene);
+
+  /// Returns true if two shapes overlap in these states by more than `fraction` of the smaller extent.
+  bool exceeds(std::span<const BodyState> states, double fraction);
+
+ private:
+  struct Part {
+    std::size_t body;
+    const Shape* shape;
+    Outline outline;
+    double extent;  // m
+  };
+  bool may_collide(const Part& a, const Part& b) const;
+
+  const Scene& scene_;
+  std::vector<Part> parts_{};
+  std::vector<Outline> now_{};  // of the parts in the present states
+};
 
 /// Returns true if no two shapes that may touch penetrate at the start by more than a hundredth of the
 /// smaller extent.

@@ -23,7 +23,7 @@ class NearFlatCorners : public testing::Test {};
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(NearFlatCorners, Reals);
 
-Vec2d turned(Vec2d p, double angle) {
+Vec2d rotated(Vec2d p, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
@@ -139,7 +139,7 @@ TEST(NearFlatCornersInDouble, LetABodyLandUnderPrecise) {
     driver->read(states);
     double lowest = 1;
     for (const Vec2d point : polygon.points)
-      lowest = std::min(lowest, states[1].position.y + turned(point, states[1].angle).y);
+      lowest = std::min(lowest, states[1].position.y + rotated(point, states[1].angle).y);
     EXPECT_NEAR(lowest, 0, 2e-7) << "seed " << seed << ": less than 1e-9 of 100 m";
   }
 }
@@ -238,12 +238,12 @@ TEST(NearFlatCornersInDouble, AreHitFromAfar) {
     DoubleWorld world;
     world.create_body({.type = BodyType::Static, .angle = angle}, {.geometry = polygon});
     for (const double far : {1.0, 1e3, 1e6}) {
-      const Vec2d along = turned({1, 0}, way);
+      const Vec2d along = rotated({1, 0}, way);
       const Vec2d from = -far * along + draw.even(-0.45, 0.45) * perpendicular(along);
       const auto hit = ray_cast_closest(world, from, 2 * far * along);
       ASSERT_TRUE(hit) << i;
       // A line enters the unit square at the last of its entries through the two pairs of sides.
-      const Vec2d start = turned(from, -angle), direction = turned(along, -angle);
+      const Vec2d start = rotated(from, -angle), direction = rotated(along, -angle);
       const double enters =
           std::max((-0.5 - std::copysign(1.0, direction.x) * start.x) / std::fabs(direction.x),
                    (-0.5 - std::copysign(1.0, direction.y) * start.y) / std::fabs(direction.y));

@@ -20,7 +20,7 @@ class PointCasts : public testing::Test {};
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(PointCasts, Reals);
 
-Vec2d turned(Vec2d p, double angle) {
+Vec2d rotated(Vec2d p, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
@@ -56,7 +56,7 @@ TYPED_TEST(PointCasts, LinesAlongAChainLandOnIt) {
   Draw draw(2);
   for (int i = 0; i < 2000; ++i) {
     const double angle = draw.even(-pi, pi), far = draw.even(0, 1000);
-    const Vec2d position = turned({far, 0}, draw.even(-pi, pi)), out = turned({0, 1}, angle);
+    const Vec2d position = rotated({far, 0}, draw.even(-pi, pi)), out = rotated({0, 1}, angle);
     BasicWorld<TypeParam> world;
     world.create_chain(world.create_body({.type = BodyType::Static, .position = position, .angle = angle}),
                        {.points = {{2, 0}, {-2, 0}}});
@@ -82,7 +82,7 @@ TYPED_TEST(PointCasts, LeaveNoRoomThroughItsCorners) {
         room.closed = true;
         const int corners = 3 + draw.choose(10);
         for (int k = 0; k < corners; ++k)
-          room.points.push_back(turned({draw.even(7, 13), 0}, -2 * pi * k / corners));
+          room.points.push_back(rotated({draw.even(7, 13), 0}, -2 * pi * k / corners));
         world.create_chain(body, room);
         for (const Vec2d corner : room.points) {
           const Vec2d from{far + draw.even(-1, 1), far + draw.even(-1, 1)};
@@ -104,7 +104,7 @@ TYPED_TEST(PointCasts, MeetASegmentFromBothSides) {
     world.create_body({.type = BodyType::Static, .angle = angle}, {.geometry = Segment{{-2, 0}, {2, 0}}});
     const QueryShape shape = QueryShape::box(i % 2 == 0 ? 0 : draw.even(0.1, 3), 0);
     for (const double side : {-1.0, 1.0}) {
-      const Vec2d out = turned({0, side}, angle), aside = turned({draw.even(-1, 1), 0}, angle);
+      const Vec2d out = rotated({0, side}, angle), aside = rotated({draw.even(-1, 1), 0}, angle);
       const auto cast = cast_shape_closest(world, shape, out + aside, angle, -2.0 * out);
       ASSERT_TRUE(cast) << i;
       EXPECT_NEAR(cast->fraction, 0.5, 1e-6);
