@@ -48,6 +48,7 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* memory)
       x_(memory),
       guess_(memory),
       best_(memory),
+      targets_(memory),
       next_state_(memory) {}
 
 double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span<const int> sizes) {
@@ -105,11 +106,9 @@ void BoundedRows::compute_mobility() {
 // row may close does not count: that of a rope's least length, metres away, is a thousand times the motion's,
 // and residuals as large as the motion would then pass as solved.
 void BoundedRows::compute_energy_scale() {
-  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   energy_scale_ = min_energy_scale_;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool one_sided = rows[i].lower > -kUnbounded && rows[i].upper == kUnbounded;
-    const double target = one_sided ? std::max(rows[i].target, 0.0) : std::abs(rows[i].target);
+    const double target = is_one_sided(rows[i]) ? std::max(rows[i].target, 0.0) : std::abs(rows[i].target);
     const double speed = std::max(std::abs(row_velocity(rows[i])), target);
     if (speed * speed > energy_scale_ * mobility_[i] && mobility_[i] > 0)
       energy_scale_ = speed * speed / mobility_[i];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <span>
 #include <utility>
@@ -42,6 +43,12 @@ struct BoundedRow {
   int block = 0;
   State state = kFree;  ///< initial state; after solving, the final one
 };
+
+/// Returns true if a row's impulse is bounded on one side alone, as that of a contact or of a limit is.
+inline bool is_one_sided(const BoundedRow& row) {
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  return row.lower > -kUnbounded && row.upper == kUnbounded;
+}
 
 /// The rows of all constraints of a mechanism (joints, limits, motors, springs, contacts and friction) as one
 /// linear complementarity problem with bounds,
@@ -169,6 +176,7 @@ class BoundedRows {
   std::pmr::vector<int> free_before_;         // by place in that order: number of free rows before it
   std::pmr::vector<int> first_columns_;
   std::pmr::vector<double> x_, guess_, best_;
+  std::pmr::vector<double> targets_;          // by row, while infeasible rows are relaxed
   std::pmr::vector<std::int8_t> next_state_;  // 0, or 1 + the state to change to
   double energy_scale_ = 0;      // J, the largest v^2 / mobility of a row, or what the caller gave:
   double min_energy_scale_ = 0;  // J

@@ -8,8 +8,8 @@
 
 #include "tests/world/mechanisms.h"
 
-// Trees of joined bodies that fall onto each other. Nothing drives them, so energy never grows, except by
-// what contacts that remove an overlap of thin links add.
+// Trees of joined bodies that fall onto each other, or whose links collide with each other. Nothing drives
+// them, so energy never grows, except by what contacts that remove an overlap of links add.
 namespace plumb {
 namespace {
 
@@ -17,7 +17,8 @@ using test::Draw;
 using test::Mechanism;
 using test::Ties;
 
-// Adds a tree of boxes of density 1 kg/m^2, whose bodies do not collide with each other.
+// Adds a tree of boxes of density 1 kg/m^2. With a negative `group` its bodies do not collide with each
+// other, with 0 they do: then links at one tip overlap where they are joined, and are born so.
 template <class Real>
 void add_tree(Mechanism<Real>& m, Draw& draw, Ties ties, Vec2d at, int group) {
   struct Tip {
@@ -66,16 +67,48 @@ double largest_gain(Ties ties, std::uint64_t seed) {
   return gain;
 }
 
+// Returns the largest gain of energy in a step of a tree that collides with itself, as a fraction of the
+// energy of its bodies at the speed at which overlaps are removed.
+template <class Real>
+double largest_gain_alone(Ties ties, std::uint64_t seed) {
+  constexpr double kDepenetrationSpeed = 4;  // m/s, tuning::kDepenetrationSpeed
+  Draw draw(seed);
+  Mechanism<Real> m{BasicWorld<Real>({.sleeping = false})};
+  m.world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{4000, 2}});
+  add_tree(m, draw, ties, {0, draw.in(0.3, 8)}, 0);
+  double pushed = 0, gain = 0;
+  for (const BodyId body : m.bodies)
+    pushed += 0.5 * double(m.world.mass(body)) * kDepenetrationSpeed * kDepenetrationSpeed;
+  for (int i = 0; i < 240; ++i) {
+    const double before = m.energy();
+    m.world.step(1.0 / 60);
+    gain = std::max(gain, m.energy() - before);
+  }
+  return gain / pushed;
+}
+
+// Two links on one hinge that touch close to it, with friction, carry hundreds of times their load.
+TEST(MechanismsInHeaps, GainNoEnergyWhereJointsHoldOverlaps) {
+  for (const Ties ties :
+       {Ties::Hinges, Ties::Limits, Ties::Motors, Ties::Welds, Ties::SoftWelds, Ties::Sliders, Ties::Mixed}) {
+    // Of 420 such trees (seeds 0 to 59) four gained 3 to 112 times that, at the last three of these seeds.
+    for (const std::uint64_t seed : {0, 1, 11, 47, 50}) {
+      const std::string scene = std::string(test::kTies[int(ties)]) + ", seed " + std::to_string(seed);
+      EXPECT_LT(largest_gain_alone<float>(ties, seed), 1) << scene;
+    }
+  }
+}
+
 // Links that are 8 cm thin may be pushed into each other by some millimetres, and are pushed apart again.
 TEST(MechanismsInHeaps, GainNoEnergy) {
   constexpr double kPushedApart = 0.05;
   for (const Ties ties : {Ties::Hinges, Ties::Limits, Ties::Sliders}) {
-    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const std::string scene = std::string(test::kTies[int(ties)]) + ", seed " + std::to_string(seed);
       EXPECT_LT(largest_gain<float>(ties, seed), kPushedApart) << scene;
     }
   }
-  for (std::uint64_t seed = 0; seed < 15; ++seed)
+  for (std::uint64_t seed = 0; seed < 5; ++seed)
     EXPECT_LT(largest_gain<double>(Ties::Mixed, seed), kPushedApart) << "mixed, seed " << seed;
 }
 

@@ -309,18 +309,20 @@ class Mechanism {
   // found missing: its mean over the substeps. A persistent load is then carried by impulses, not by closing
   // its gaps in each step, which would leave the joints' forces too small and a lying ragdoll creeping. Only
   // the fraction is added that brings the impulses closest to balancing the forces: of impulses that have
-  // stopped a shock, next to nothing. Contacts with dynamic bodies outside the mechanism get none: the
-  // projection takes these bodies as fixed, so two mechanisms in contact would push each other ever harder.
+  // stopped a shock, next to nothing. Contacts between dynamic bodies get none: those with bodies outside the
+  // mechanism, which the projection takes as fixed, would make two mechanisms push each other ever harder;
+  // those within it, where joints keep bodies overlapped, would press on contact and joints without end.
   void carry_impulses() {
     BoundedRows& system = island_.system;
     assert(island_.row_sources.size() == system.rows.size());
     add_loads();
     island_.impulses.clear();
-    const auto is_outside = [&](int link) {
-      return link >= static_cast<int>(joined_count_) && w_.is_dynamic(island_.links[link].body);
-    };
-    for (const BoundedRow& row : system.rows)
-      island_.impulses.push_back(is_outside(row.a) || is_outside(row.b) ? 0 : row.impulse / substeps_);
+    const auto is_dynamic = [&](int link) { return w_.is_dynamic(island_.links[link].body); };
+    for (const BoundedRow& row : system.rows) {
+      const bool is_contact = row.block >= static_cast<int>(island_.joints.size());
+      const bool carried = !is_contact || !is_dynamic(row.a) || !is_dynamic(row.b);
+      island_.impulses.push_back(carried ? row.impulse / substeps_ : 0);
+    }
     load_imbalance();
     const double fraction = system.best_load_fraction(island_.impulses);
     for (std::size_t i = 0; i < island_.impulses.size(); ++i)

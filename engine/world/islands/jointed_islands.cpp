@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "engine/world/integration/free_motion.h"
+#include "engine/world/islands/energy_bounds.h"
 #include "engine/world/islands/friction_cones.h"
 #include "engine/world/islands/island_links.h"
 #include "engine/world/islands/island_rows.h"
+#include "engine/world/islands/position_corrections.h"
 #include "engine/world/state/constants.h"
 
 namespace plumb {
@@ -50,73 +52,6 @@ bool update_bounds(JointedIsland<Real>& island, bool midpoint) {
     }
   }
   return changed;
-}
-
-// ---- Drivers: kinematic bodies that move, and do whatever work that takes. If the load of one is caught,
-// rows contradict each other, or nearly so. A crate whose corner is pulled into the floor can follow only by
-// turning about that corner, the faster the smaller the arm that the pull has left: rigid rows turned it at
-// 1,000 rad/s for a pull of 0.3 m/s. So the rows between drivers and their loads yield as little as bounds
-// the drivers' work.
-
-// Largest increase of the root of the bodies' energy by drivers in a solve of a substep, as a multiple of
-// that of bodies that move with the drivers as one rigid body. Loads that are free take at most 2: the solve
-// at the middle reflects velocities. At 3 a lever of 1:5 follows at once. Of 33 pulls of a crate into a floor
-// at 0.05 to 3 sizes a second, the fastest reaches 26 sizes a second (30 at 5, 19 with the next limit too).
-constexpr double kMaxDriveRatio = 3;
-// Multiple of the same at which this limit has fallen to kLeastDriveRatio: otherwise a load that stays caught
-// would gain in each substep. Bodies that are faster for other reasons (a flail) follow with
-// kLeastDriveRatio.
-constexpr double kMaxDrivenRatio = 6, kLeastDriveRatio = 0.25;
-// Compliances of these rows, as fractions of their mobility, which are tried one after the other. The least
-// one still stops a load that was caught 1,000 times too fast; with the largest one a row gives a free load
-// half of its impulse, and takes no more energy from the driver than moves the load at the driver's speed.
-// With steps by a factor of 2 a solve would be repeated 20 times, not 7.
-constexpr double kLeastYield = 1e-6, kMostYield = 1, kYieldFactor = 10;
-
-// Returns twice the kinetic energy of an island's dynamic bodies at `velocity(k)`, `spin(k)`.
-template <class Real, class Velocity>
-double twice_energy(const JointedIsland<Real>& island, const Velocity& velocity_of) {
-  double sum = 0;
-  for (std::size_t k = 0; k < island.links.size(); ++k) {
-    const BoundedBody& body = island.system.bodies[k];
-    const auto [v, spin] = velocity_of(k);
-    if (body.inverse_mass.x > 0) sum += v.x * v.x / body.inverse_mass.x;
-    if (body.inverse_mass.y > 0) sum += v.y * v.y / body.inverse_mass.y;
-    if (body.inverse_inertia > 0) sum += spin * spin / body.inverse_inertia;
-  }
-  return sum;
-}
-
-// Returns the root of twice the energy of an island's bodies.
-template <class Real>
-double root_energy_of_links(const JointedIsland<Real>& island) {
-  return std::sqrt(twice_energy(
-      island, [&](std::size_t k) { return std::pair(island.links[k].velocity, island.links[k].spin); }));
-}
-template <class Real>
-double root_energy_of_solution(const JointedIsland<Real>& island) {
-  return std::sqrt(twice_energy(island, [&](std::size_t k) {
-    return std::pair(island.system.bodies[k].velocity, island.system.bodies[k].spin);
-  }));
-}
-
-// Returns the work that drivers may do in a solve of a substep, as an increase of the root of twice the
-// energy: their sum for bodies that move with them as one rigid body, times kMaxDriveRatio; 0 without
-// drivers.
-template <class Real>
-double budget_of(const WorldData<Real>& w, const JointedIsland<Real>& island) {
-  double sum = 0;
-  for (const JointedLink& driver : island.links) {
-    if (!is_driver(w, driver)) continue;
-    const Vec2d centre = w.position[driver.body];
-    sum += std::sqrt(twice_energy(island, [&](std::size_t k) {
-      const Vec2d arm = w.position[island.links[k].body] - centre;
-      return std::pair(driver.start_velocity + driver.start_spin * Vec2d{-arm.y, arm.x}, driver.start_spin);
-    }));
-  }
-  if (!(sum > 0)) return 0;
-  const double ratio = root_energy_of_links(island) / (kMaxDrivenRatio * sum);
-  return std::max(kMaxDriveRatio * (1 - ratio), kLeastDriveRatio) * sum;
 }
 
 // Solves the rows for the links' velocities.
@@ -195,118 +130,6 @@ void update_warm_start_fraction(WorldData<Real>& w, JointedIsland<Real>& island)
   for (const int joint : island.joints) w.joint_set.set_warm_start_fraction(joint, fraction);
 }
 
-// Largest mass ratio for a correction of positions. With it, chains under tips of up to 1e6 times their
-// links' mass have gaps of 0.1 %; with a ratio of 100 they have 0.4 %, with 1000 1.3 %.
-constexpr double kMaxMassRatio = 10;
-
-// Raises the masses of light bodies for a correction of positions, so that none of them moves far just to
-// keep a heavy one from moving a little.
-template <class Real>
-void limit_mass_ratio(JointedIsland<Real>& island) {
-  double least = std::numeric_limits<double>::infinity();  // inverse mass
-  double most = 0;
-  for (const BoundedBody& body : island.system.bodies) {
-    const double inverse = std::max(body.inverse_mass.x, body.inverse_mass.y);
-    if (inverse > 0) least = std::min(least, inverse), most = std::max(most, inverse);
-  }
-  if (!(most > kMaxMassRatio * least)) return;
-  for (BoundedBody& body : island.system.bodies) {
-    const double inverse = std::max(body.inverse_mass.x, body.inverse_mass.y);
-    const double factor = 1 / (1 + inverse / (kMaxMassRatio * least));
-    body.inverse_mass = factor * body.inverse_mass, body.inverse_inertia *= factor;
-  }
-}
-
-// Compensates the work of the displacements that closed joints. Displacements against the forces, such as
-// lifting, add potential energy. This energy is taken from the velocities opposite to them, as far as there
-// are any. Otherwise bodies that are lifted in each step would fall ever faster without descending.
-// `per_increment` times the velocity increment by the forces of a substep is their acceleration.
-template <class Real>
-void compensate_shift_work(JointedIsland<Real>& island, double fraction, double per_increment) {
-  double work = 0, along = 0, size = 0;
-  for (std::size_t i = 0; i < island.links.size(); ++i) {
-    const JointedLink& link = island.links[i];
-    const BoundedBody& body = island.system.bodies[i];
-    const BoundedRows::Displacement& s = island.system.displacements[i];
-    const auto add = [&](double inverse, double displacement, double velocity, double increment) {
-      if (!(inverse > 0)) return;
-      work += fraction * displacement * per_increment * increment / inverse;
-      along += fraction * displacement * velocity / inverse,
-          size += fraction * fraction * displacement * displacement / inverse;
-    };
-    add(body.inverse_mass.x, s.translation.x, link.velocity.x, link.velocity_increment.x);
-    add(body.inverse_mass.y, s.translation.y, link.velocity.y, link.velocity_increment.y);
-    add(body.inverse_inertia, s.rotation, link.spin, link.spin_increment);
-  }
-  if (!(work < 0 && along < 0)) return;
-  const double rate = along / size;  // 1/s
-  const double less = std::sqrt(std::max(rate * rate + 2 * work / size, 0.0)) + rate;
-  for (std::size_t i = 0; i < island.links.size(); ++i) {
-    JointedLink& link = island.links[i];
-    const BoundedRows::Displacement& s = island.system.displacements[i];
-    link.velocity -= (less * fraction) * s.translation, link.spin -= less * fraction * s.rotation;
-  }
-}
-
-// Parameters of a correction: the fraction of joints' gaps that it closes, and the relative compliance of its
-// rows.
-struct GapCorrection {
-  double fraction = 0, softness = 0;
-};
-
-template <class Real>
-GapCorrection gap_correction_of(const WorldData<Real>& w) {
-  if (w.settings.solver == Solver::Direct)
-    return {tuning::kDirectCorrectionFraction, tuning::kDirectCorrectionSoftness};
-  return {tuning::kJointCorrectionFraction, tuning::kCorrectionSoftness};
-}
-
-// Makes the rows of a correction that closes gaps of joints (`joints`) or of contacts. Returns false if none
-// of these are open.
-template <class Real>
-bool make_correction_rows(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step,
-                          bool joints, double fraction) {
-  RowBuilder<Real>(w, island, step, Stage::Correct).build();
-  bool open = false;
-  for (std::size_t i = 0; i < island.system.rows.size(); ++i) {
-    BoundedRow& row = island.system.rows[i];
-    const bool of_joint = static_cast<int>(i) < island.first_contact_row;
-    if (row.state == BoundedRow::kFree) {
-      row.gap *= of_joint == joints ? fraction : 0;
-      open = open || row.gap != 0;
-    } else if (of_joint != joints) {
-      row.gap = std::max(row.gap, 0.0);
-    }
-  }
-  return open;
-}
-
-// Moves bodies to close a fraction of the gaps of joints, with limited mass ratios. Bodies that press on them
-// move along. The work that this does against the forces is taken from the velocities. `h` is the length of
-// the substep in which the forces act, s.
-template <class Real>
-void close_joints(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double h,
-                  const GapCorrection& closing) {
-  if (!make_correction_rows(w, island, step, true, closing.fraction)) return;
-  BoundedRows& system = island.system;
-  std::pmr::vector<BoundedBody>& saved = island.saved_bodies;
-  saved.assign(system.bodies.begin(), system.bodies.end());
-  limit_mass_ratio(island);
-  system.correct(closing.softness);
-  std::copy(saved.begin(), saved.end(), system.bodies.begin());
-  compensate_shift_work(island, displace_links(w, island, tuning::kMaxCorrectionRotation), 1 / h);
-}
-
-// Pushes overlapping bodies apart by a fraction of their overlaps, with their real masses, and with joints as
-// they are. With raised masses, light bodies would lift heavy ones as far as they move themselves, and these
-// would fall back in the next step.
-template <class Real>
-void correct_penetrations(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
-  if (!make_correction_rows(w, island, step, false, 4 * tuning::kDirectPushFraction)) return;
-  island.system.correct(gap_correction_of(w).softness);
-  displace_links(w, island, tuning::kMaxCorrectionRotation);
-}
-
 // ---- Motion
 
 // Stores the poses of an island's bodies.
@@ -353,10 +176,16 @@ void solve_midpoint(WorldData<Real>& w, JointedIsland<Real>& island, const Conta
   }
 }
 
-// Finds the impulses after a motion, so that velocities satisfy the constraints at the present poses.
+// Finds the impulses after a motion, so that velocities satisfy the constraints at the present poses. With
+// drivers `budget` bounds what they and all other rows gain.
 template <class Real>
 void relax(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double& budget) {
   solve(w, island, step, Stage::Relax, budget);
+  if (!(budget > 0) && gains_by_taking_back(island)) {
+    keep_impulses(island);
+    solve_rows(island, false);
+    store_impulses(island, false);
+  }
   for (std::size_t k = 0; k < island.links.size(); ++k) {
     const BoundedBody& body = island.system.bodies[k];
     island.links[k].velocity = body.velocity, island.links[k].spin = body.spin;
