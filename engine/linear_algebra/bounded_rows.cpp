@@ -425,7 +425,7 @@ void BoundedRows::prevent_energy_gain(bool exact) {
   if (!exact || regularised_ || std::any_of(rows.begin(), rows.end(), held)) scale_impulses();
 }
 
-double BoundedRows::best_load_fraction(std::span<const double> impulses) {
+double BoundedRows::best_load_fraction(std::span<const double> impulses, double cost) {
   assert(impulses.size() == rows.size());
   const auto work = [&] {
     double sum = 0;
@@ -435,7 +435,7 @@ double BoundedRows::best_load_fraction(std::span<const double> impulses) {
   const double on_load = work();
   for (BoundedBody& body : bodies) body.velocity = {}, body.spin = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) apply_impulse(rows[i], impulses[i]);
-  const double own = work();
+  const double own = work() + cost;
   return own > 0 ? std::clamp(-on_load / own, 0.0, 1.0) : 1;
 }
 

@@ -93,9 +93,13 @@ class BoundedRows {
   /// Changes the bodies' velocities by an impulse along a row.
   void apply_impulse(const BoundedRow& row, double impulse);
 
+  /// Returns the velocity of a row, m/s.
+  double row_velocity(const BoundedRow& row) const;
+
   /// Returns the fraction, 0 to 1, by which to scale these impulses so that they leave the bodies the least
-  /// energy, given their velocities. Changes the velocities.
-  double best_load_fraction(std::span<const double> impulses);
+  /// energy, given their velocities; scaled impulses also cost `cost`, J, times half the square of the
+  /// fraction. Changes the velocities.
+  double best_load_fraction(std::span<const double> impulses, double cost = 0);
 
   /// Finds impulses that move bodies by `displacements`, instead of changing their velocities, such that the
   /// gaps of the free rows close. Each row is softened by `softening` of its mobility (Levenberg-Marquardt).
@@ -128,7 +132,6 @@ class BoundedRows {
   // Steps of iterative refinement, which remove the error of the regularisation.
   static constexpr int kRefinements = 2;
 
-  double row_velocity(const BoundedRow& row) const;
   void compute_mobility();
   void compute_energy_scale();
   void index_blocks();

@@ -250,6 +250,7 @@ struct JointedLink {
   double spin_increment = 0;                               ///< rad/s, the same
   Vec2d delta_position{};                                  ///< m, since the start of the step
   double delta_angle = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
+  int rigid_group = 0;  ///< lowest link to which joints connect it without any freedom
 };
 
 /// The source of a row of an island with joints.

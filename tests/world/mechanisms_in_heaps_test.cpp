@@ -45,9 +45,10 @@ void add_tree(Mechanism<Real>& m, Draw& draw, Ties ties, Vec2d at, int group) {
   }
 }
 
-// Returns the largest gain of energy in a step, as a fraction of the energy at the start.
+// Returns the largest gain of energy in a step, as a fraction of the energy at the start, of trees of which
+// each collides with the others, and with itself if `collide` is true.
 template <class Real>
-double largest_gain(Ties ties, std::uint64_t seed) {
+double largest_gain(Ties ties, std::uint64_t seed, bool collide) {
   Draw draw(seed);
   WorldDefinition definition;
   definition.sleeping = false;
@@ -55,7 +56,8 @@ double largest_gain(Ties ties, std::uint64_t seed) {
   m.world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{4000, 2}});
   const int trees = 2 + draw.below(4);
   double height = draw.one_in(2) ? 0.3 : draw.in(0.3, 8);
-  for (int i = 0; i < trees; ++i, height += 2.5) add_tree(m, draw, ties, {draw.in(-1, 1), height}, -1 - i);
+  for (int i = 0; i < trees; ++i, height += 2.5)
+    add_tree(m, draw, ties, {draw.in(-1, 1), height}, collide ? 0 : -1 - i);
   const double start = m.energy();
   double energy = start, gain = 0;
   for (int i = 0; i < 240; ++i) {
@@ -99,17 +101,24 @@ TEST(MechanismsInHeaps, GainNoEnergyWhereJointsHoldOverlaps) {
   }
 }
 
+// Islands that are solved directly pass to iterations when the trees meet. Of 40 seeds each these two gained
+// 0.14 and 10 times their energy when iterations started from all impulses.
+TEST(MechanismsInHeaps, GainNoEnergyWhenIterationsTakeThemOver) {
+  EXPECT_LT(largest_gain<float>(Ties::Sliders, 6, true), 0.05);
+  EXPECT_LT(largest_gain<float>(Ties::Mixed, 34, true), 0.05);
+}
+
 // Links that are 8 cm thin may be pushed into each other by some millimetres, and are pushed apart again.
 TEST(MechanismsInHeaps, GainNoEnergy) {
   constexpr double kPushedApart = 0.05;
   for (const Ties ties : {Ties::Hinges, Ties::Limits, Ties::Sliders}) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const std::string scene = std::string(test::kTies[int(ties)]) + ", seed " + std::to_string(seed);
-      EXPECT_LT(largest_gain<float>(ties, seed), kPushedApart) << scene;
+      EXPECT_LT(largest_gain<float>(ties, seed, false), kPushedApart) << scene;
     }
   }
   for (std::uint64_t seed = 0; seed < 5; ++seed)
-    EXPECT_LT(largest_gain<double>(Ties::Mixed, seed), kPushedApart) << "mixed, seed " << seed;
+    EXPECT_LT(largest_gain<double>(Ties::Mixed, seed, false), kPushedApart) << "mixed, seed " << seed;
 }
 
 }  // namespace

@@ -49,6 +49,29 @@ void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
   for (const ContactConstraint<Real>* c : island.contacts) add(c->body_a, c->body_b);
 }
 
+/// Groups links that joints with three rigid rows connect: contacts between links of a group have nothing to
+/// carry.
+template <class Real>
+void find_rigid_groups(WorldData<Real>& w, JointedIsland<Real>& island) {
+  std::pmr::vector<JointedLink>& links = island.links;
+  const auto group_of = [&](int link) {
+    while (links[link].rigid_group != link) link = links[link].rigid_group;
+    return link;
+  };
+  const int count = static_cast<int>(links.size());
+  for (int link = 0; link < count; ++link) links[link].rigid_group = link;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  for (std::size_t i = 0; i < island.joints.size(); ++i) {
+    rows.clear();
+    w.joint_set.solver_rows(island.joints[i], w.solver_bodies(), rows);
+    const auto is_rigid = [](const JointSolverRow<Real>& row) { return row.role == RowRole::Rigid; };
+    if (std::count_if(rows.begin(), rows.end(), is_rigid) < 3) continue;
+    const int a = group_of(island.blocks[i].first), b = group_of(island.blocks[i].second);
+    links[std::max(a, b)].rigid_group = std::min(a, b);
+  }
+  for (int link = 0; link < count; ++link) links[link].rigid_group = group_of(link);
+}
+
 /// Returns the length of the link to which a row's gap is relative, as joint_opening.h defines it, m; 1 for
 /// an angle. If the joint is itself a link, `length` is its length, m.
 template <class Real>

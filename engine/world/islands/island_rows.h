@@ -183,6 +183,9 @@ class RowBuilder {
     const double slip = std::abs(sliding - double(c.surface_speed));
     const FrictionRays rays = rays_of(last, friction);
     const bool driven = !correcting_ && (is_driver(link_a) || is_driver(link_b));
+    // Joints alone keep these bodies where they are to each other. Rows for their contact would contradict
+    // those of the joints by the angle of which bodies turn in a step, and press with the inverse of it.
+    const bool redundant = island_.links[link_a].rigid_group == island_.links[link_b].rigid_group;
     double pressure = 0;
     rigid_ = false;
     for (int i = 0; i < c.count; ++i) {
@@ -198,14 +201,14 @@ class RowBuilder {
       const bool pressed =
           !midpoint_ && (island_.impulses[index] > 0 || (has_friction && island_.impulses[index + 1] > 0));
       const bool open = !midpoint_ && !correcting_ && gap > 0 && !pressed;
-      const bool disabled = open || !(c.mass[i] > 0);
+      const bool disabled = open || redundant || !(c.mass[i] > 0);
       const double most = disabled ? 0 : std::numeric_limits<double>::infinity();
       for (int k = 0; k < (has_friction ? 2 : 1); ++k) {
         const double slope = k == 0 ? friction : -friction;
         BoundedRow ray = row;
         if (correcting_) {
           // Only one of the two rays closes the gap.
-          const bool active = k == 0 && (row.gap < 0 || pressed);
+          const bool active = k == 0 && !redundant && (row.gap < 0 || pressed);
           add_correction_row(ray, {.impulse = &c.normal_impulse[i]}, active, active && pressed,
                              k == 0 ? most : 0);
           continue;

@@ -92,6 +92,7 @@ class Mechanism {
   void close() {
     make_joint_rows(Level::Position);
     collect_contacts();
+    find_rigid_groups(w_, island_);
     if (order() > tuning::kMaxJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
       if (round > 0) make_joint_rows(Level::Position);
@@ -177,6 +178,11 @@ class Mechanism {
   void make_contact_rows(Level level) {
     int block = static_cast<int>(island_.joints.size());
     for (ContactConstraint<Real>* c : island_.contacts) {
+      const auto [link_a, link_b] = island_.blocks[block];
+      if (island_.links[link_a].rigid_group == island_.links[link_b].rigid_group) {
+        ++block;
+        continue;
+      }
       const SolverBody<Real>&a = w_.motion[c->body_a], &b = w_.motion[c->body_b];
       const Vec2d n = c->normal.template as<double>();
       const double closed = dot(n, (b.delta_position - a.delta_position).template as<double>());
