@@ -1,4 +1,5 @@
 #include "engine/core/capacity.h"
+#include "engine/world/contact_solver/contact_passes.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/mass.h"
@@ -11,11 +12,26 @@
 namespace plumb {
 namespace {
 
+// Scales the impulses of the contacts at a joint's bodies by `fraction`: what balanced a load together with
+// the joint's. What pressed against the joint alone would throw the bodies apart when it is gone.
+template <class Real>
+void keep_balanced_impulses(WorldData<Real>& w, const JointRecord& record, Real fraction) {
+  if (fraction == 1) return;
+  for (const int body : {record.body_a, record.body_b}) {
+    if (!w.is_dynamic(body)) continue;
+    for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {
+      if (contact.home == ContactHome::Graph) scale_impulses(constraint_of(w, contact), fraction);
+    });
+  }
+}
+
 template <class Real>
 void erase_joint(WorldData<Real>& w, int joint) {
   const JointRecord record = w.joints[joint];
   w.topology_changed = true;
+  const Real balanced = static_cast<Real>(w.joint_set.warm_start_fraction(record.slot));
   w.joint_set.remove(record.slot);  // the only call that may run out of memory
+  keep_balanced_impulses(w, record, balanced);
   unlink_edges(w, w.joints, joint, &BodyRecord<Real>::first_joint);
   if (!has_quarantined_body(w, record))
     --w.bodies[record.body_a].constraints, --w.bodies[record.body_b].constraints;
