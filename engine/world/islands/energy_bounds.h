@@ -96,7 +96,7 @@ inline constexpr double kMaxDrivenRatio = 6, kLeastDriveRatio = 0.25;
 inline constexpr double kLeastYield = 1e-6, kMostYield = 1, kYieldFactor = 10;
 
 /// Returns the work that drivers may do in a solve of a substep, as an increase of the root of twice the
-//// energy: their sum for bodies that move with them as one rigid body, times kMaxDriveRatio; 0 without
+/// energy: their sum for bodies that move with them as one rigid body, times kMaxDriveRatio; 0 without
 /// drivers.
 template <class Real>
 double budget_of(const WorldData<Real>& w, const JointedIsland<Real>& island) {
