@@ -43,6 +43,8 @@ ENGINES = {
     "agreement": "plumb-precise,plumb-float,plumb",
     "precise": "plumb-precise",
     "scene": "plumb-float,plumb",
+    "linear_algebra": "plumb-precise,plumb-float,plumb",
+    "collision": "plumb-float,plumb",
 }
 # Of the programs and builds, beside what else a machine does.
 NICE = "10"
