@@ -1,6 +1,7 @@
 // Whatever a call could change is awake: each call of World on what sleeps acts as on a twin that is awake.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -100,6 +101,30 @@ TYPED_TEST(Waking, WhatLiesOnAPlatformSleepsByItself) {
   EXPECT_TRUE(world.awake(left) && world.awake(right));
   run(world, 30);
   EXPECT_NEAR(world.position(right).y - world.position(lift).y, 1, 0.02);
+}
+
+// A fast kinematic body meets a sleeping rod within a step, before they have a contact.
+TYPED_TEST(Waking, WhatAFastKinematicBodyMovesIsAwake) {
+  for (const double speed : {1.0, 5.0, 20.0, 60.0}) {
+    for (const double gap : {0.006, 0.1, 0.5, 2.0}) {
+      BasicWorld<TypeParam> world;
+      world.set_gravity({});
+      const BodyId rod = world.create_body({}, {.geometry = Box{0.2, 0.01}});
+      world.create_body({.type = BodyType::Kinematic, .position = {0, gap + 0.1}, .velocity = {0, -speed}},
+                        {.geometry = Box{0.4, 0.2}});
+      world.set_awake(rod, false);
+      for (int i = 0; i < 150; ++i) {
+        const double before = world.position(rod).y;
+        world.step(1.0 / 60);
+        std::vector<BodyId> moved(2);
+        moved.resize(world.moved(moved));
+        const bool reported = std::find(moved.begin(), moved.end(), rod) != moved.end();
+        if (world.position(rod).y == before) continue;
+        EXPECT_TRUE(reported && world.awake(rod)) << speed << " m/s, gap " << gap << " m, step " << i;
+      }
+      EXPECT_LT(world.position(rod).y, 0) << speed << " m/s, gap " << gap << " m";
+    }
+  }
 }
 
 /// The functions of world.h that are not const.

@@ -17,6 +17,7 @@
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/shape_boxes.h"
+#include "engine/world/state/sleeping.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
@@ -498,6 +499,8 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
   }
   for (const SweptBody& swept : swept_bodies) {
     if (swept.changed) {
+      // A kinematic body that moves a sleeping one wakes it.
+      wake_body(w, swept.body);
       commit_sweep(w, swept);
       for (int shape = w.bodies[swept.body].first_shape; shape != kNone; shape = w.shapes[shape].next)
         update_proxy(w, shape, dt, Real(0));
