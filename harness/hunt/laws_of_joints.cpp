@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,67 @@ bool judged(const Case& one) {
   return one.actions.empty() && !one.scene.joints.empty() && starts_closed(one.scene);
 }
 
+/// Mechanisms that joints tie to something immovable, and that a moving kinematic body has met. The joints
+/// cannot hold where that body pushes the mechanism away from what it is tied to.
+class PressedMechanisms {
+ public:
+  explicit PressedMechanisms(const Scene& scene) : scene_(scene), groups_(joint_groups(scene)) {
+    tied_.assign(scene.bodies.size(), false), pressed_ = tied_;
+    for (const Joint& joint : scene.joints)
+      std::visit(
+          [&](const auto& j) {
+            const auto a = dynamic(j.body_a), b = dynamic(j.body_b);
+            if (a.has_value() != b.has_value()) tied_[groups_[a ? *a : *b]] = true;
+          },
+          joint);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Body& body = scene.bodies[i];
+      if (!is_moving_kinematic(body) && !(dynamic(body.name) && tied_[groups_[i]])) continue;
+      for (const Shape& shape : body.shapes)
+        for (const Outline& outline : outlines_of(shape)) parts_.push_back({i, &shape, outline});
+    }
+  }
+
+  void look(const std::vector<BodyState>& states) {
+    for (const Part& pusher : parts_) {
+      if (!is_moving_kinematic(scene_.bodies[pusher.body])) continue;
+      const Outline there = placed(pusher.outline, states[pusher.body]);
+      for (const Part& part : parts_) {
+        if (is_moving_kinematic(scene_.bodies[part.body]) || pressed_[groups_[part.body]] ||
+            !may_touch(pusher.shape->filter, part.shape->filter) || joined(scene_, pusher.body, part.body))
+          continue;
+        if (separation(placed(part.outline, states[part.body]), there) < 0)
+          pressed_[groups_[part.body]] = true;
+      }
+    }
+  }
+
+  bool contain(const Joint& joint) const {
+    return std::visit(
+        [&](const auto& j) {
+          const auto a = dynamic(j.body_a), b = dynamic(j.body_b);
+          return (a && pressed_[groups_[*a]]) || (b && pressed_[groups_[*b]]);
+        },
+        joint);
+  }
+
+ private:
+  struct Part {
+    std::size_t body;
+    const Shape* shape;
+    Outline outline;
+  };
+  std::optional<std::size_t> dynamic(const std::string& name) const {
+    const auto at = find_body(scene_, name);
+    return at && scene_.bodies[*at].type == BodyType::Dynamic ? at : std::nullopt;
+  }
+
+  const Scene& scene_;
+  std::vector<std::size_t> groups_;
+  std::vector<bool> tied_{}, pressed_{};  // by group
+  std::vector<Part> parts_{};
+};
+
 /// An angle of b relative to a that a joint keeps within a range.
 struct Hold {
   double angle = 0;  // rad, relative to the reference
@@ -83,11 +146,14 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
   const std::vector<double> extent = extents(one.scene);
   std::vector<int> open(one.scene.joints.size(), 0);
   std::vector<bool> over(one.scene.joints.size(), false);
+  PressedMechanisms pressed(one.scene);
   const double step = engine.kind == Engine::Kind::Precise ? 0 : one.dt / one.substeps;
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
     const std::vector<BodyState>& states = motion.samples[k].states;
+    pressed.look(states);
     for (std::size_t i = 0; i < open.size(); ++i) {
-      over[i] = over[i] || at_its_pulley(one, one.scene.joints[i], states);
+      over[i] =
+          over[i] || pressed.contain(one.scene.joints[i]) || at_its_pulley(one, one.scene.joints[i], states);
       if (may_break(one.scene.joints[i]) || over[i]) continue;
       double size = 0, speed = 0;
       for (const auto& end : {gaps.end_a(i), gaps.end_b(i)}) {
@@ -121,9 +187,11 @@ Verdict joint_gap_law(const Case& one, const Engine& engine, const Motion& motio
 Verdict joint_angle_law(const Case& one, const Engine&, const Motion& motion) {
   if (!judged(one)) return {};
   std::vector<int> off(one.scene.joints.size(), 0);
+  PressedMechanisms pressed(one.scene);
   for (std::size_t k = 1; k < motion.samples.size(); ++k) {
+    pressed.look(motion.samples[k].states);
     for (std::size_t i = 0; i < off.size(); ++i) {
-      if (may_break(one.scene.joints[i])) continue;
+      if (may_break(one.scene.joints[i]) || pressed.contain(one.scene.joints[i])) continue;
       const auto hold = hold_of(one.scene, one.scene.joints[i], motion.samples[k].states);
       if (!hold) continue;
       const double beyond = std::max(hold->angle - hold->upper, hold->lower - hold->angle);

@@ -113,10 +113,6 @@ struct Stored {
   double operator()(const auto&) const { return 0; }
 };
 
-bool moves(const Body& body) {
-  return body.type == BodyType::Kinematic && (length(body.velocity) > 0 || body.angular_velocity != 0);
-}
-
 bool outside(const std::optional<Range>& range, double value, double slack) {
   return range && (value < range->lower - slack || value > range->upper + slack);
 }
@@ -214,11 +210,15 @@ std::vector<std::size_t> joint_groups(const Scene& scene) {
   return first;
 }
 
+bool is_moving_kinematic(const Body& body) {
+  return body.type == BodyType::Kinematic && (length(body.velocity) > 0 || body.angular_velocity != 0);
+}
+
 bool driven(const Case& one) {
   for (const Action& action : one.actions)
     if (action.kind != ActionKind::Sleep) return true;
   for (const Body& body : one.scene.bodies) {
-    if (moves(body)) return true;
+    if (is_moving_kinematic(body)) return true;
     for (const Shape& shape : body.shapes)
       if (shape.surface_speed != 0) return true;
   }

@@ -26,6 +26,9 @@ bool joined(const Scene& scene, std::size_t a, std::size_t b);
 /// index of its group. Static and kinematic bodies, and bodies without joints, have their own index.
 std::vector<std::size_t> joint_groups(const Scene& scene);
 
+/// Returns true if a body moves whatever stands in its way.
+bool is_moving_kinematic(const Body& body);
+
 /// Returns true if the scene does not bound the work on its bodies: it has moving kinematic bodies, surface
 /// speeds, time-dependent forces, or actions during the run.
 bool driven(const Case& one);

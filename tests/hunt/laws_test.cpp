@@ -141,6 +141,28 @@ TEST(Laws, AnOpenJointIsSeen) {
                             })));
 }
 
+TEST(Laws, AJointThatAMovingPlatformTearsOpenIsNotJudged) {
+  Case one;
+  one.scene.bodies = {{.name = "bar", .position = {0.5, 1}, .shapes = {{.geometry = Box{1, 0.2}}}},
+                      {.name = "platform",
+                       .type = BodyType::Kinematic,
+                       .position = {0, 0},
+                       .velocity = {0, 1},
+                       .shapes = {{.geometry = Box{4, 0.2}}}}};
+  one.scene.joints = {
+      WeldJoint{.name = "held", .body_a = "", .body_b = "bar", .anchor_a = {0, 1}, .anchor_b = {-0.5, 0}}};
+  one.steps = 120;
+  // The bar is carried once the platform has reached it, or moves without anything that pushes it.
+  const auto carried_from = [](double start) {
+    return [start](std::size_t body, double t) {
+      const double rise = std::max(t - start, 0.0);
+      return body == 0 ? BodyState{.position = {0.5, 1 + rise}} : BodyState{.position = {0, t}};
+    };
+  };
+  EXPECT_FALSE(joint_gap_law(one, world(), made_up(one, carried_from(0.81))));
+  EXPECT_TRUE(joint_gap_law(one, world(), made_up(one, carried_from(0.2))));
+}
+
 TEST(Laws, GapsBetweenPointsAreHeldAgainstTheScene) {
   Case one;
   one.scene = {.name = "two points and a ball", .gravity = {0, 0}};

@@ -1,5 +1,6 @@
 #include "tests/world/mechanisms.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -52,6 +53,29 @@ TYPED_TEST(Mechanisms, APropellerOfWeldedBladesSpinsOn) {
         EXPECT_GT(m.energy(), 0.98 * start) << blades << " blades of " << arm << " hubs, " << substeps;
         EXPECT_LT(gap, 0.02 * hub) << blades << " blades of " << arm << " hubs, " << substeps;
       }
+}
+
+// Corrections of closed joints shrink in each step, until their squares are smaller than any number.
+TYPED_TEST(Mechanisms, WeldedBodiesFallForTenSeconds) {
+  Draw draw(700);
+  for (int pair = 0; pair < 100; ++pair) {
+    BasicWorld<TypeParam> w({.gravity = {0, -10}, .sleeping = false});
+    const auto body = [&](Vec2d at) {
+      return w.create_body({.position = at,
+                            .angle = draw.in(-15, 15),
+                            .mass = MassProperties{draw.in(0.1, 2), {}, draw.in(0.01, 0.2)}});
+    };
+    const BodyId a = body({0, 4}), b = body({1.5, 4});
+    const Vec2d at{0.5, 4};
+    w.create_joint(a, b,
+                   {.kind = WeldDefinition{.anchor_a = w.local_point(a, at),
+                                           .anchor_b = w.local_point(b, at),
+                                           .reference_angle = w.angle(b) - w.angle(a)}});
+    for (int i = 0; i < 600; ++i) w.step(1.0 / 60);
+    ASSERT_THAT(w.quarantined(), testing::IsEmpty()) << "pair " << pair;
+    EXPECT_NEAR(w.velocity(a).y, -100, 1e-2) << "pair " << pair;
+    EXPECT_NEAR(w.angular_velocity(a), 0, 1e-3) << "pair " << pair;
+  }
 }
 
 // Chains of limited hinges that are thrown whip: a hinge may go beyond its limit. It turns back by itself,

@@ -40,6 +40,16 @@ void limit_mass_ratio(JointedIsland<Real>& island) {
 // `per_increment` times the velocity increment by the forces of a substep is their acceleration.
 template <class Real>
 void compensate_shift_work(JointedIsland<Real>& island, double fraction, double per_increment) {
+  // Bodies that come to rest have displacements whose squares underflow, so displacements are divided by a
+  // power of two near the largest.
+  double largest = 0;
+  for (const BoundedRows::Displacement& s : island.system.displacements)
+    largest = std::max({largest, std::abs(s.translation.x), std::abs(s.translation.y), std::abs(s.rotation)});
+  if (!(largest > 0)) return;
+  constexpr int kLeastExponent = -1000;  // the inverse of 2 to this is finite
+  const int exponent = std::max(std::ilogb(largest), kLeastExponent);
+  const double scale = std::ldexp(1.0, -exponent);
+  const auto scaled = [&](double displacement) { return fraction * (scale * displacement); };
   double work = 0, along = 0, size = 0;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     const JointedLink& link = island.links[i];
@@ -47,21 +57,22 @@ void compensate_shift_work(JointedIsland<Real>& island, double fraction, double 
     const BoundedRows::Displacement& s = island.system.displacements[i];
     const auto add = [&](double inverse, double displacement, double velocity, double increment) {
       if (!(inverse > 0)) return;
-      work += fraction * displacement * per_increment * increment / inverse;
-      along += fraction * displacement * velocity / inverse,
-          size += fraction * fraction * displacement * displacement / inverse;
+      work += displacement * per_increment * increment / inverse;
+      along += displacement * velocity / inverse, size += displacement * displacement / inverse;
     };
-    add(body.inverse_mass.x, s.translation.x, link.velocity.x, link.velocity_increment.x);
-    add(body.inverse_mass.y, s.translation.y, link.velocity.y, link.velocity_increment.y);
-    add(body.inverse_inertia, s.rotation, link.spin, link.spin_increment);
+    add(body.inverse_mass.x, scaled(s.translation.x), link.velocity.x, link.velocity_increment.x);
+    add(body.inverse_mass.y, scaled(s.translation.y), link.velocity.y, link.velocity_increment.y);
+    add(body.inverse_inertia, scaled(s.rotation), link.spin, link.spin_increment);
   }
   if (!(work < 0 && along < 0)) return;
-  const double rate = along / size;  // 1/s
-  const double less = std::sqrt(std::max(rate * rate + 2 * work / size, 0.0)) + rate;
+  const double rate = along / size;  // 1/s, times the power of two
+  const double gain = std::ldexp(2 * work / size, exponent);
+  const double less = std::sqrt(std::max(rate * rate + gain, 0.0)) + rate;
   for (std::size_t i = 0; i < island.links.size(); ++i) {
     JointedLink& link = island.links[i];
     const BoundedRows::Displacement& s = island.system.displacements[i];
-    link.velocity -= (less * fraction) * s.translation, link.spin -= less * fraction * s.rotation;
+    link.velocity -= less * Vec2d{scaled(s.translation.x), scaled(s.translation.y)};
+    link.spin -= less * scaled(s.rotation);
   }
 }
 
