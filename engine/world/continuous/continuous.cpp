@@ -170,6 +170,14 @@ void push_along(WorldData<Real>& w, int index, int pusher, double fraction, Impa
   });
 }
 
+// Rebuilds the points of a contact in the next step: where a core has come too near, they are too far from
+// the true ones. A needle would be let fall into the floor and lifted out of it in each step.
+template <class Real>
+void invalidate_points(WorldData<Real>& w, const ToiEvent& next) {
+  if (const auto* const contact = constraint_between(w, next.shape, next.other))
+    constraint_of(w, w.contacts[contact->contact]).recycle_budget = -1;
+}
+
 // Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if lifting is not
 // allowed.
 template <class Real>
@@ -262,6 +270,7 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
     push_along(w, next.swept_body, other_index, next.fraction, search);
     return;
   }
+  invalidate_points(w, next);
   if (lift(w, next, search)) return;
   const int pushed_by = swept.pushed_by;
   const bool pushes_other = pushed_by != kNone && other != nullptr && !by_kinematic &&

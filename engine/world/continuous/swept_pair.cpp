@@ -62,13 +62,12 @@ Real half_width_of(const WorldData<Real>& w, int shape) {
   return w.bodies[w.shapes[shape].body].half_width;
 }
 
-// Returns the distance at which a fast body stops before an obstacle, m. Without a contact, which would hold
-// a sliding body on the surface, it is far less than the depth of a core.
+// Returns half of the distance at which a fast body, or its core, stops before an obstacle, m. It is far less
+// than the depth of a core: otherwise the core of a slender body that lies on the obstacle would be stopped.
 template <class Real>
 Real tolerance_between(const WorldData<Real>& w, const SweptPair<Real>& pair) {
   Real out =
       Real(tuning::kImpactTolerance) * std::min(w.forms[pair.shape].extent, w.forms[pair.other].extent);
-  if (pair.contact != nullptr) return out;
   for (const int shape : {pair.shape, pair.other})
     if (const Real half = half_width_of(w, shape); half > 0)
       out = std::min(out, Real(0.25 * tuning::kCoreDepth) * half);
@@ -416,13 +415,12 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
   // decrease of the distance along the path, if the shapes are apart.
   const double apart = distance_between(path.sweep, shape, other_motion.sweep, obstacle);
   const double offset = apart > 0 ? apart - start.largest() : 0;
-  // If the separation along the normals does not decrease, the core enters through another side: stop it, up
-  // to two tolerances earlier, which is much for a needle.
+  // If the separation along the normals does not decrease, the core enters through another side: stop it.
   const double smaller = static_cast<double>(pair.contact->depenetration_speed) / tuning::kDepenetrationSpeed;
-  const double stop_distance = 2 * tuning::kImpactTolerance * smaller;
+  const double stop_distance = 2 * static_cast<double>(tolerance_between(w, pair));
   if (entry_fraction < 1 && axes.at(entry_fraction).largest() + offset > stop_distance - 0.5 * core)
     return std::nullopt;
-  const double lift = -core - end.largest() - offset;
+  const double lift = stop_distance - core - end.largest() - offset;
   // Between the ends of the path, corners move on arcs, and another impact may stop the body where they are
   // deepest. Below both ends, allow the depth from the core to the inner core, which contacts push out.
   const double half_width = static_cast<double>(half_width_of(w, pair.shape));
