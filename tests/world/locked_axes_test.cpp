@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/world/support.h"
@@ -249,6 +252,76 @@ TYPED_TEST(LockedAxes, ABlockThatKeepsItsXRestsOnASmoothSlope) {
     return start.y - world.position(block).y;
   };
   EXPECT_NEAR(sinks(0.4, true), sinks(0, false), 1e-7);
+}
+
+// Neighbours in adjacent columns touch along the locked axis. All that acts along the free one is the
+// rounding of their normals.
+TYPED_TEST(LockedAxes, ABoardOfTouchingDiscsStandsStill) {
+  for (const Solver solver : {Solver::SoftSteps, Solver::Direct, Solver::SequentialImpulses}) {
+    for (const bool direct : {true, false}) {
+      for (const auto& [columns, rows] : {std::pair{7, 2}, std::pair{3, 6}, std::pair{3, 8}}) {
+        BasicWorld<TypeParam> world({.solver = solver, .direct_islands = direct});
+        world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{80, 2}});
+        std::vector<BodyId> discs;
+        for (int i = 0; i < columns; ++i)
+          for (int j = 0; j < rows; ++j)
+            discs.push_back(
+                world.create_body({.position = {1.0 * i, j + 0.5}, .lock_x = true, .lock_rotation = true},
+                                  {.geometry = Circle{0.5}}));
+        run(world, 300);
+        for (std::size_t k = 0; k < discs.size(); ++k)
+          EXPECT_NEAR(world.position(discs[k]).y, static_cast<int>(k) % rows + 0.5, 0.01)
+              << "solver " << static_cast<int>(solver) << ", direct islands " << direct << ", disc " << k
+              << " of " << columns << " by " << rows;
+      }
+    }
+  }
+}
+
+// A disc falls past one that it touches at the same height, up to a rounding, without friction: v = g t.
+TYPED_TEST(LockedAxes, ADiscFallsPastOneThatItTouchesFromTheSide) {
+  for (const double height : {0.0, 1e-16, 1e-15, 1e-12, 1e-8}) {
+    BasicWorld<TypeParam> world({.gravity = {0, -10}});
+    world.create_body({.type = BodyType::Static, .position = {1, 0}},
+                      ShapeDefinition{.geometry = Circle{0.5}, .material = {0, 0}});
+    const BodyId disc = world.create_body({.position = {0, height}, .lock_x = true},
+                                          ShapeDefinition{.geometry = Circle{0.5}, .material = {0, 0}});
+    run(world, 60);
+    EXPECT_NEAR(world.velocity(disc).y, -10, 0.01) << height;
+    EXPECT_NEAR(world.position(disc).y, -5, 0.01) << height;
+  }
+}
+
+// Some bodies of a heap at rest get locks, also both with which a disc can only rotate. A lock supports more
+// than friction did, so they settle, and reach no more than the speed of a fall through the heap.
+TYPED_TEST(LockedAxes, AHeapWhoseBodiesAreLockedSettles) {
+  for (int seed = 1; seed <= 30; ++seed) {
+    for (const double friction : {0.6, 0.0}) {
+      std::mt19937 random(seed);
+      BasicWorld<TypeParam> world({.gravity = {0, -10}});
+      const BodyId bin = world.create_body({.type = BodyType::Static});
+      const Material material{friction, 0};
+      for (const auto& [size, at] : {std::pair{Box{20, 2}, Vec2d{0, -3}}, std::pair{Box{2, 20}, Vec2d{-3, 0}},
+                                     std::pair{Box{2, 20}, Vec2d{3, 0}}})
+        world.create_shape(bin, {.geometry = size, .position = at, .material = material});
+      std::vector<BodyId> discs;
+      for (int k = 0; k < 8; ++k)
+        discs.push_back(world.create_body(
+            {.position = {-1.3 + 2.6 * static_cast<double>(random()) / 4294967296.0, -1 + 1.3 * k}},
+            ShapeDefinition{.geometry = Circle{0.5}, .material = material}));
+      run(world, 300);
+      for (const BodyId disc : discs) {
+        const auto bits = random();
+        world.set_locks(disc, (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0);
+      }
+      double fastest = 0;
+      for (int i = 0; i < 120; ++i) {
+        run(world, 1);
+        for (const BodyId disc : discs) fastest = std::max(fastest, length(world.velocity(disc)));
+      }
+      EXPECT_LT(fastest, std::sqrt(2 * 10 * 4.0)) << "seed " << seed << ", friction " << friction;
+    }
+  }
 }
 
 }  // namespace

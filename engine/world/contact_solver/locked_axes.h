@@ -34,6 +34,17 @@ Number linear_response(const SolverBody<Real>& a, const SolverBody<Real>& b, uns
          Number(b.inverse_mass) * dot(free_of_b(row, locks), direction);
 }
 
+/// Returns the mobility, 1/kg, up to which locked axes block a row, given the squares of the arms of
+/// its point: a millionth of the largest of any row there. The row is then a thousandth of a radian or less
+/// off what is locked, and the rest is mostly rounding of its direction. Its impulse would be up to the
+/// inverse of that rounding times the load, and act along what is free.
+template <class Real>
+Real least_mobility(const SolverBody<Real>& a, const SolverBody<Real>& b, Real arm_a_squared,
+                    Real arm_b_squared) {
+  return Real(1e-6) * (a.inverse_mass + b.inverse_mass + a.inverse_inertia * arm_a_squared +
+                       b.inverse_inertia * arm_b_squared);
+}
+
 /// The axes of the bodies of a contact without locks: all are free.
 struct AllAxes {
   template <class Vec>

@@ -31,10 +31,12 @@ void disable(RestitutionContact<Real>& bounce) {
 // Updates the effective masses of two discs, whose normal has rotated: with a locked axis they depend on it.
 template <class Real>
 void update_masses(const SolverBody<Real>& a, const SolverBody<Real>& b, ContactConstraint<Real>& c) {
+  const Real least =
+      least_mobility(a, b, c.arm_tangent_a * c.arm_tangent_a, c.arm_tangent_b * c.arm_tangent_b);
   const auto mass = [&](Vec2<Real> row, Real arm_a, Real arm_b) {
     const Real inverse = linear_response(a, b, c.locks, row, row, true) + a.inverse_inertia * arm_a * arm_a +
                          b.inverse_inertia * arm_b * arm_b;
-    return inverse > 0 ? 1 / inverse : Real(0);
+    return inverse > least ? 1 / inverse : Real(0);
   };
   c.mass[0] = c.inverse_pp = mass(c.normal, c.arm_a[0], c.arm_b[0]);
   c.tangent_mass = mass({c.normal.y, -c.normal.x}, c.arm_tangent_a, c.arm_tangent_b);

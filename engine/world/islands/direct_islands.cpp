@@ -203,6 +203,7 @@ void add_rows(DirectIsland<Real>& island) {
       // they have rows: a stack that lands in this step would have no floor in the system, and hop. Points
       // that will bounce are left to their impact.
       const bool has_row = all_open && !(c->restitution > 0);
+      if (!(c->mass[i] > 0)) continue;  // locked axes block it
       if (c->normal_impulse[i] == 0 && c->separation[i] > 0 && !has_row) continue;
       DirectRow<Real> row;
       row.a = c->body_a, row.b = c->body_b;

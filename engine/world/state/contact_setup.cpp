@@ -21,11 +21,15 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
   const auto coupling = [&](Real linear, Real la, Real lb, Real ma, Real mb) {
     return linear + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
   };
+  const auto mobility = [&](Real linear, Real la, Real lb, Vec2<Real> arm_a) {
+    const Real k = coupling(linear, la, lb, la, lb);
+    return k > least_mobility(a, b, length_squared(arm_a), length_squared(arm_a - a_to_b)) ? k : Real(0);
+  };
   const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
   Real k[2] = {};
   for (int i = 0; i < c.count; ++i) {
     c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - a_to_b, n);
-    k[i] = coupling(along_n, c.arm_a[i], c.arm_b[i], c.arm_a[i], c.arm_b[i]);
+    k[i] = mobility(along_n, c.arm_a[i], c.arm_b[i], arms_a[i]);
     c.mass[i] = inverse(k[i]);
   }
   if (c.count == 2) {
@@ -43,8 +47,7 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
   }
   const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
   c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - a_to_b, n);
-  c.tangent_mass =
-      inverse(coupling(along_t, c.arm_tangent_a, c.arm_tangent_b, c.arm_tangent_a, c.arm_tangent_b));
+  c.tangent_mass = inverse(mobility(along_t, c.arm_tangent_a, c.arm_tangent_b, deeper));
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
