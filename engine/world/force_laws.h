@@ -18,6 +18,11 @@ namespace plumb {
 
 struct LawOptions {
   bool wakes = false;
+  /// s, of the step that follows, for `apply_law` alone: the law then sees bodies as at the middle of that
+  /// step (slightly earlier for bodies with contacts), which keeps the energy of springs and orbits. With 0
+  /// it sees them as they are. A force held through a step that began with it feeds a spring of angular
+  /// frequency w: the amplitude grows by exp(w^2 dt t / 4).
+  double dt = 0;
 };
 
 /// State of a body, as passed to a law.

@@ -335,6 +335,36 @@ TYPED_TEST(ForceLaws, ALawOfOnesOwnActsOnAwakeBodiesAlone) {
   EXPECT_NEAR(world.velocity(asleep).x, 1.5, 1e-6);
 }
 
+// F = -m w^2 x: the amplitude stays. Evaluated in the middle of steps, the scheme keeps a quadratic form that
+// is the energy up to (w dt / 2)^2; a constant force moves the body by a t^2 / 2.
+TYPED_TEST(ForceLaws, ALawOfOnesOwnInTheMiddleOfStepsKeepsTheEnergyOfASpring) {
+  for (const double rate : {2.0, 5.0, 10.0, 20.0}) {
+    typename TestFixture::World world(weightless());
+    const BodyId swings = world.create_body({.position = {1, 0}, .angle = 1}, kDisc),
+                 thrust = world.create_body({.position = {0, 50}}, kDisc);
+    double largest = 0, widest = 0;
+    for (int i = 0; i < 600; ++i) {
+      apply_law(
+          world,
+          [&](const LawBody& body) -> Wrench<double> {
+            if (body.id == thrust) return {{body.mass * 3, 0}, 0};
+            return {{-body.mass * rate * rate * body.centre.x, 0}, -body.inertia * rate * rate * body.angle};
+          },
+          {.dt = kDt});
+      world.step(kDt);
+      if (i < 480) continue;
+      largest = std::max(largest, std::abs(world.centre(swings).x));
+      widest = std::max(widest, std::abs(world.angle(swings)));
+    }
+    const double bound = 0.5 * rate * rate * kDt * kDt + 1e-3;
+    EXPECT_NEAR(largest, 1, bound) << rate;
+    EXPECT_NEAR(widest, 1, bound) << rate;
+    EXPECT_NEAR(world.centre(thrust).x, 0.5 * 3 * 600 * kDt * 600 * kDt, 1e-3) << rate;
+  }
+  typename TestFixture::World world(weightless());
+  EXPECT_THROW(apply_law(world, [](const LawBody&) { return Wrench<double>{}; }, {.dt = -1}), Error);
+}
+
 TYPED_TEST(ForceLaws, ALawOfOnesOwnKnowsTheBody) {
   typename TestFixture::World world(weightless());
   const BodyId body = world.create_body({.position = {1, 2},

@@ -17,15 +17,18 @@ void report_not_finite(const std::string& name, int body, const char* field) {
 
 namespace {
 
+// Returns what a law sees of a body, `ahead` seconds from now.
 template <class Real>
-LawBody view_of(const WorldData<Real>& w, int body) {
+LawBody view_of(const WorldData<Real>& w, int body, double ahead) {
   const BodyRecord<Real>& record = w.bodies[body];
   const SolverBody<Real>& motion = w.motion[body];
+  const Vec2d velocity = motion.velocity.template as<double>();
+  const double angular_velocity = static_cast<double>(motion.angular_velocity);
   return {{static_cast<std::uint32_t>(body), w.bodies.generation(body)},
-          w.position[body],
-          record.angle,
-          motion.velocity.template as<double>(),
-          static_cast<double>(motion.angular_velocity),
+          w.position[body] + ahead * velocity,
+          record.angle + ahead * angular_velocity,
+          velocity,
+          angular_velocity,
           static_cast<double>(record.mass),
           static_cast<double>(record.inertia),
           w.body_data.get(body)};
@@ -63,9 +66,12 @@ void check(const Attraction& law, double dt) {
 
 template <class Real>
 void apply_law(BasicWorld<Real>& world, BodyLaw law, LawOptions options) {
+  require_not_negative("law", "dt", options.dt);
   WorldData<Real>& w = unlocked_with_masses(world);
   const Lock<Real> lock(w);
-  apply_to_bodies(w, options.wakes, [&](int body) { return law(view_of(w, body)); });
+  apply_to_bodies(w, options.wakes, [&](int body) {
+    return law(view_of(w, body, options.dt > 0 ? evaluation_fraction(w, body, options.dt) * options.dt : 0));
+  });
 }
 
 template <class Real>
