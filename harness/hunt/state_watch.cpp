@@ -324,8 +324,11 @@ std::string StateWatch<Real>::joints() const {
                     on_b = world_.world_point(b, hinge->anchor_b);
         const double gap = length(on_a - on_b);
         const Aabb<double> box_a = world_.box(a), box_b = world_.box(b);
+        // Points are rounded relative to the centre of mass, which may be far from the origin.
         const double size = length(hinge->anchor_a) + length(hinge->anchor_b) +
-                            length(box_a.upper - box_a.lower) + length(box_b.upper - box_b.lower);
+                            length(box_a.upper - box_a.lower) + length(box_b.upper - box_b.lower) +
+                            length(world_.centre(a) - world_.position(a)) +
+                            length(world_.centre(b) - world_.position(b));
         if (std::abs(reading.linear_error - gap) > kRounding * (size + gap + 1e-3 * length(on_a)) + 1e-15)
           return fmt::format("a hinge of '{}' is open by {:.4g} m, but reads {:.4g} m", world_.name(b), gap,
                              reading.linear_error);
