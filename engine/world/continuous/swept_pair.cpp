@@ -9,6 +9,7 @@
 #include "engine/collision/distance/time_of_impact.h"
 #include "engine/geometry/convex_core.h"
 #include "engine/math/trigonometry.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bound.h"
 #include "engine/world/continuous/swept_boxes.h"
@@ -134,7 +135,8 @@ class PairImpactSearch {
   // pushes the shapes out of each other. It does so to the side that is nearest at its points, which may lead
   // the cores past each other. Stopped there, the bodies would stand still as long as they overlap.
   bool is_depenetration(const Convex<Real>& core, const Convex<Real>& other_core) const {
-    return contact_separates() && !(distance(core, other_core) > 2 * static_cast<double>(tolerance_));
+    return enabled(Switch::DepenetratingCores) && contact_separates() &&
+           !(distance(core, other_core) > 2 * static_cast<double>(tolerance_));
   }
   // Returns true if the remaining motions separate the points of the pair's contact. Computed to first order,
   // for motions that are not fast: such bodies cannot pass through each other (kFastFraction).
@@ -400,7 +402,7 @@ bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<R
 template <class Real>
 std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
                               double entry_fraction) {
-  if (!may_lift(w, path, pair)) return std::nullopt;
+  if (!enabled(Switch::Lifts) || !may_lift(w, path, pair)) return std::nullopt;
   const int body = path.swept.body, other = w.shapes[pair.other].body;
   const double side = pair.contact->body_b == body ? 1 : -1;
   const Vec2d normal = side * pair.contact->normal.template as<double>();
@@ -437,7 +439,7 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
   using Result = ImpactResult<Real>;
-  if (is_clear(w, path, pair)) return 1;
+  if (enabled(Switch::SweptBounds) && is_clear(w, path, pair)) return 1;
   const PairImpactSearch<Real> at(w, path, pair);
   const bool had_impact = path.swept.impacts > 0;
   if ((pair.contact == nullptr || had_impact) && path.swept.resolves_impacts &&
