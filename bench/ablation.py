@@ -107,7 +107,6 @@ CODE = {
     "lifts": {"continuous/swept_pair.cpp": ["LiftAxes", "may_lift", "lift_off"], "continuous/continuous.cpp": ["lift"]},
     "joined_stops": {"continuous/joined_stops.cpp": ["find_joint_corrections", "anchor_constraint_of"]},
     "remaining_work": {"continuous/joined_stops.cpp": ["twice_work_on", "remove_remaining_work"]},
-    "depenetrating_cores": {"continuous/swept_pair.cpp": ["is_depenetration", "contact_separates"]},
     "long_searches": {},
     "swept_bounds": {"continuous/swept_bound.h": [], "continuous/swept_pair.cpp": ["is_clear"]},
 }

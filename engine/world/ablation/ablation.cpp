@@ -26,8 +26,8 @@ constexpr std::string_view kMechanisms[] = {
     "internal_edges",       "impacts_in_flight", "landings",
     "simultaneous_impacts", "separating_faces",  "self_overlap_pass",
     "shared_searches",      "common_motion",     "lifts",
-    "joined_stops",         "remaining_work",    "depenetrating_cores",
-    "long_searches",        "swept_bounds"};
+    "joined_stops",         "remaining_work",    "long_searches",
+    "swept_bounds"};
 static_assert(std::size(kMechanisms) == static_cast<std::size_t>(Switch::Count));
 
 }  // namespace

@@ -54,7 +54,6 @@ enum class Switch {
   Lifts,
   JoinedStops,
   RemainingWork,
-  DepenetratingCores,
   LongSearches,
   SweptBounds,
   Count
