@@ -6,6 +6,7 @@
 
 #include "engine/core/capacity.h"
 #include "engine/geometry/convex_bounds.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/continuous/common_motion.h"
 #include "engine/world/continuous/impact_hook.h"
 #include "engine/world/continuous/joined_stops.h"
@@ -204,6 +205,7 @@ constexpr std::size_t kMaxGroup = 32;
 // have in common, in each step anew if they begin it that deep in each other. Returns false if they may not.
 template <class Real>
 bool continue_together(WorldData<Real>& w, const ToiEvent& next, int other_index, ImpactSearch& search) {
+  if (!enabled(Switch::CommonMotion)) return false;
   if (other_index == kNone || constraint_between(w, next.shape, next.other) == nullptr) return false;
   std::vector<int>& members = w.scratch.stopped;
   members.clear();
@@ -488,7 +490,8 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
     if (!swept.covered) insert_swept_aabb(w, swept);
   if (!all_covered) insert_swept_aabbs(w);
   // All impacts are found before any body is moved, so that two fast bodies see each other's whole motion.
-  ImpactSearch search{.dt = time, .toi_iteration_budget = tuning::kToiIterationBudget};
+  ImpactSearch search{
+      .dt = time, .toi_iteration_budget = enabled(Switch::LongSearches) ? tuning::kToiIterationBudget : 0};
   const int fast_count = static_cast<int>(swept_bodies.size());
   if (!w.scheduler.shares() || !find_first_impacts(w, fast_count, search)) {
     // Each search gets the part of the budget that earlier searches have left.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/contacts.h"
 
 namespace plumb {
@@ -49,6 +50,7 @@ constexpr AnchorConstraint anchor_constraint_of(const Definition&) {
 
 template <class Real>
 void remove_remaining_work(WorldData<Real>& w, const std::vector<int>& indices, double fraction, double dt) {
+  if (!enabled(Switch::RemainingWork)) return;
   double work = 0, twice_energy = 0;
   for (const int index : indices) {
     const int body = w.scratch.swept_bodies[index].body;
@@ -74,7 +76,7 @@ void find_joint_corrections(WorldData<Real>& w, const std::vector<int>& indices,
   for (std::size_t next = 0; next < indices.size(); ++next) {
     SweptBody& swept = swept_bodies[indices[next]];
     swept.joint_correction = {};
-    if (next == 0 || swept.changed || swept.arm != Vec2d{}) continue;
+    if (!enabled(Switch::JoinedStops) || next == 0 || swept.changed || swept.arm != Vec2d{}) continue;
     for_each_edge(w.joints, w.bodies[swept.body].first_joint, [&](int edge, const JointRecord& joint) {
       const bool is_a = (edge & 1) == 0;
       const int other_index = w.scratch.swept_index_of[is_a ? joint.body_b : joint.body_a];

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/collision/distance/hull_distance.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_impact.h"
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/integration/free_motion.h"
@@ -220,7 +221,8 @@ SweptBody swept_body_of(const WorldData<Real>& w, int body, double dt) {
 template <class Real>
 bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
-  if (a.pre_solve || b.pre_solve) return false;
+  if (a.pre_solve || b.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
+  if (!enabled(Switch::Landings) && !(restitution_between(w, shape, other) > 0)) return false;
   // Without restitution two dynamic bodies move on together, which their contact handles at less cost.
   const bool both = w.is_dynamic(a.body) && w.is_dynamic(b.body);
   if (both && !(restitution_between(w, shape, other) > 0)) return false;

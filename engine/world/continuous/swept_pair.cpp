@@ -9,6 +9,7 @@
 #include "engine/collision/distance/time_of_impact.h"
 #include "engine/geometry/convex_core.h"
 #include "engine/math/trigonometry.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bound.h"
 #include "engine/world/continuous/swept_boxes.h"
@@ -129,42 +130,6 @@ class PairImpactSearch {
     if (start > 2 * tolerance_) return find_impact(moving, standing);
     return find_impact(moving, standing, Real(kKeptDistance) * start, Real((1 - kKeptDistance) / 2) * start);
   }
-  // Returns true if the cores of overlapping shapes, as close as they may come, meet because the contact
-  // pushes the shapes out of each other. It does so to the side that is nearest at its points, which may lead
-  // the cores past each other. Stopped there, the bodies would stand still as long as they overlap.
-  bool is_depenetration(const Convex<Real>& core, const Convex<Real>& other_core) const {
-    return contact_separates() && !(distance(core, other_core) > 2 * static_cast<double>(tolerance_));
-  }
-  // Returns true if the remaining motions separate the points of the pair's contact. Computed to first order,
-  // for motions that are not fast: such bodies cannot pass through each other (kFastFraction).
-  bool contact_separates() const {
-    if (pair_.contact == nullptr) return false;
-    const ContactConstraint<Real>& c = *pair_.contact;
-    const bool own_is_a = c.body_a == path_.swept.body;
-    const Sweep<double>&a = own_is_a ? path_.sweep : other_motion_.sweep,
-          &b = own_is_a ? other_motion_.sweep : path_.sweep;
-    const Vec2d arm_a = own_is_a ? path_.swept.arm : other_motion_.arm,
-                arm_b = own_is_a ? other_motion_.arm : path_.swept.arm;
-    const auto displacement = [](const Sweep<double>& sweep, Vec2d arm) {
-      return pose_at(sweep, 1).position - pose_at(sweep, 1).rotation * arm -
-             (sweep.start - sweep.start_rotation * arm);
-    };
-    const Vec2d relative = displacement(b, arm_b) - displacement(a, arm_a);
-    const double moved = std::abs(relative.x) + std::abs(relative.y) +
-                         std::abs(a.delta_angle) * static_cast<double>(w_.extents[c.body_a]) +
-                         std::abs(b.delta_angle) * static_cast<double>(w_.extents[c.body_b]);
-    for (const int body : {c.body_a, c.body_b})
-      if (w_.is_dynamic(body) &&
-          moved > tuning::kFastFraction * static_cast<double>(w_.bodies[body].half_width))
-        return false;
-    const double along = dot(c.normal.template as<double>(), relative);
-    for (int i = 0; i < c.count; ++i)
-      if (along + static_cast<double>(c.arm_b[i]) * b.delta_angle -
-              static_cast<double>(c.arm_a[i]) * a.delta_angle <
-          0)
-        return false;
-    return true;
-  }
   double fraction(const Result& result) const {
     return path_.from + result.exact_fraction * (1 - path_.from);
   }
@@ -229,17 +194,11 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const PairImpactSearch<
     const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), at.obstacle());
     if (found.state != State::Overlapped) return found;
   }
-  const auto is_depenetration = [&](const ImpactResult<Real>& found, const Core<Real>& core,
-                                    const Core<Real>& other_core) {
-    return found.state != State::Separated && at.is_depenetration(core.convex(), other_core.convex());
-  };
   if (are_dynamic_in_contact(w, pair)) {
     const Core<Real> core(at.whole(), Real(tuning::kInnerCoreDepth) * half_width),
         other_core(at.obstacle(), Real(tuning::kInnerCoreDepth) * other_half_width);
     const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), other_core.convex());
-    return found.state == State::Overlapped || is_depenetration(found, core, other_core)
-               ? ImpactResult<Real>{}
-               : found;
+    return found.state == State::Overlapped ? ImpactResult<Real>{} : found;
   }
   const bool others_core = form.chain || (pair.other_stopped && other_half_width > half_width);
   if (others_core) {
@@ -256,8 +215,7 @@ ImpactResult<Real> core_impact(const WorldData<Real>& w, const PairImpactSearch<
     const Core<Real> core(at.whole(), Real(depth_fraction) * half_width),
         other_core(at.obstacle(), Real(depth_fraction) * other_half_width);
     const ImpactResult<Real> found = at.find_impact_from_near(core.convex(), other_core.convex());
-    if (found.state == State::Overlapped) continue;
-    return is_depenetration(found, core, other_core) ? ImpactResult<Real>{} : found;
+    if (found.state != State::Overlapped) return found;
   }
   return {};
 }
@@ -399,7 +357,7 @@ bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<R
 template <class Real>
 std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
                               double entry_fraction) {
-  if (!may_lift(w, path, pair)) return std::nullopt;
+  if (!enabled(Switch::Lifts) || !may_lift(w, path, pair)) return std::nullopt;
   const int body = path.swept.body, other = w.shapes[pair.other].body;
   const double side = pair.contact->body_b == body ? 1 : -1;
   const Vec2d normal = side * pair.contact->normal.template as<double>();
@@ -435,7 +393,7 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
 template <class Real>
 double fraction_of_impact(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
   using Result = ImpactResult<Real>;
-  if (is_clear(w, path, pair)) return 1;
+  if (enabled(Switch::SweptBounds) && is_clear(w, path, pair)) return 1;
   const PairImpactSearch<Real> at(w, path, pair);
   const bool had_impact = path.swept.impacts > 0;
   if ((pair.contact == nullptr || had_impact) && path.swept.resolves_impacts &&

@@ -6,6 +6,7 @@
 
 #include "engine/core/capacity.h"
 #include "engine/math/small_rotation.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/prefetch_awake_bodies.h"
 
@@ -256,6 +257,7 @@ Real fraction_within(Real size, Real limit) {
 
 template <class Real>
 bool ramp_kinematic_velocities(WorldData<Real>& w, double h, int substeps) {
+  if (!enabled(Switch::KinematicRamps)) return false;
   const double last_dt = w.last_h * w.last_substeps;
   const Real most = static_cast<Real>(h * substeps * std::sqrt(length_squared(w.settings.gravity)));
   if (substeps == 1 || !(most > 0)) return false;

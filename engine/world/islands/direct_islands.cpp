@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/union_find.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_passes.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/hinge_trees.h"
@@ -33,7 +34,9 @@ int joints_outside_trees(const WorldData<Real>& w) {
 }
 
 // Returns true if an island with this number of rows is solved directly.
-constexpr bool is_direct(int rows) { return rows > 2 && rows <= tuning::kMaxDirectRows; }
+bool is_direct(int rows) {
+  return enabled(Switch::DirectIslands) && rows > 2 && rows <= tuning::kMaxDirectRows;
+}
 
 // Values of island_size that mark an island with joints. It is solved by iterations (kIterated), as one
 // system (kJointed), or as one system if that costs little (kJointedIfCheap).
@@ -54,6 +57,7 @@ bool left_to_iterations(const WorldData<Real>& w, int body) {
 // true, and those of contacts at their bodies. The iterations start from them.
 template <class Real, class Left>
 void hand_over_joints(WorldData<Real>& w, const Left& left) {
+  if (!enabled(Switch::HandingOver)) return;
   std::vector<Real>& warm_start_fraction = w.scratch.warm_start_fraction;
   warm_start_fraction.clear();
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -112,7 +116,8 @@ void choose_jointed(WorldData<Real>& w) {
   for (const int body : w.awake) {
     if (!w.is_dynamic(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
     // Each contact counts two rows in island_size.
-    const bool small = s.island_joints[body] <= tuning::kMaxJointedJoints &&
+    const bool small = enabled(Switch::JointedIslands) &&
+                       s.island_joints[body] <= tuning::kMaxJointedJoints &&
                        s.island_size[body] <= 2 * tuning::kMaxJointedContacts;
     const bool similar_masses = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
     const bool few = w.settings.integrator == Integrator::VelocityVerlet &&
@@ -130,6 +135,7 @@ void choose_jointed(WorldData<Real>& w) {
 // body, the factorisation has linear cost.
 template <class Real>
 void choose_slender(WorldData<Real>& w) {
+  if (!enabled(Switch::SlenderIslands)) return;
   std::vector<int>& limits = w.scratch.max_island_rows;
   limits.assign(w.bodies.size(), 2 * tuning::kMaxSlenderLoops);
   for (const int body : w.awake) {
@@ -194,7 +200,7 @@ template <class Real>
 void add_rows(DirectIsland<Real>& island) {
   std::pmr::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
-  const bool all_open = flies(island);
+  const bool all_open = enabled(Switch::FlyingStacks) && flies(island);
   int block = 0;
   for (ContactConstraint<Real>* c : island.contacts) {
     const int before = static_cast<int>(rows.size());

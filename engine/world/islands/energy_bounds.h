@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/islands/island_rows.h"
 #include "engine/world/world_data.h"
 
@@ -100,6 +101,7 @@ inline constexpr double kLeastYield = 1e-6, kMostYield = 1, kYieldFactor = 10;
 /// drivers.
 template <class Real>
 double budget_of(const WorldData<Real>& w, const JointedIsland<Real>& island) {
+  if (!enabled(Switch::DriverBudget)) return 0;
   double sum = 0;
   for (const JointedLink& driver : island.links) {
     if (!is_driver(w, driver)) continue;

@@ -7,6 +7,7 @@
 
 #include "engine/core/union_find.h"
 #include "engine/math/trigonometry.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/impulse_memory.h"
@@ -16,6 +17,7 @@ namespace {
 
 template <class Real>
 bool may_use_trees(const WorldData<Real>& w) {
+  if (!enabled(Switch::HingeTrees)) return false;
   if (w.joint_set.active_count() == 0 || w.settings.integrator != Integrator::VelocityVerlet) return false;
   return w.settings.solver == Solver::Direct ||
          (w.settings.solver == Solver::SoftSteps && w.settings.direct_islands);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/math/small_rotation.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/world_data.h"
 
 /// Bodies of an island with joints.
@@ -60,6 +61,7 @@ void find_rigid_groups(WorldData<Real>& w, JointedIsland<Real>& island) {
   };
   const int count = static_cast<int>(links.size());
   for (int link = 0; link < count; ++link) links[link].rigid_group = link;
+  if (!enabled(Switch::RigidGroups)) return;
   std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
   for (std::size_t i = 0; i < island.joints.size(); ++i) {
     rows.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/linear_algebra/row_coupling.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/contact_solver/contact_step.h"
 #include "engine/world/islands/friction_cones.h"
@@ -182,7 +183,8 @@ class RowBuilder {
     tangent.target = midpoint_ ? 2 * double(c.surface_speed) - sliding : double(c.surface_speed);
     const double slip = std::abs(sliding - double(c.surface_speed));
     const FrictionRays rays = rays_of(last, friction);
-    const bool driven = !correcting_ && (is_driver(link_a) || is_driver(link_b));
+    const bool driven =
+        enabled(Switch::YieldingContacts) && !correcting_ && (is_driver(link_a) || is_driver(link_b));
     // Joints alone keep these bodies where they are to each other. Rows for their contact would contradict
     // those of the joints by the angle of which bodies turn in a step, and press with the inverse of it.
     const bool redundant = island_.links[link_a].rigid_group == island_.links[link_b].rigid_group;

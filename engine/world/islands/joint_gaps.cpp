@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_pair.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/island_links.h"
@@ -322,6 +323,7 @@ class Mechanism {
     BoundedRows& system = island_.system;
     assert(island_.row_sources.size() == system.rows.size());
     add_loads();
+    if (!enabled(Switch::CarriedImpulses)) return;
     island_.impulses.clear();
     const auto is_dynamic = [&](int link) { return w_.is_dynamic(island_.links[link].body); };
     for (const BoundedRow& row : system.rows) {
@@ -409,6 +411,7 @@ bool has_many_loops(const WorldData<Real>& w, int joint) {
 
 template <class Real>
 void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
+  if (!enabled(Switch::JointGaps)) return;
   if (!w.settings.direct_islands && w.settings.solver != Solver::Direct) return;
   std::vector<char>& marks = w.scratch.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kNotOpen);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/energy_bounds.h"
 #include "engine/world/islands/friction_cones.h"
@@ -204,7 +205,7 @@ void solve_midpoint(WorldData<Real>& w, JointedIsland<Real>& island, const Conta
 template <class Real>
 void relax(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double& budget) {
   solve(w, island, step, Stage::Relax, budget);
-  if (!(budget > 0) && gains_by_taking_back(island)) {
+  if (enabled(Switch::KeptImpulses) && !(budget > 0) && gains_by_taking_back(island)) {
     keep_impulses(island);
     solve_rows(island, false);
     store_impulses(island, false);
@@ -408,7 +409,8 @@ void solve_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
     double budget = budget_of(w, island);
     solve_midpoint(w, island, step, budget);
     advance_links(w, island, step.h);
-    if (const double drift = drift_of(w, island); drift > 1) subdivide_substep(w, island, step, drift);
+    if (const double drift = drift_of(w, island); drift > 1 && enabled(Switch::DividedSubsteps))
+      subdivide_substep(w, island, step, drift);
     if (!island.contacts.empty()) update_warm_start_fraction(w, island);
     for (const JointedLink& link : island.links)
       store_velocity(w.motion[link.body], link.mean_velocity, link.mean_spin);
@@ -425,7 +427,8 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
       if (c->tracking != ImpactTracking::Off) c->step_impulse -= normal_sum(*c);
     if (close) {
       close_joints(w, island, step, step.h, gap_correction_of(w));
-      if (!island.contacts.empty()) correct_penetrations(w, island, step);
+      if (!island.contacts.empty() && enabled(Switch::PenetrationCorrections))
+        correct_penetrations(w, island, step);
     }
     double budget = budget_of(w, island);
     relax(w, island, step, budget);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/islands/island_links.h"
 #include "engine/world/islands/island_rows.h"
 #include "engine/world/state/constants.h"
@@ -20,6 +21,7 @@ inline constexpr double kMaxMassRatio = 10;
 // keep a heavy one from moving a little.
 template <class Real>
 void limit_mass_ratio(JointedIsland<Real>& island) {
+  if (!enabled(Switch::MassLimits)) return;
   double least = std::numeric_limits<double>::infinity();  // inverse mass
   double most = 0;
   for (const BoundedBody& body : island.system.bodies) {
@@ -40,6 +42,7 @@ void limit_mass_ratio(JointedIsland<Real>& island) {
 // `per_increment` times the velocity increment by the forces of a substep is their acceleration.
 template <class Real>
 void compensate_shift_work(JointedIsland<Real>& island, double fraction, double per_increment) {
+  if (!enabled(Switch::ShiftWork)) return;
   // Bodies that come to rest have displacements whose squares underflow, so displacements are divided by a
   // power of two near the largest.
   double largest = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/trigonometry.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/joint_solver/hinge_tree_energy.h"
 
 namespace plumb {
@@ -205,6 +206,7 @@ void undo(std::span<ArticulatedLink> tree) {
 bool find_required_inertias(std::span<ArticulatedLink> tree, double h, double fraction,
                             Vec2d ArticulatedLink::*impulse) {
   for (ArticulatedLink& link : tree) link.required_inertia = 0;
+  if (!enabled(Switch::LinkInertia)) return false;
   const double scale = h / fraction;
   bool inertia_raised = false;
   for (std::size_t i = tree.size(); i-- > 0;) {
@@ -369,7 +371,7 @@ class TreeIntegrator {
     if (inertia_raised_) damp(tree_);
     for (ArticulatedLink& link : tree_) link.accumulated_impulse = {};
     solve_velocities(tree_);
-    if (energy_unchecked_)
+    if (energy_unchecked_ && enabled(Switch::TreeEnergy))
       limit_energy(tree_, frame_, energy_limit_), energy_limit_ = kinetic_energy(tree_, frame_);
     // Half of the impulse acts before the motion, half after.
     for (ArticulatedLink& link : tree_) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/union_find.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/contact_solver/impact_propagation.h"
 #include "engine/world/contact_solver/locked_axes.h"
@@ -33,6 +34,7 @@ template <class Real>
 void predict_circle_normal(const WorldData<Real>& w, const ContactRecord& contact,
                            RestitutionContact<Real>& bounce) {
   ContactConstraint<Real>& c = *bounce.contact;
+  if (!enabled(Switch::DiscNormals)) return;
   if (c.count != 1 || !(c.separation[0] > 0) || c.normal_impulse[0] > 0) return;
   if (!is_centred_circle(w, contact.shape_a) || !is_centred_circle(w, contact.shape_b)) return;
   const Real radius_a = w.forms[contact.shape_a].radius, radius_b = w.forms[contact.shape_b].radius;
@@ -138,6 +140,7 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
 // Keeps the contacts of displaced bodies closed. Contacts of bodies with joints are left to their islands.
 template <class Real>
 void keep_closed(WorldData<Real>& w, Real h) {
+  if (!enabled(Switch::KeptClosed)) return;
   ImpactScratch<Real>& scratch = w.scratch.impacts;
   const std::size_t count = scratch.has_other_contacts ? scratch.displaced.size() : 0;
   for (std::size_t i = 0; i < count; ++i)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/capacity.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/direct_islands.h"
 #include "engine/world/islands/hinge_trees.h"
@@ -32,6 +33,7 @@ Softness<Real> contact_softness(double frequency_share, double h, double longest
 // Projects joints that an impact has driven beyond their limits.
 template <class Real>
 void project_angular_limits(WorldData<Real>& w) {
+  if (!enabled(Switch::AngularLimits)) return;
   bool any = true;
   for (int iteration = 0; any && iteration < tuning::kLimitIterations; ++iteration) {
     any = w.joint_set.project_angular_limits(w.solver_bodies(), w.rotation.data(), Real(tuning::kLimitSlack),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/capacity.h"
+#include "engine/world/ablation/ablation.h"
 
 namespace plumb {
 namespace {
@@ -30,7 +31,9 @@ void for_each_impulse(ContactConstraint<Real>& c, const Visit& visit) {
 
 template <class Real>
 ImpulseMemory<Real>::ImpulseMemory(WorldData<Real>& w, double h)
-    : w_(w), h_(h), shorter_(starts_warm(w.settings.solver) && h < w.impulse_h) {
+    : w_(w),
+      h_(h),
+      shorter_(enabled(Switch::ImpulseMemory) && starts_warm(w.settings.solver) && h < w.impulse_h) {
   if (!shorter_) return;
   std::vector<Real>& earlier = w.scratch.earlier_impulses;
   earlier.clear();

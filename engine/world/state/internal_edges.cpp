@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/collision/manifold/internal_edge.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
@@ -293,6 +294,7 @@ ContactManifold<Real> correct_internal_edges(const WorldData<Real>& w, const Con
                                              const Pose<Real>& b_in_a, Real margin,
                                              const ContactManifold<Real>& manifold, Real displacement) {
   using Kind = typename InternalEdgeResult<Real>::Kind;
+  if (!enabled(Switch::InternalEdges)) return manifold;
   // Only neighbours fixed to a touched shape count. Two dynamic bodies with one shape each have none.
   const auto is_single = [&](int body) {
     const int shape = w.bodies[body].first_shape;

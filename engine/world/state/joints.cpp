@@ -1,4 +1,5 @@
 #include "engine/core/capacity.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_passes.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/contacts.h"
@@ -16,7 +17,7 @@ namespace {
 // the joint's. What pressed against the joint alone would throw the bodies apart when it is gone.
 template <class Real>
 void keep_balanced_impulses(WorldData<Real>& w, const JointRecord& record, Real fraction) {
-  if (fraction == 1) return;
+  if (fraction == 1 || !enabled(Switch::BalancedBreaks)) return;
   for (const int body : {record.body_a, record.body_b}) {
     if (!w.is_dynamic(body)) continue;
     for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& contact) {

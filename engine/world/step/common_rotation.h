@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/math/small_rotation.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/contact_setup.h"
 
 /// The rotation that two bodies have in common, as on a carousel or in a drum. It turns their contact's
@@ -18,6 +19,7 @@ inline constexpr double kMaxCommonRotation = 0.25;
 /// their normal follows the line between their centres.
 template <class Real>
 Real common_rotation(const WorldData<Real>& w, const ContactRecord& contact, Vec2<Real> a_to_b, Real time) {
+  if (!enabled(Switch::RidingContacts)) return 0;
   const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
   if (!(a.angular_velocity * b.angular_velocity > 0)) return 0;
   const Real spin =

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/collision/manifold/contact_manifold.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
@@ -47,6 +48,7 @@ template <class Real>
 /// Updates the load estimate: most of the load, or all of it if the load pressed the shapes into each other.
 template <class Real>
 [[gnu::always_inline]] inline void update_load_estimate(ContactConstraint<Real>& c) {
+  if (!enabled(Switch::LoadEstimates)) return;
   constexpr Real kFraction = Real(tuning::kLoadEstimateFraction), kRate = Real(tuning::kLoadEstimateRate);
   constexpr Real kRise =
       Real((1 - tuning::kLoadEstimateFraction) * tuning::kDepenetrationSpeed / tuning::kLoadEstimateOverlap);
@@ -114,7 +116,8 @@ template <class Real>
   if (aabbs_apart(w, contact.shape_a, contact.shape_b, margin)) return true;
   // Shapes that approach faster are searched along their curved paths, for which a face at the start says
   // little.
-  return face != kNoFace && approach <= Real(tuning::kMaxSpeculativeApproach) * smaller &&
+  return enabled(Switch::SeparatingFaces) && face != kNoFace &&
+         approach <= Real(tuning::kMaxSpeculativeApproach) * smaller &&
          are_separated_by(w, contact, face, margin);
 }
 
@@ -175,7 +178,7 @@ template <class Real, class IdAt>
 /// a hump of short segments falls freely for a whole step.
 template <class Real>
 bool follows_surface(const WorldData<Real>& w, const ContactRecord& contact) {
-  return w.forms[contact.shape_a].chain &&
+  return enabled(Switch::SegmentsAhead) && w.forms[contact.shape_a].chain &&
          (w.scratch.has_contact_load[contact.body_a] != 0 || w.scratch.has_contact_load[contact.body_b] != 0);
 }
 

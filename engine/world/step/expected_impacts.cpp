@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/capacity.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
@@ -86,6 +87,7 @@ Real time_of_contact(const WorldData<Real>& w, const ContactConstraint<Real>& c)
 // step, which only contacts can pass on: such impacts with several bodies are left to the solver.
 template <class Real>
 void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
+  if (!enabled(Switch::SimultaneousImpacts)) return;
   std::vector<char>& listed = w.scratch.expects_impact;
   std::vector<Real>& earliest = w.scratch.impacts.earliest;  // by body
   if (earliest.size() < w.motion.size()) resize_with_growth(earliest, static_cast<int>(w.motion.size()));
@@ -154,8 +156,9 @@ template <class Real>
 bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
                          const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
   const bool solves_in_flight = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!solves_in_flight || contact.pre_solve) return false;
+  if (!solves_in_flight || contact.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
   if (!(c.restitution > 0)) {
+    if (!enabled(Switch::Landings)) return false;
     // Slower bodies strike with one corner after the other in different substeps, and two dynamic bodies move
     // on together: contacts handle both at less cost.
     if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) return false;

@@ -6,6 +6,7 @@
 
 #include "engine/collision/manifold/contact_manifold.h"
 #include "engine/math/small_rotation.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/internal_edges.h"
@@ -123,6 +124,7 @@ bool may_arrive(const WorldData<Real>& w, const ContactRecord& contact, const Co
 template <class Real>
 bool rebuild_lasting_contact(const WorldData<Real>& w, const ContactRecord& contact, Real dt,
                              ContactConstraint<Real>& c) {
+  if (!enabled(Switch::LastingContacts)) return false;
   const SpeculativeContact<Real> lasting = lasting_contact(w, contact, c, dt);
   if (lasting.manifold.count == 0) return false;
   const Real deepest =
@@ -187,7 +189,7 @@ template <class Real>
 SpeculativeContact<Real> segment_ahead(const WorldData<Real>& w, const ContactRecord& contact,
                                        const ContactManifold<Real>& manifold, Real dt, Real h) {
   const ShapeForm<Real>&segment = w.forms[contact.shape_a], &mover = w.forms[contact.shape_b];
-  if (!segment.chain) return {};
+  if (!segment.chain || !enabled(Switch::SegmentsAhead)) return {};
   if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
     return {};
   const Real smaller = std::min(segment.extent, mover.extent);
@@ -237,6 +239,7 @@ SpeculativeContact<Real> segment_ahead(const WorldData<Real>& w, const ContactRe
 template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt) {
+  if (!enabled(Switch::LastingContacts)) return {};
   if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
     return {};
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/shape_boxes.h"
@@ -28,7 +29,7 @@ bool is_mostly_apart(const WorldData<Real>& w) {
 template <class Real>
 bool mark_self_overlaps(WorldData<Real>& w) {
   const int moved = static_cast<int>(w.move_buffer.size()), all = w.dynamic_tree.size();
-  if (all < tuning::kMinOverlapPassMoves) return false;
+  if (all < tuning::kMinOverlapPassMoves || !enabled(Switch::SelfOverlapPass)) return false;
   w.scratch.has_overlap.resize(static_cast<std::size_t>(w.dynamic_tree.proxies()));
   if (moved < tuning::kMinOverlapPassMoves || moved * tuning::kOverlapPassDivisor < all) return false;
   return is_mostly_apart(w) && w.dynamic_tree.mark_self_overlaps(w.scratch.has_overlap, 4 * moved);
@@ -140,7 +141,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool has_static) 
     const BodyType type = w.bodies[record.body].type;
     const std::uint32_t mask = effective_mask(record.filter);
     if (mask == 0) continue;
-    if (!marked && type == BodyType::Dynamic && i + 1 < last &&
+    if (enabled(Switch::SharedSearches) && !marked && type == BodyType::Dynamic && i + 1 < last &&
         may_share_search(w, record, w.move_buffer[i + 1])) {
       const MovedGroup<Real> moved = collect_group(w, i, last);
       if (moved.count > 1 && find_group_pairs(w, moved, note)) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/world_data.h"
 
 /// Manifolds that are kept while their bodies have moved little relative to each other. Inlined into the pass
@@ -47,7 +48,8 @@ bool recycle_manifold(const WorldData<Real>& w, ContactConstraint<Real>& c, Real
   const Vec2<Real> displacement = b.delta_position - a.delta_position;
   const Real total =
       l1_norm(displacement) + std::abs(a.delta_angle) * extent_a + std::abs(b.delta_angle) * extent_b;
-  if (!(total <= c.recycle_budget)) return rotate_manifold(a, b, extent_b, c);
+  if (!(total <= c.recycle_budget))
+    return enabled(Switch::TurnedManifolds) && rotate_manifold(a, b, extent_b, c);
   c.recycle_budget -= total;
   const Real opening = dot(c.normal, displacement);
   for (int i = 0; i < c.count; ++i) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/math/trigonometry.h"
+#include "engine/world/ablation/ablation.h"
 #include "engine/world/state/bodies.h"
 #include "engine/world/state/lock.h"
 #include "engine/world/state/mass.h"
@@ -83,7 +84,8 @@ void restore_consistency(WorldData<Real>& w) {
 template <class Real>
 int substeps_of(const WorldData<Real>& w, double dt, int requested) {
   const bool one_iteration = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!one_iteration || !(w.impulse_h > 0) || (w.graph.empty() && w.joint_set.active_count() == 0))
+  if (!one_iteration || !enabled(Switch::SubstepGrowth) || !(w.impulse_h > 0) ||
+      (w.graph.empty() && w.joint_set.active_count() == 0))
     return requested;
   const double longest = kMaxSubstepGrowth * w.impulse_h;
   if (dt <= longest * requested) return requested;
