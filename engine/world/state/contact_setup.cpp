@@ -21,11 +21,11 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
   const auto coupling = [&](Real linear, Real la, Real lb, Real ma, Real mb) {
     return linear + a.inverse_inertia * la * ma + b.inverse_inertia * lb * mb;
   };
+  const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
   const auto mobility = [&](Real linear, Real la, Real lb, Vec2<Real> arm_a) {
     const Real k = coupling(linear, la, lb, la, lb);
     return k > least_mobility(a, b, length_squared(arm_a), length_squared(arm_a - a_to_b)) ? k : Real(0);
   };
-  const auto inverse = [](Real k) { return k > 0 ? 1 / k : Real(0); };
   Real k[2] = {};
   for (int i = 0; i < c.count; ++i) {
     c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - a_to_b, n);
