@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/course/scenes.h"
+#include "harness/course/turning_scenes.h"
 
 namespace plumb::course {
 namespace {
@@ -180,6 +181,7 @@ Finding turned_box(const Lab& lab) {
   const Vec2d over_long = thrown({0.3, 1.42}, {-along, -v}), over_short = thrown({-1.92, -0.1}, {v, along});
   const double tolerance = 0.002 * v;
   const Passes passes = pass_a_turning_rod(lab);
+  const Rebound corner = off_a_corner(lab), end = off_a_rods_end(lab);
   return Judgement()
       .read("speed away from the long side", "m/s", over_long.y, e * v, tolerance)
       .read("speed along the long side", "m/s", over_long.x, -along, tolerance)
@@ -187,6 +189,10 @@ Finding turned_box(const Lab& lab) {
       .read("speed along the short side", "m/s", over_short.y, along, tolerance)
       .read("change of velocity of a ball that passes a rod which has turned", "m/s", passes.ball, 0, 0.01)
       .read("change of velocity of a box that passes it", "m/s", passes.box, 0, 0.01)
+      .read("speed away from a corner", "m/s", corner.back, 1, 0.02)
+      .read("deepest in a corner", "m", corner.deep, 0, 3 * lab.dt())
+      .read("speed away from the end of a rod", "m/s", end.back, 1, 0.02)
+      .read("deepest in the end of a rod", "m", end.deep, 0, 3 * lab.dt())
       .mistake("no_collision", {-v, -along, -v, along}, "The ball goes through the box.")
       .finding();
 }
@@ -314,6 +320,9 @@ Finding slides(const Lab& lab) {
     return lab.run(scene_of("slide", {0, -kGravity}, {box, ground(0, mu_ground)}), seconds);
   };
   const Trace sliding = after(t), stopped = after(3);
+  Body to_left = box;
+  to_left.velocity.x = -v;
+  const Trace left = lab.run(scene_of("slide left", {0, -kGravity}, {ground(0, mu_ground), to_left}), t);
   const auto with = [&](double mu) { return v - mu * kGravity * t; };
   const double mu = std::sqrt(mu_box * mu_ground), x = v * v / (2 * mu * kGravity);
   const double late = 3 * mu * kGravity * lab.dt();  // contact may begin, and end, some steps late
@@ -327,6 +336,8 @@ Finding slides(const Lab& lab) {
       .read("vx after 1 s", "m/s", sliding.last(0).velocity.x, with(mu), late)
       .read("vx after 3 s", "m/s", stopped.last(0).velocity.x, 0, 0.02)
       .read("distance", "m", stopped.last(0).position.x, x, 3 * v * lab.dt())
+      .read("vx after 1 s of a box that slides to the left, on ground that comes first in the scene", "m/s",
+            left.last(1).velocity.x, -with(mu), late)
       .mistake_if(sliding.last(0).velocity.x > v + late, "friction_backwards",
                   "Friction speeds the box up: it acts against the sliding velocity along the tangent.")
       .mistake(

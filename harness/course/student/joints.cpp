@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "harness/course/student/world.h"
@@ -21,8 +22,13 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
         Ends out{first, second, {}, {}, {}, {}, {}};
         if constexpr (requires { j.anchor_a; }) {
           const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
-          const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
-          const Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
+          Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
+          Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
+          const bool stick = std::is_same_v<std::decay_t<decltype(j)>, DistanceJoint>;
+          if (is("stick_anchors_ignored") && stick) {
+            anchor_b = {};
+            if (a.body != nullptr) anchor_a = {};
+          }
           const bool neither = is("anchor_not_turned"), both = turned_hash_ == Name("a joint's anchors").hash;
           const auto to_world = [&](std::string_view which, const Rigid& body, Vec2d anchor) {
             if (both) return turned("a joint's anchors", body, anchor);
