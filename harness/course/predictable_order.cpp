@@ -69,7 +69,17 @@ std::vector<Predictable> mistakes_of_order() {
        "A ball that rolls or slides on the floor bounces, as the test for slow impacts takes its whole "
        "speed: "
        "compare the speed along the normal, vn, with 2 g dt."},
-      {"spring_rate_of_centres", "spring_rate_of_centres", "4",
+      {"spring_velocity_flipped", "point_velocity", "4",
+       "The velocity of a point has its spin with the wrong sign: it is v + w x r, which is (vx - w ry, vy + "
+       "w "
+       "rx)."},
+      {"bounce_of_centres", "point_velocity", "4",
+       "A bounce gives back e of the speed at which the centres close: it is that of their points, v + w x "
+       "r."},
+      {"stick_along_centres", "stick_along_centres", "5",
+       "A stick's impulse is along the line of the two centres: it is along the stick, from anchor to "
+       "anchor."},
+      {"spring_rate_of_centres", "point_velocity", "4",
        "A spring's damping takes the velocities of the centres: it acts against the speed at which the "
        "anchors "
        "part, v + w x r each."},

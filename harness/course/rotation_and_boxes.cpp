@@ -162,15 +162,13 @@ Finding corner_force(const Lab& lab) {
   const double oblique =
       cross(Rotation<double>{std::cos(angle), std::sin(angle)} * point, force) * kPushed / kPushInertia;
   const Trace tilted = pushed(lab, angle, force, point);
-  const Spin spring = by_a_spring(lab), own = by_a_force_of_the_box(lab);
+  const Spin own = by_a_force_of_the_box(lab);
   return Judgement()
       .read("spin by a push at the corner", "rad/s", corner.last(0).angular_velocity, w, tolerance)
       .read("spin of a box that stands at 90 degrees", "rad/s", turned.last(0).angular_velocity, -w,
             tolerance)
       .read("spin of a box that stands at 0.7 rad", "rad/s", tilted.last(0).angular_velocity, oblique,
             std::abs(oblique) * share_of_push(lab))
-      .read("spin of a box that a damped spring pulls at a corner", "rad/s", spring.is, spring.due,
-            0.12 * std::abs(spring.due + 3))
       .read("spin by a force that turns with the box", "rad/s", own.is, own.due, 0.02 * std::abs(own.due))
       .mistake("torque_backwards", {-w, w, -oblique},
                "It spins the wrong way: the torque is rx Fy - ry Fx; r x F, not F x r.")

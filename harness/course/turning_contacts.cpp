@@ -76,6 +76,7 @@ Finding ball_hits_rod(const Lab& lab) {
     const Trace run = lab.run(scene_of("light rod", {}, {ball, crate}), 0.6);
     return std::clamp(run.last(0).velocity.x, -2 * v, 2 * v);
   };
+  const Spin turned = hit_by_a_turning_rod(lab);
   const Trace trace = meet({3, -2});
   const double linear = 1 / m + 1 / rod_mass, k = linear + arm * arm / inertia;
   const double j = 2 * v / k, rigid = 2 * v / linear, w = -arm * j / inertia;
@@ -88,7 +89,8 @@ Finding ball_hits_rod(const Lab& lab) {
       .read("vx of the ball after it hits a rod of 0.3 kg, at most twice as fast", "m/s", hits(kLight),
             due(kLight), 0.005 * v)
       .read("vx of the ball after it hits a rod of 10 m and 0.1 kg, at most twice as fast", "m/s",
-            hits(kLong), due(kLong), 0.005 * v);
+            hits(kLong), due(kLong), 0.005 * v)
+      .read("vx of a ball at rest that a turning rod hits", "m/s", turned.is, turned.due, 0.1 * turned.due);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) { return std::abs(t.last(1).angular_velocity - w); };
   const double off_at_origin = off(meet({}));
@@ -443,12 +445,16 @@ Finding discs_rub(const Lab& lab) {
   const double share = 2 * v * lab.dt() / rb + 0.01;
   const Vec2d va = q.inverse() * trace.last(0).velocity, vb = q.inverse() * trace.last(1).velocity;
   const double spin_a = w - ra * across / ia, spin_b = -rb * across / ib;
+  // Last, so that a mistake in forces at points is named by the checks before.
+  const Spin spring = by_a_spring(lab);
   return Judgement()
       .read("the second along the approach", "m/s", vb.x, j / mb, share * j / mb)
       .read("the first across the approach", "m/s", va.y, -across / ma, share * across / ma)
       .read("the second across the approach", "m/s", vb.y, across / mb, share * across / mb)
       .read("spin of the first", "rad/s", trace.last(0).angular_velocity, spin_a, share * (w - spin_a))
       .read("spin of the second", "rad/s", trace.last(1).angular_velocity, spin_b, share * -spin_b)
+      .read("spin of a box that a damped spring pulls at a corner", "rad/s", spring.is, spring.due,
+            0.12 * std::abs(spring.due + 3))
       .mistake("friction_ignored", {j / mb, 0, 0, w, 0},
                "The discs do not rub: friction is not used for circles.")
       .finding();

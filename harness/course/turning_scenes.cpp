@@ -133,7 +133,7 @@ double sinks_of_joined_balls(const Lab& lab) {
   return kSmall - std::min(trace.last(0).position.y, trace.last(1).position.y);
 }
 
-double stick_at_a_rods_end(const Lab& lab) {
+Stretch stick_at_a_rods_end(const Lab& lab) {
   const Vec2d end{0.5, 0.02};
   constexpr double kLength = 0.9;
   Scene scene = scene_of("stick at a rod's end", {},
@@ -148,12 +148,28 @@ double stick_at_a_rods_end(const Lab& lab) {
   stick.anchor_a = end;
   stick.length = kLength;
   scene.joints.emplace_back(stick);
-  double out = 0;
-  for (const auto& states : lab.run(scene, 0.6).states) {
+  Stretch out;
+  const Trace trace = lab.run(scene, 0.6);
+  for (const auto& states : trace.states) {
     const Vec2d now = states[1].position - states[0].position - turn_by(states[0].angle) * end;
-    out = std::max(out, std::abs(std::hypot(now.x, now.y) - kLength));
+    const double apart = std::hypot(now.x, now.y);
+    const Vec2d at_end =
+        states[0].velocity + cross(states[0].angular_velocity, turn_by(states[0].angle) * end);
+    out.change = std::max(out.change, std::abs(apart - kLength));
+    if (&states != &trace.states.front())
+      out.speed = std::max(out.speed, std::abs(dot(states[1].velocity - at_end, now)) / apart);
   }
   return out;
+}
+
+Spin hit_by_a_turning_rod(const Lab& lab) {
+  constexpr double kArm = 0.8, kMass = 3, kTurns = 2, kSmall = 0.2;
+  Body rod = make(Crate{.name = "rod", .mass = kMass, .width = 0.2, .height = 2});
+  rod.angular_velocity = -kTurns;
+  const Body ball = make(Ball{.position = {0.31, kArm}, .radius = kSmall});
+  const double inertia = kMass * (0.04 + 4) / 12;
+  const double due = 2 * kTurns * kArm / (1 + 1 / kMass + kArm * kArm / inertia);
+  return {lab.run(scene_of("turning rod", {}, {ball, rod}), 0.3).last(0).velocity.x, due};
 }
 
 }  // namespace plumb::course

@@ -38,7 +38,16 @@ Spin under_drag(const Lab& lab);
 /// Returns the farthest, m, that two balls on a stick sink in a floor that is the last body.
 double sinks_of_joined_balls(const Lab& lab);
 
-/// Returns the largest change, m, of the length of a stick between the end of a rod and a ball in the air.
-double stick_at_a_rods_end(const Lab& lab);
+struct Stretch {
+  double change = 0;  ///< m, largest change of length
+  double speed = 0;   ///< m/s, fastest that the ends part or close, by their velocities
+};
+
+/// Throws a ball in the air that a stick joins to the end of a rod.
+Stretch stick_at_a_rods_end(const Lab& lab);
+
+/// Returns vx, m/s, of a ball at rest that the end of a rod hits which turns at 2 rad/s, and what it should
+/// be.
+Spin hit_by_a_turning_rod(const Lab& lab);
 
 }  // namespace plumb::course

@@ -61,7 +61,7 @@ MISTAKES = [
     ('a damper by the centres', 4,
      'rate = (bvx - avx) * dx + (bvy - avy) * dy\n                force',
      'rate = (b.vx - a.vx) * dx + (b.vy - a.vy) * dy\n                force',
-     "spring_rate_of_centres"),
+     "point_velocity"),
     ('no force turns with its body', 4,
      'f["force"] if f["frame"] == "world" else b.point(*f["force"])',
      'f["force"]',

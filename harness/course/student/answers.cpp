@@ -65,7 +65,8 @@ Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
 void StudentWorld::prepare(Touch& touch) const {
   const Vec2d coming =
       mixed("velocity before a bounce", mixed("velocity in a contact", relative_velocity(touch)));
-  const double closing = dot(coming, touch.normal);
+  const Vec2d centres = bodies_[touch.b].velocity - bodies_[touch.a].velocity;
+  const double closing = dot(is("bounce_of_centres") ? centres : coming, touch.normal);
   const double slow = is("threshold_too_high")     ? 3
                       : is("threshold_without_dt") ? 2 * length(scene_.gravity)
                                                    : 2 * length(scene_.gravity) * dt_;

@@ -109,8 +109,12 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_by_sign")) tension = std::copysign(spring->stiffness, stretch);
     if (is("spring_by_square")) tension = std::copysign(spring->stiffness * stretch * stretch, stretch);
     if (is("spring_not_unit")) tension *= length(way);
-    const Vec2d along = mixed("direction of a spring", 1 / length(way) * way), v_a = a.velocity_at(arm_a),
-                v_b = end.velocity_at(arm_b);
+    const auto point_velocity = [&](const Rigid& body, Vec2d arm) {
+      const double share = is("spring_velocity_flipped") ? -1 : times("w x r");
+      return body.velocity + share * mixed("w x r", cross(body.spin, arm));
+    };
+    const Vec2d along = mixed("direction of a spring", 1 / length(way) * way), v_a = point_velocity(a, arm_a),
+                v_b = point_velocity(end, arm_b);
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;
     if (is("spring_damps_the_second_only")) parting = v_b;

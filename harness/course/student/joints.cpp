@@ -86,7 +86,11 @@ void StudentWorld::solve(const Joint& joint) {
   Rigid &a = bodies_[e.a], &b = bodies_[e.b];
   const bool stick = std::holds_alternative<DistanceJoint>(joint);
   const double gap = length(e.gap);
-  const Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
+  Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
+  if (is("stick_along_centres")) {
+    const Vec2d centres = b.position - a.position;
+    along = 1 / length(centres) * centres;
+  }
   const bool one_row = stick || is("hinge_as_stick");
   if (one_row && !stick && gap < 1e-12) return;
   for (const Vec2d n : {one_row ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
