@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "harness/course/course.h"
+#include "harness/course/room_checks.h"
 #include "harness/course/scenes.h"
 
 namespace plumb::course {
@@ -37,8 +38,6 @@ std::optional<double> kept_each_step(const Trace& trace) {
     if (std::abs(gain(k + 1) - ratio * gain(k)) > 1e-4 * std::abs(gain(0))) return std::nullopt;
   return ratio;
 }
-
-constexpr const char* kWallOfNoScene = "walls_hard_coded";
 
 Finding falls(const Lab& lab) {
   const Trace trace = lab.run(falling(), 1);
@@ -166,20 +165,22 @@ Finding any_step_size(const Lab& lab) {
   const auto over = [](double other, double first) { return first == 0 ? 0 : other / first; };
   const double relative = lab.rounding(kGravity, 4) / std::max(std::abs(one.speed), 1e-3);
   const double offset = 4 * lab.dt();
+  // The same fall, asked for in a single sample after all steps.
+  const Trace end = lab.run_to_end(falling(), 1);
+  const double at_once = end.last(0).velocity.y / end.duration();
   return Judgement()
       .read("vy/t with dt/2 over that with dt", "", over(half.speed, one.speed), 1, relative)
       .read("vy/t with dt/4 over that with dt", "", over(quarter.speed, one.speed), 1, relative)
       .read("way with dt/2 over that with dt", "", over(half.way, one.way), 1, offset)
       .read("way with dt/4 over that with dt", "", over(quarter.way, one.way), 1, offset)
+      .read("vy/t of the last step, asked for alone, over that with each step", "", over(at_once, one.speed),
+            1, relative)
       .mistake("per_frame", {2, 4, kAny, kAny},
                "Twice the steps, twice the speed: something is added once a step and does not depend on dt. "
                "Multiply it by dt.")
       .mistake("dt_twice", {0.5, 0.25, kAny, kAny}, "Half the step, half the speed: dt enters twice.")
       .finding();
 }
-
-constexpr const char* kStill =
-    "The ball never moves: add v dt to its position in each step; v begins with the scene's \"velocity\".";
 
 // Drops a ball of radius r at (1, -2) m/s, or at a multiple, on a floor whose top is at -0.5 m.
 Trace bounce(const Lab& lab, double r, double e = 1, double times = 1) {
@@ -303,16 +304,6 @@ Finding bounces(const Lab& lab) {
       .finding();
 }
 
-// Counts the sign changes of the velocity, on either axis.
-int turns(const Trace& trace) {
-  int count = 0;
-  for (std::size_t k = 1; k < trace.states.size(); ++k) {
-    const Vec2d a = trace.states[k - 1][0].velocity, b = trace.states[k][0].velocity;
-    count += (a.x * b.x < 0) + (a.y * b.y < 0);
-  }
-  return count;
-}
-
 // Returns true if the velocity reverses in one step and again in the next.
 bool trembles(const Trace& trace) {
   for (std::size_t k = 2; k < trace.states.size(); ++k) {
@@ -330,11 +321,6 @@ bool loses_what_it_got(const Trace& trace) {
   }
   return false;
 }
-
-constexpr const char* kTurnedEveryStep =
-    "The ball sticks in the wall: its velocity is reversed in each step that it overlaps the wall. Reverse "
-    "it only "
-    "if it moves towards the wall, v . n < 0, and push the ball out.";
 
 Finding restitution(const Lab& lab) {
   const double e = 0.7, wall = 0.2, v = 2;
@@ -384,92 +370,6 @@ Finding restitution(const Lab& lab) {
       .mistake("restitution_mean", {std::sqrt(e * wall) * v},
                "The geometric mean of the two restitutions is taken: \"contact_rules\" says maximum.")
       .mistake("falls_through", {-v}, "The ball goes through the floor.")
-      .finding();
-}
-
-Finding four_walls(const Lab& lab) {
-  const double half_width = 2, half_height = 1.5, r = 0.25, thick = 1;
-  const Vec2d v{3.1, 2.3};
-  const auto wall = [&](const char* name, Vec2d at, double width, double height) {
-    return fixed(make(Crate{.name = name, .position = at, .width = width, .height = height}));
-  };
-  const double x = half_width + thick / 2, y = half_height + thick / 2;
-  const Scene scene = scene_of(
-      "room", {},
-      {make(Ball{.velocity = v, .radius = r}), wall("right", {x, 0}, thick, 6),
-       wall("left", {-x, 0}, thick, 6), wall("upper", {0, y}, 7, thick), wall("lower", {0, -y}, 7, thick)});
-  const Trace trace = lab.run(scene, 5);
-  double outside = 0;
-  for (const auto& states : trace.states) {
-    const Vec2d p = states[0].position;
-    outside = std::max({outside, std::abs(p.x) + r - half_width, std::abs(p.y) + r - half_height});
-  }
-  const double speed = std::hypot(v.x, v.y),
-               end = std::hypot(trace.last(0).velocity.x, trace.last(0).velocity.y);
-  // Unfold the room at its walls: the straight path then crosses a wall every 2 (half - r).
-  const double t = trace.duration();
-  const int due = static_cast<int>((v.x * t / (half_width - r) + 1) / 2) +
-                  static_cast<int>((v.y * t / (half_height - r) + 1) / 2);
-  const std::string passed = wall_passed(trace.last(0), half_width, half_height);
-  Judgement judgement;
-  judgement.read("farthest into a wall", "m", outside, 0, v.x * lab.dt() + 0.01 * r)
-      .read("turns at walls", "", turns(trace), due, 2)
-      .read("speed after 5 s", "m/s", end, speed, 0.002 * speed);
-  if (judgement.good()) return judgement.finding();
-  const auto other_wall = wall_of_no_scene(lab);
-  return judgement.proven_if(other_wall.has_value(), kWallOfNoScene, other_wall.value_or(""))
-      .mistake_if(trace.still(0), "starts_at_rest", kStill)
-      .mistake_if(turns(trace) > 2 * due, "turned_every_step", kTurnedEveryStep)
-      .mistake_if(!passed.empty() && leaves_straight(trace, half_width - r, half_height - r, r),
-                  "wall_missing", fmt::format("The ball leaves through the {} wall.", passed))
-      .symptom_if(!passed.empty(), fmt::format("The ball leaves through the {} wall.", passed))
-      .symptom_if(end > 1.002 * speed,
-                  "The ball gains speed at walls: pushing it out must not change its "
-                  "velocity, and restitution 1 gives back what came, no more.")
-      .symptom_if(end < 0.998 * speed,
-                  "The ball loses speed in the air or at walls: nothing here damps it, and restitution is 1.")
-      .finding();
-}
-
-Finding settles(const Lab& lab) {
-  const double r = 0.5;
-  const Body floor =
-      fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
-  const Body ball = make(Ball{.position = {0, 1 + r}, .radius = r, .restitution = 0.5});
-  const Trace trace = lab.run(scene_of("settle", {0, -kGravity}, {ball, floor}), 5);
-  // Bounces end after sqrt(2 h/g) (1 + e)/(1 - e) = 1.35 s; twice this time is tolerated.
-  double high = 0, low = 0;
-  for (std::size_t k = 0; k < trace.states.size(); ++k) {
-    if (trace.times[k] < 2.7) continue;
-    high = std::max(high, trace.states[k][0].position.y - r);
-    low = std::min(low, trace.states[k][0].position.y - r);
-  }
-  const double tolerance = kGravity * lab.dt() * lab.dt() + 0.02 * r;
-  const double speed = trace.last(0).velocity.y;
-  return Judgement()
-      .read("highest above the floor from 2.7 s on", "m", high, 0, tolerance)
-      .read("deepest in the floor from 2.7 s on", "m", low, 0, tolerance)
-      .read("vy after 5 s", "m/s", speed, 0, 2 * kGravity * lab.dt())
-      .read("y of the floor", "m", trace.last(1).position.y, -0.5, 1e-9)
-      .read("vy of the floor", "m/s", trace.last(1).velocity.y, 0, 1e-9)
-      .read("least change of vy in a step on the way up", "g dt", least_gain_above(lab, trace, r, kGravity),
-            1, 0.01)
-      .proven_if(
-          std::abs(trace.last(1).position.y + 0.5) > 1e-9 || std::abs(trace.last(1).velocity.y) > 1e-9,
-          "static_moves",
-          "The floor moves: gravity, forces and contacts change only bodies whose type is \"dynamic\".")
-      .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
-      .mistake_if(low < -r, "falls_through",
-                  "The ball sinks through the floor: stop it in each step in which it moves towards the "
-                  "floor, however slowly.")
-      .mistake_if(
-          low < -tolerance && high <= tolerance, "sinks",
-          "The ball sinks into the floor little by little: correct its position as well as its velocity.")
-      .symptom_if(high > 0.5, "The ball keeps bouncing: each bounce should leave half of the speed.")
-      .mistake_if(high > tolerance, "restless",
-                  "The ball keeps bouncing on the floor: gravity adds g dt of speed each step, and that must "
-                  "not bounce. "
-                  "Take restitution as 0 below about 2 g dt.")
       .finding();
 }
 

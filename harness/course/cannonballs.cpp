@@ -365,6 +365,19 @@ Finding spring(const Lab& lab) {
       .finding();
 }
 
+// Returns the fraction of their angular momentum that two balls keep which circle on a spring: its force is
+// along the line of the two. Returns 1 if the engine refuses balls that might meet.
+double angular_momentum_kept(const Lab& lab, Scene circling) try {
+  circling.bodies[1].velocity = {-0.9, 1.2};
+  const auto turning = [](const std::vector<BodyState>& s) {
+    return cross(s[1].position - s[0].position, s[1].velocity - s[0].velocity);
+  };
+  const Trace circle = lab.run(circling, 1);
+  return turning(circle.states.back()) / turning(circle.states.front());
+} catch (const NotYet&) {
+  return 1;
+}
+
 // Two balls on a damped spring: their distance decays as exp(-c t/(2 m)), m the reduced mass, and swings.
 Finding damped_spring(const Lab& lab) {
   const double k = 4.8, c = 0.8, stretch = 0.5, decay = c / (2 * kReduced),
@@ -378,10 +391,12 @@ Finding damped_spring(const Lab& lab) {
   const double tolerance = stretch * undamped * lab.method_error(undamped, 1e-3) + 1e-3;
   const Pair half = pair_at(trace, middle), whole = pair_at(trace, end);
   const double t = trace.duration();
+  const double kept = angular_momentum_kept(lab, two_on_a_spring(kApart + stretch, k, c));
   return Judgement()
       .read("distance after 1 s", "m", half.apart, due(trace.times[middle]), tolerance)
       .read("distance after 2 s", "m", whole.apart, due(t), tolerance)
       .read("shift of the centre of mass", "m", whole.moved, 0, lab.rounding(10, t) + 1e-6)
+      .read("angular momentum that the two keep if they circle", "of all", kept, 1, 0.05)
       .mistake("damping_ignored",
                {kApart + stretch * std::cos(undamped * trace.times[middle]),
                 kApart + stretch * std::cos(undamped * t), 0},

@@ -82,6 +82,26 @@ Vec2d lands_between(const Lab& lab, bool ball_last) {
   return lab.run(scene_of("corner", {}, bodies), 0.2).last(ball_last ? 2 : 0).velocity;
 }
 
+// Returns vy of a ball that lands on a thin floor while two others, which come first, part in an overlap.
+double lands_beside_parting(const Lab& lab) {
+  const double v = 6, small = 0.2;
+  const Body floor = fixed(
+      make(Crate{.name = "floor", .position = {3, -0.05}, .width = 2, .height = 0.1, .restitution = 0}));
+  return lab
+      .run(scene_of("beside", {},
+                    {make(Ball{.name = "a", .position = {-0.25, 0}, .velocity = {-0.1, 0}}),
+                     make(Ball{.name = "b", .position = {0.25, 0}, .velocity = {0.1, 0}}),
+                     make(Ball{.name = "c",
+                               .position = {3, small + 0.01},
+                               .velocity = {0, -v},
+                               .radius = small,
+                               .restitution = 0.5}),
+                     floor}),
+           0.3)
+      .last(2)
+      .velocity.y;
+}
+
 // Starts two overlapping balls that move apart: their velocities should not change.
 Finding parting_is_left_alone(const Lab& lab) try {
   const double v = 1, deep = 0.06, r = 0.4;
@@ -96,6 +116,7 @@ Finding parting_is_left_alone(const Lab& lab) try {
       .read("speed up after it has landed", "m/s", first.y, 0.5, 0.05 * v)
       .read("speed away from the post if the ball is the last body", "m/s", last.x, 0.5, 0.05 * v)
       .read("speed up in this case", "m/s", last.y, 0.5, 0.05 * v)
+      .read("speed up of a ball that lands while two others part", "m/s", lands_beside_parting(lab), 3, 0.05)
       .mistake_if(apart < 0.95 * v, "no_test_of_parting", kPulledBack)
       .mistake_if(
           apart > 1.05 * v, "correction_adds_energy",

@@ -7,6 +7,7 @@
 
 #include "engine/scene/error.h"
 #include "harness/course/flight.h"
+#include "harness/course/hindsight.h"
 #include "harness/course/prediction.h"
 #include "reference/process_backend.h"
 
@@ -109,6 +110,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                              std::span<const Chapter> chapters,
                              const std::function<void(const Outcome&)>& done) {
   std::vector<Outcome> out;
+  std::size_t told = 0;  // number of checks for which `done` was called
   int timeouts = 0;
   bool unexplained = false;  // an earlier check has failed, and no mistake was named so far
   std::string named, known;  // the first mistake, and the first whose motion was computed
@@ -122,7 +124,7 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
                             : run(check, lab, timeouts);
       outcomes.push_back(std::move(outcome));
     }
-    name_by_motion(Lab(engine, settings), outcomes, known);
+    name_by_motion(Lab(engine, settings), outcomes, out, known);
     for (Outcome& outcome : outcomes) {
       Finding& finding = outcome.finding;
       if (finding.verdict == Verdict::Fail && finding.mistake != kRunsDiffer)
@@ -141,9 +143,13 @@ std::vector<Outcome> examine(const reference::Backend& engine, const reference::
       if (finding.verdict == Verdict::Fail && finding.mistake.empty() && named.empty()) unexplained = true;
       if (named.empty()) named = finding.mistake;
       if (known.empty() && finding.computed) known = finding.mistake;
-      done(outcome);
       out.push_back(std::move(outcome));
     }
+    // Waits: a later check may name the mistake of a failure that has no name so far.
+    const bool last = &chapter == &chapters.back();
+    if (unexplained && !last && named.empty()) continue;
+    if (unexplained && told < out.size()) name_in_hindsight(Lab(engine, settings), out, told);
+    for (; told < out.size(); ++told) done(out[told]);
   }
   return out;
 }

@@ -50,8 +50,10 @@ struct Outcome {
 inline constexpr const char* kRunsDiffer = "runs_differ";
 
 /// Runs `chapters` on `engine`, one check after another. Calls `done` for each check at the end of its
-/// chapter, because a mistake is identified by its effect on all checks of the chapter. If the engine fails,
-/// hangs or returns a non-finite figure, the check is broken. After `kPatience` hangs the rest is skipped.
+/// chapter, because a mistake is identified by its effect on all checks of the chapter. After a failure
+/// without a name, `done` waits for the chapter that names a mistake: it may be the cause of that failure. If
+/// the engine fails, hangs or returns a non-finite figure, the check is broken. After `kPatience` hangs the
+/// rest is skipped.
 std::vector<Outcome> examine(const reference::Backend& engine, const reference::StepSettings& settings,
                              std::span<const Chapter> chapters,
                              const std::function<void(const Outcome&)>& done);

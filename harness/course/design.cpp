@@ -52,8 +52,8 @@ std::vector<Manner> variants(int chapter) {
   }
 }
 
-// The chapters in which balls collide and boxes turn.
-constexpr int kCollisions = 3, kBoxes = 4;
+// The chapters in which forces act and boxes turn.
+constexpr int kForces = 2, kBoxes = 4;
 
 }  // namespace
 
@@ -174,7 +174,7 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
     }
   if (chapter < kBoxes && !turns_bodies(lab))
     for (Manner& manner : out) manner.turns = false;
-  if (chapter >= kCollisions)
+  if (chapter != kForces)
     if (const auto sweeps = measured_sweeps(lab, out.front()))
       for (Manner& manner : out)
         if (manner.sweeps == Manner{}.sweeps) manner.sweeps = *sweeps;

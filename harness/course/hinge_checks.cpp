@@ -10,6 +10,7 @@
 
 #include "harness/course/pendulum.h"
 #include "harness/course/scenes.h"
+#include "harness/course/turning_scenes.h"
 
 namespace plumb::course {
 namespace {
@@ -142,6 +143,7 @@ Finding hinged_rod(const Lab& lab) {
     return std::abs(end.velocity.x) < 0.2 && std::abs(end.velocity.y - end.angular_velocity * l / 2) < 0.2;
   };
   const double due = period_with(about_end);
+  const Stretch stick = stick_at_a_rods_end(lab);
   const std::optional<double> period = period_of(trace, swing);
   const bool still = length(trace.last(0).position - trace.first(0).position) < 0.01 * l;
   const std::optional<double> stiffness = held ? std::nullopt : stiffness_of_joints(lab, true);
@@ -151,6 +153,11 @@ Finding hinged_rod(const Lab& lab) {
       .read("gap on a post that the rod overlaps", "m", at_post, 0, 0.01 * l * lab.coarseness())
       .read("fastest that the hinged end moves, by the velocity and spin of the rod", "m/s", slides, 0,
             0.5 * lab.coarseness())
+      .read("largest change of length of a stick between the end of a rod and a ball", "m", stick.change, 0,
+            0.02 * lab.coarseness())
+      .read("fastest that the ends of this stick part or close, by their velocities", "m/s", stick.speed, 0,
+            0.2 * lab.coarseness())
+      .read("farthest that two balls on a stick sink in the floor", "m", sinks_of_joined_balls(lab), 0, 0.03)
       .proven_if(stiffness.has_value(), "joint_as_spring", spring_text(stiffness.value_or(0)))
       .proven_if(held && at_post > 0.01 * l * lab.coarseness(), "joined_bodies_collide",
                  "The rod is pushed out of the post that it hangs on: bodies that a joint connects do not "

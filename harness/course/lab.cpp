@@ -79,6 +79,21 @@ Trace Lab::run(const Scene& scene, double duration, int finer) const {
   return trace;
 }
 
+Trace Lab::run_to_end(const Scene& scene, double duration) const {
+  if (const std::string reason = engine_.unsupported(scene, settings_); !reason.empty()) throw NotYet(reason);
+  Trace trace;
+  trace.times.push_back(0);
+  trace.states.emplace_back();
+  for (const Body& body : scene.bodies) trace.states.back().push_back(initial_state(body));
+  const int steps = static_cast<int>(std::floor(duration / settings_.dt + 1e-6));
+  engine_.create(scene, settings_)
+      ->record(1, steps, scene.bodies.size(), [&](double time, std::span<const BodyState> states) {
+        trace.times.push_back(time);
+        trace.states.emplace_back(states.begin(), states.end());
+      });
+  return trace;
+}
+
 reference::StepSettings Lab::plain_settings() const {
   reference::StepSettings out;
   out.dt = settings_.dt;

@@ -61,6 +61,9 @@ class Lab {
   /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
   Trace run(const Scene& scene, double duration, int finer = 1) const;
 
+  /// Does the same with a single sample, after all steps. The run is not kept for comparisons.
+  Trace run_to_end(const Scene& scene, double duration) const;
+
   /// Returns settings with which another engine takes steps and substeps of equal length.
   reference::StepSettings plain_settings() const;
 

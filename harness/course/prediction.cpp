@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <span>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/course/factors.h"
 #include "harness/course/flight.h"
 #include "harness/course/likeness.h"
 #include "harness/course/predictions.h"
@@ -76,7 +76,8 @@ bool fails_as_well(const std::vector<Planted>& mistakes, Predictions& prediction
 }
 
 bool better(const Fit& a, const Fit& b) {
-  return std::tie(a.verdicts, a.readings, a.off) < std::tie(b.verdicts, b.readings, b.off);
+  return std::tie(a.contradicted, a.verdicts, a.readings, a.off) <
+         std::tie(b.contradicted, b.verdicts, b.readings, b.off);
 }
 
 // Returns true if a mistake gives the same figures as the engine without it: it then explains nothing.
@@ -144,7 +145,12 @@ void add_fits(const Predictable& mistake, Predictions& predictions, const Outcom
 }
 
 // Returns true if a mistake predicts every verdict and every wrong reading of the chapter.
-bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 0; }
+bool explains_all(const Fit& fit) { return fit.verdicts == 0 && fit.readings == 0 && !fit.contradicted; }
+
+// Returns true if a mistake fits that no other check contradicts.
+bool any_unrefuted(const std::vector<Fit>& fits) {
+  return std::any_of(fits.begin(), fits.end(), [](const Fit& fit) { return !fit.contradicted; });
+}
 
 // Returns true if a mistake has a different name in the chapter of `digit`, which applies there.
 bool renamed(const std::vector<Predictable>& mistakes, const Predictable& mistake, char digit) {
@@ -170,12 +176,12 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
   // Bodies without contacts or joints move in the same way in every design.
   const bool free = std::all_of(outcome.runs.begin(), outcome.runs.end(), flies_freely);
   for (const bool exactly : {true, false}) {
-    if (!out.empty() || (!exactly && free)) break;
+    if (any_unrefuted(out) || (!exactly && free)) break;
     for (const Fit& fit : likely)
       add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated, false}, predictions, outcome,
                check, exactly, out);
     for (const bool generated : {false, true}) {
-      if (!out.empty() && !likely.empty()) break;
+      if (any_unrefuted(out) && !likely.empty()) break;
       if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
       for (const Predictable& mistake : mistakes) {
         if (mistake.generated != generated || (mistake.exactly && !exactly)) continue;
@@ -192,6 +198,13 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
       }
     }
   }
+  // An engine that does all chapters may make the mistake of a later one, such as friction where there is
+  // none.
+  if (!any_unrefuted(out))
+    for (const Predictable& mistake : mistakes)
+      if (!mistake.generated && mistake.chapters.front() > digit && predictions.steps() < until)
+        add_fits(mistake, predictions, outcome, check, true, out);
+  if (any_unrefuted(out)) std::erase_if(out, [](const Fit& fit) { return fit.contradicted; });
   // If the design is known, mistakes that only come near and contradict other checks are wrong.
   if (predictions.design_known())
     std::erase_if(out, [](const Fit& fit) { return !fit.exact && !explains_all(fit); });
@@ -206,24 +219,6 @@ std::size_t wrong_readings(const std::vector<Outcome>& chapter) {
       out += std::count_if(outcome.finding.readings.begin(), outcome.finding.readings.end(),
                            [](const Reading& r) { return !r.good(); });
   return out;
-}
-
-// Returns a factor as text: as dt or 1/dt if it equals one of these, which is more informative than a number.
-std::string factor_text(double factor, double dt) {
-  const auto is = [&](double other) { return std::abs(factor / other - 1) < 0.01; };
-  if (is(dt)) return "dt";
-  return is(1 / dt) ? "1/dt" : fmt::format("{:.3g}", factor);
-}
-
-// Returns the plain number that a fitted factor stands for: dt, a whole number, degrees in a radian, or the
-// inverse of one of these; otherwise the factor.
-double plain_factor(double factor, double dt) {
-  constexpr double kNear = 0.003, kDegrees = 180 / std::numbers::pi;
-  std::vector<double> plain{0, dt, 1 / dt, kDegrees, 1 / kDegrees};
-  for (int i = 1; i <= 12; ++i) plain.insert(plain.end(), {i * 1.0, 1.0 / i, -i * 1.0, -1.0 / i});
-  for (const double each : plain)
-    if (std::abs(factor - each) <= kNear * std::max(std::abs(each), kNear)) return each;
-  return factor;
 }
 
 // Adds a quantity that is wrong by a factor; returns false if it does not fit. `several` is true if a chapter
@@ -362,6 +357,13 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
     finding.says += untried_text(search.untried);
     return;
   }
+  if (found.size() == 1 && found.front().contradicted) {
+    if (finding.proven) return;
+    finding.mistake.clear();
+    finding.says = fmt::format("{} It is close to this, but other checks, which pass, would differ. {}: {}",
+                               describe(finding), found.front().name, found.front().says);
+    return;
+  }
   if (found.size() == 1) {
     if (finding.mistake != found.front().name) finding.says = found.front().says;
     finding.mistake = found.front().name;
@@ -387,7 +389,8 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
 
 }  // namespace
 
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named) {
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::vector<Outcome>& before,
+                    const std::string& named) {
   using reference::Scheme;
   const Scheme scheme = lab.scheme();
   if (scheme != Scheme::SemiImplicitEuler && scheme != Scheme::ExplicitEuler &&
@@ -416,11 +419,20 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::st
     predictions.tell_apart(fits);
     fits = one_for_each_name(fits);
     if (finding.diverged) std::erase_if(fits, [](const Fit& fit) { return !fit.exact; });
+    // The checks of earlier chapters contradict a mistake as well.
+    constexpr std::size_t kFew = 4;
+    if (fits.size() <= kFew)
+      for (Fit& fit : fits)
+        fit.contradicted =
+            fit.contradicted || std::any_of(before.begin(), before.end(), [&](const Outcome& passed) {
+              return predictions.contradicts(fit.planted, passed);
+            });
+    if (any_unrefuted(fits)) std::erase_if(fits, [](const Fit& fit) { return fit.contradicted; });
     if (fits.empty() && !finding.proven && !finding.diverged && all)
       add_fitted(predictions, chapter, i, until, found[i]);
     if (fits.empty() && !all) found[i].untried += mistakes.size() - listed.size();
     in_vain += fits.empty();
-    if (fits.size() == 1 && found[i].untried == 0) alone.insert(fits.front().name);
+    if (fits.size() == 1 && found[i].untried == 0 && any_unrefuted(fits)) alone.insert(fits.front().name);
     if (likely.empty()) std::copy_if(fits.begin(), fits.end(), std::back_inserter(likely), explains_all);
   }
   std::string known = named;

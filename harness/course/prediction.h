@@ -41,7 +41,10 @@ std::vector<Scaled> scaled_quantities();
 /// that mistake, because its motion differs. A mistake named by an earlier check, or as `named` (may be
 /// empty) in an earlier chapter, is preferred wherever it fits; another name is withdrawn if that mistake
 /// would fail the check as well.
-/// Does nothing for methods that the learner's engine does not have.
-void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::string& named = "");
+/// A mistake that would change the paths of a check of this chapter, or of one of `before`, in which the
+/// tested engine moves exactly as a correct one, is described and not named. Does nothing for methods that
+/// the learner's engine does not have.
+void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::vector<Outcome>& before = {},
+                    const std::string& named = "");
 
 }  // namespace plumb::course

@@ -58,6 +58,13 @@ struct TooFar : std::runtime_error {
   TooFar() : std::runtime_error("too far") {}
 };
 
+// Returns true if an engine's paths are those of a correct one, and those of a mistake differ.
+bool shows_no_mistake(const std::vector<Recorded>& seen, const std::vector<Recorded>& right,
+                      const std::vector<Recorded>& wrong) {
+  return distance(seen, seen, right, right.size()) <= kUnchanged &&
+         distance(seen, seen, wrong, right.size()) > kSameDesign;
+}
+
 // Returns true for each design that gives the tested engine's paths in all checks that a mistake does not
 // spoil: those in which some design gives its paths. A mistake may change the paths of a check that the
 // engine passes, such as angles where only a spin is read; no design gives these paths, and they tell nothing
@@ -119,6 +126,11 @@ const std::optional<Attempt>& Predictions::of(const Planted& planted, std::size_
 }
 
 std::optional<Attempt> Predictions::attempt(const Planted& planted, std::size_t check, Lab::Watcher watcher) {
+  return attempt(planted, *chapter_[check].check, std::move(watcher));
+}
+
+std::optional<Attempt> Predictions::attempt(const Planted& planted, const Check& check,
+                                            Lab::Watcher watcher) {
   const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
   const auto watch = [&](std::size_t run, std::size_t state, std::span<const BodyState> states) {
     ++steps_;
@@ -127,7 +139,7 @@ std::optional<Attempt> Predictions::attempt(const Planted& planted, std::size_t 
   Attempt out;
   try {
     const Lab lab(*student, lab_.plain_settings(), &out.runs, watch);
-    out.finding = chapter_[check].check->run(lab);
+    out.finding = check.run(lab);
   } catch (const std::exception&) {
     return std::nullopt;
   }
@@ -306,7 +318,12 @@ void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {
         seen.verdict == Verdict::Broken)
       continue;
     const auto& predicted = of(planted, i);
-    if (seen.verdict == Verdict::Pass && predicted && refutes(seen, predicted->finding)) fit.refuted = true;
+    if (seen.verdict == Verdict::Pass && predicted) {
+      fit.refuted = fit.refuted || refutes(seen, predicted->finding);
+      const auto& right = of({"", planted.manner}, i);
+      fit.contradicted =
+          fit.contradicted || (right && shows_no_mistake(chapter_[i].runs, right->runs, predicted->runs));
+    }
     if (!predicted || predicted->finding.verdict != seen.verdict)
       ++fit.verdicts;
     else if (seen.verdict == Verdict::Fail && !same_readings(seen, predicted->finding))
@@ -316,6 +333,16 @@ void Predictions::refute(const Planted& planted, std::size_t check, Fit& fit) {
     if (predicted) fit.signs += sees_another(i, predicted->finding);
   }
   fit.signs += sees_another(check, of(planted, check)->finding);
+}
+
+bool Predictions::contradicts(const Planted& planted, const Outcome& passed) {
+  if (passed.finding.verdict != Verdict::Pass || !passed.check->repeatable) return false;
+  const auto key = std::pair{planted.manner, passed.check->name};
+  const auto [place, is_new] = right_earlier_.try_emplace(key);
+  if (is_new) place->second = attempt({"", planted.manner}, *passed.check, {});
+  if (!place->second) return false;
+  const auto wrong = attempt(planted, *passed.check, {});
+  return wrong && shows_no_mistake(passed.runs, place->second->runs, wrong->runs);
 }
 
 // Returns true if a check detects a mistake in the predicted motion, but not in the tested engine's.

@@ -37,10 +37,11 @@ struct Fit {
   double off = 0;  ///< distance of the paths over the mistake's distance from the correct paths
   // Number of other checks of the chapter for which it predicts another verdict, or other readings.
   int verdicts = 0, readings = 0;
-  double elsewhere = 0;    ///< largest `off` in the other failed checks
-  bool generated = false;  ///< one of a family
-  bool exact = false;      ///< its figures equal the engine's, and its paths fit as well
-  bool refuted = false;    ///< it would clearly fail another check, which the tested engine passes
+  double elsewhere = 0;       ///< largest `off` in the other failed checks
+  bool generated = false;     ///< one of a family
+  bool exact = false;         ///< its figures equal the engine's, and its paths fit as well
+  bool refuted = false;       ///< it would clearly fail another check, which the tested engine passes
+  bool contradicted = false;  ///< it changes the paths of a check in which the engine moves as a correct one
   int signs = 0;  ///< number of checks that detect a mistake in its motion, but not in the tested engine's
 };
 
@@ -82,6 +83,10 @@ class Predictions {
   /// Counts the other checks for which a mistake predicts another verdict, or other wrong readings.
   void refute(const Planted& planted, std::size_t check, Fit& fit);
 
+  /// Returns true if the tested engine moves exactly as a correct one in a check that it passes, of this or
+  /// an earlier chapter, and the mistake would change the paths there.
+  bool contradicts(const Planted& planted, const Outcome& passed);
+
   /// Returns the distance of the tested engine's paths from those of a mistake, divided by the distance of
   /// the mistake's paths from the correct ones. Returns 0 if only velocities are wrong: then only readings
   /// decide.
@@ -112,6 +117,7 @@ class Predictions {
   double exact_limit(std::size_t check, std::size_t manner);
   std::vector<std::vector<double>> misfits();
   std::optional<Attempt> attempt(const Planted& planted, std::size_t check, Lab::Watcher watcher);
+  std::optional<Attempt> attempt(const Planted& planted, const Check& check, Lab::Watcher watcher);
   std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit);
 
   const Lab& lab_;
@@ -128,6 +134,7 @@ class Predictions {
   std::map<std::tuple<std::size_t, std::size_t, double>, std::optional<std::pair<std::size_t, std::size_t>>>
       screens_;
   std::map<std::pair<Planted, std::size_t>, std::optional<Attempt>> attempts_;
+  std::map<std::pair<std::size_t, std::string>, std::optional<Attempt>> right_earlier_;
   std::set<std::pair<Planted, std::size_t>> too_far_;
   std::map<std::size_t, double> spreads_;
   std::map<std::pair<std::size_t, std::size_t>, double> farthest_, exact_limits_;  ///< by check and manner

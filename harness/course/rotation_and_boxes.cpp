@@ -6,6 +6,7 @@
 #include "harness/course/course.h"
 #include "harness/course/scenes.h"
 #include "harness/course/turning_contacts.h"
+#include "harness/course/turning_scenes.h"
 
 namespace plumb::course {
 namespace {
@@ -26,8 +27,14 @@ Finding torque_spins(const Lab& lab) {
   const Trace trace = lab.run(scene, 1);
   const double t = trace.duration(), w = torque / inertia * t;
   const auto with = [&](double other) { return torque / (share * other) * t; };
+  const Spin timed = by_a_torque_for_a_time(lab), dragged = under_drag(lab);
   return Judgement()
       .read("spin after 1 s", "rad/s", trace.last(0).angular_velocity, w, lab.rounding(w, t))
+      .read("spin by a torque from 0.2 s to 0.4 s", "rad/s", timed.is, timed.due, 5.1 * timed.due * lab.dt())
+      .read("spin that a box keeps on which drag acts", "rad/s", dragged.is, dragged.due,
+            lab.rounding(dragged.due, 1))
+      .read("angle after 1 s", "rad", trace.last(0).angle, lab.way(0, torque / inertia, t),
+            lab.rounding(w, t))
       .mistake("inertia_sixth", {w / 2},
                "Twice too slow: is the inertia 1/6 where it should be 1/12? A box has m (w^2 + h^2)/12.")
       .mistake("inertia_half", {2 * w}, "Twice too fast: is the inertia 1/24? A box has m (w^2 + h^2)/12.")
@@ -155,12 +162,14 @@ Finding corner_force(const Lab& lab) {
   const double oblique =
       cross(Rotation<double>{std::cos(angle), std::sin(angle)} * point, force) * kPushed / kPushInertia;
   const Trace tilted = pushed(lab, angle, force, point);
+  const Spin own = by_a_force_of_the_box(lab);
   return Judgement()
       .read("spin by a push at the corner", "rad/s", corner.last(0).angular_velocity, w, tolerance)
       .read("spin of a box that stands at 90 degrees", "rad/s", turned.last(0).angular_velocity, -w,
             tolerance)
       .read("spin of a box that stands at 0.7 rad", "rad/s", tilted.last(0).angular_velocity, oblique,
             std::abs(oblique) * share_of_push(lab))
+      .read("spin by a force that turns with the box", "rad/s", own.is, own.due, 0.02 * std::abs(own.due))
       .mistake("torque_backwards", {-w, w, -oblique},
                "It spins the wrong way: the torque is rx Fy - ry Fx; r x F, not F x r.")
       .mistake("point_not_turned", {w, 0, cross(point, force) * kPushed / kPushInertia},

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/course/scenes.h"
+#include "harness/course/turning_scenes.h"
 
 namespace plumb::course {
 namespace {
@@ -75,6 +76,7 @@ Finding ball_hits_rod(const Lab& lab) {
     const Trace run = lab.run(scene_of("light rod", {}, {ball, crate}), 0.6);
     return std::clamp(run.last(0).velocity.x, -2 * v, 2 * v);
   };
+  const Spin turned = hit_by_a_turning_rod(lab);
   const Trace trace = meet({3, -2});
   const double linear = 1 / m + 1 / rod_mass, k = linear + arm * arm / inertia;
   const double j = 2 * v / k, rigid = 2 * v / linear, w = -arm * j / inertia;
@@ -87,7 +89,8 @@ Finding ball_hits_rod(const Lab& lab) {
       .read("vx of the ball after it hits a rod of 0.3 kg, at most twice as fast", "m/s", hits(kLight),
             due(kLight), 0.005 * v)
       .read("vx of the ball after it hits a rod of 10 m and 0.1 kg, at most twice as fast", "m/s",
-            hits(kLong), due(kLong), 0.005 * v);
+            hits(kLong), due(kLong), 0.005 * v)
+      .read("vx of a ball at rest that a turning rod hits", "m/s", turned.is, turned.due, 0.1 * turned.due);
   if (judgement.good()) return judgement.finding();
   const auto off = [&](const Trace& t) { return std::abs(t.last(1).angular_velocity - w); };
   const double off_at_origin = off(meet({}));
@@ -180,6 +183,7 @@ Finding turned_box(const Lab& lab) {
   const Vec2d over_long = thrown({0.3, 1.42}, {-along, -v}), over_short = thrown({-1.92, -0.1}, {v, along});
   const double tolerance = 0.002 * v;
   const Passes passes = pass_a_turning_rod(lab);
+  const Rebound corner = off_a_corner(lab), end = off_a_rods_end(lab);
   return Judgement()
       .read("speed away from the long side", "m/s", over_long.y, e * v, tolerance)
       .read("speed along the long side", "m/s", over_long.x, -along, tolerance)
@@ -187,6 +191,10 @@ Finding turned_box(const Lab& lab) {
       .read("speed along the short side", "m/s", over_short.y, along, tolerance)
       .read("change of velocity of a ball that passes a rod which has turned", "m/s", passes.ball, 0, 0.01)
       .read("change of velocity of a box that passes it", "m/s", passes.box, 0, 0.01)
+      .read("speed away from a corner", "m/s", corner.back, 1, 0.02)
+      .read("deepest in a corner", "m", corner.deep, 0, 3 * lab.dt())
+      .read("speed away from the end of a rod", "m/s", end.back, 1, 0.02)
+      .read("deepest in the end of a rod", "m", end.deep, 0, 3 * lab.dt())
       .mistake("no_collision", {-v, -along, -v, along}, "The ball goes through the box.")
       .finding();
 }
@@ -314,6 +322,9 @@ Finding slides(const Lab& lab) {
     return lab.run(scene_of("slide", {0, -kGravity}, {box, ground(0, mu_ground)}), seconds);
   };
   const Trace sliding = after(t), stopped = after(3);
+  Body to_left = box;
+  to_left.velocity.x = -v;
+  const Trace left = lab.run(scene_of("slide left", {0, -kGravity}, {ground(0, mu_ground), to_left}), t);
   const auto with = [&](double mu) { return v - mu * kGravity * t; };
   const double mu = std::sqrt(mu_box * mu_ground), x = v * v / (2 * mu * kGravity);
   const double late = 3 * mu * kGravity * lab.dt();  // contact may begin, and end, some steps late
@@ -327,6 +338,8 @@ Finding slides(const Lab& lab) {
       .read("vx after 1 s", "m/s", sliding.last(0).velocity.x, with(mu), late)
       .read("vx after 3 s", "m/s", stopped.last(0).velocity.x, 0, 0.02)
       .read("distance", "m", stopped.last(0).position.x, x, 3 * v * lab.dt())
+      .read("vx after 1 s of a box that slides to the left, on ground that comes first in the scene", "m/s",
+            left.last(1).velocity.x, -with(mu), late)
       .mistake_if(sliding.last(0).velocity.x > v + late, "friction_backwards",
                   "Friction speeds the box up: it acts against the sliding velocity along the tangent.")
       .mistake(
@@ -432,12 +445,16 @@ Finding discs_rub(const Lab& lab) {
   const double share = 2 * v * lab.dt() / rb + 0.01;
   const Vec2d va = q.inverse() * trace.last(0).velocity, vb = q.inverse() * trace.last(1).velocity;
   const double spin_a = w - ra * across / ia, spin_b = -rb * across / ib;
+  // Last, so that a mistake in forces at points is named by the checks before.
+  const Spin spring = by_a_spring(lab);
   return Judgement()
       .read("the second along the approach", "m/s", vb.x, j / mb, share * j / mb)
       .read("the first across the approach", "m/s", va.y, -across / ma, share * across / ma)
       .read("the second across the approach", "m/s", vb.y, across / mb, share * across / mb)
       .read("spin of the first", "rad/s", trace.last(0).angular_velocity, spin_a, share * (w - spin_a))
       .read("spin of the second", "rad/s", trace.last(1).angular_velocity, spin_b, share * -spin_b)
+      .read("spin of a box that a damped spring pulls at a corner", "rad/s", spring.is, spring.due,
+            0.12 * std::abs(spring.due + 3))
       .mistake("friction_ignored", {j / mb, 0, 0, w, 0},
                "The discs do not rub: friction is not used for circles.")
       .finding();

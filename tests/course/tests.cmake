@@ -4,7 +4,7 @@ set(folder ${CMAKE_CURRENT_SOURCE_DIR}/course/student)
 set(engine ${PROJECT_SOURCE_DIR}/harness/course/student)
 set(student ${engine}/student.cpp ${engine}/world.cpp ${engine}/forces.cpp ${engine}/touches.cpp ${engine}/answers.cpp
   ${engine}/joints.cpp ${engine}/edit.cpp ${engine}/rows.cpp ${engine}/clipping.cpp
-  ${engine}/misplaced.cpp)
+  ${engine}/misplaced.cpp ${engine}/pairs.cpp)
 target_sources(test_course PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/app/program.cpp)
 
 add_executable(plumb_course_student ${folder}/main.cpp ${student})

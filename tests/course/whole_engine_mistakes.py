@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 from warm_start import WarmStart
+from whole_engine_order import MISTAKES as OF_ORDER
 
 # name, first chapter that shows it, old text, new text, the name that describes it
 MISTAKES = [
@@ -378,6 +379,7 @@ MISTAKES = [
      'c["kt"] = inverse_mass(a, b, rax, ray, rbx, rby, -ny, nx)',
      'c["kt"] = a.im + b.im + cross(rax, ray, -ny, nx) * a.ii + cross(rbx, rby, -ny, nx) * b.ii', "lever_not_squared"),
 ]
+MISTAKES += OF_ORDER
 
 
 def first_named(plumb, command, chapter, named=False):

@@ -65,9 +65,14 @@ Vec2d StudentWorld::relative_velocity(const Touch& touch) const {
 void StudentWorld::prepare(Touch& touch) const {
   const Vec2d coming =
       mixed("velocity before a bounce", mixed("velocity in a contact", relative_velocity(touch)));
-  const double closing = dot(coming, touch.normal);
-  const double slow = is("threshold_too_high") ? 3 : 2 * length(scene_.gravity) * dt_;
-  const bool fast = is("threshold_reversed") ? closing < 0 && closing >= -slow : closing < -slow;
+  const Vec2d centres = bodies_[touch.b].velocity - bodies_[touch.a].velocity;
+  const double closing = dot(is("bounce_of_centres") ? centres : coming, touch.normal);
+  const double slow = is("threshold_too_high")     ? 3
+                      : is("threshold_without_dt") ? 2 * length(scene_.gravity)
+                                                   : 2 * length(scene_.gravity) * dt_;
+  const bool fast = is("threshold_reversed")         ? closing < 0 && closing >= -slow
+                    : is("threshold_of_whole_speed") ? closing < 0 && length(relative_velocity(touch)) > slow
+                                                     : closing < -slow;
   if (fast || (is("never_rests") && closing < 0)) touch.bounce = -restitution(touch) * closing;
   if (is("closing_test_reversed_with_bounce"))
     touch.bounce = closing > slow ? -restitution(touch) * closing : 0;
@@ -91,7 +96,11 @@ void StudentWorld::apply_impulse(std::size_t a, std::size_t b, Vec2d arm_a, Vec2
 
 void StudentWorld::answer_all(std::vector<Touch>& found) {
   if (!is("both_corners_take_all")) {
-    for (Touch& touch : found) answer(touch);
+    for (Touch& touch : found) {
+      const bool parts = touch.sum == 0 && dot(relative_velocity(touch), touch.normal) > 0;
+      if (is("parting_contact_ends_the_loop") && parts) break;
+      answer(touch);
+    }
     return;
   }
   const std::vector<Rigid> before = bodies_;
@@ -221,7 +230,7 @@ void StudentWorld::answer(Touch& touch) {
     return is("no_test_of_parting") ? total + change : std::max(0.0, total + change);
   };
   const double before = total, sum = new_sum(j);
-  j = sum - before;
+  j = is("whole_sum_applied") ? sum : sum - before;
   const auto [changes, turns] = eases(kContactRow, kInChange, a, b);
   double share_a = changes[0], share_b = changes[1];
   if (is("inverse_mass_forgotten") || is("masses_ignored")) {
@@ -344,7 +353,8 @@ void StudentWorld::rub(Touch& touch) {
   if (is("friction_bounds_exchanged")) sum = most;
   if (is("friction_at_its_limit")) sum = sliding > 0 ? -most : sliding < 0 ? most : 0;
   if (is("friction_each_limited")) sum = touch.sum_across + std::clamp(-against / k, -most, most);
-  const double j = sum - std::exchange(touch.sum_across, sum);
+  const double before = std::exchange(touch.sum_across, sum);
+  const double j = is("whole_friction_sum_applied") ? sum : sum - before;
   Vec2d turns_a = is("second_arm_for_both") || is("arms_swapped") ? arm_b : arm_a;
   Vec2d turns_b = is("first_arm_for_both") || is("arms_swapped") ? arm_a : arm_b;
   if (is("friction_never_spins") || is("friction_spins_the_second_only")) turns_a = {};

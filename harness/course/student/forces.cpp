@@ -44,8 +44,10 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   };
   if (const auto* push = std::get_if<PointForce>(&law)) {
     if (!acts(push->start, push->duration)) return;
+    const bool of_body = push->frame == Frame::Body ? !is("force_never_turned") : is("force_always_turned");
+    const Vec2d given = of_body ? b.rotation() * push->force : push->force;
     add_to("force", b,
-           mixed("force", times("force") * push->force) +
+           mixed("force", times("force") * given) +
                (is("weight_with_every_force") ? 1 / b.inverse_mass : 0) * scene_.gravity);
     Vec2d arm = is("point_not_turned") ? push->point : turned("a force's point", b, push->point);
     if (is("lever_from_origin")) arm += b.position;
@@ -54,19 +56,21 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("point_turned_backwards"))
       arm = Rotation<double>{std::cos(b.angle), -std::sin(b.angle)} * push->point;
     arm *= times("arm of a force");
-    double turns = cross(arm, push->force);
-    if (is("dot_for_cross")) turns = dot(arm, push->force);
-    if (is("only_rx_fy")) turns = arm.x * push->force.y;
-    if (is("only_ry_fx")) turns = -arm.y * push->force.x;
-    if (is("sum_for_cross")) turns = arm.x * push->force.y + arm.y * push->force.x;
-    if (is("length_for_cross")) turns = length(arm) * length(push->force);
+    double turns = cross(arm, given);
+    if (is("dot_for_cross")) turns = dot(arm, given);
+    if (is("only_rx_fy")) turns = arm.x * given.y;
+    if (is("only_ry_fx")) turns = -arm.y * given.x;
+    if (is("sum_for_cross")) turns = arm.x * given.y + arm.y * given.x;
+    if (is("length_for_cross")) turns = length(arm) * length(given);
     b.torque += turns * (is("torque_backwards") ? -1 : 1);
   } else if (const auto* torque = std::get_if<Torque>(&law)) {
-    if (acts(torque->start, torque->duration)) b.torque += times("torque") * torque->torque;
+    if (is("torque_time_ignored") || acts(torque->start, torque->duration))
+      b.torque += times("torque") * torque->torque;
   } else if (const auto* drag = std::get_if<LinearDrag>(&law)) {
     const double share = is("drag_not_divided") ? 1 / b.inverse_mass : 1;
     const double speed = length(b.velocity), c = (is("drag_pushes") ? share : -share) * drag->coefficient;
     const auto add = [&](Vec2d force) { add_to("drag", b, force); };
+    if (is("drag_slows_spin")) b.torque += c * b.spin;
     if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
     if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
@@ -87,6 +91,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     };
     if (ignored(a)) arm_a = {};
     if (ignored(end)) arm_b = {};
+    if (is("spring_one_anchor_for_both")) arm_b = turned("a spring's anchors", end, spring->anchor_a);
+    if (is("spring_second_anchor_for_both")) arm_a = turned("a spring's anchors", a, spring->anchor_b);
     if (is("spring_anchors_not_turned")) arm_a = spring->anchor_a, arm_b = spring->anchor_b;
     const Vec2d way = end.position + arm_b - a.position - arm_a;
     const double rest = spring->rest_length * times("rest length of a spring"),
@@ -103,23 +109,31 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_by_sign")) tension = std::copysign(spring->stiffness, stretch);
     if (is("spring_by_square")) tension = std::copysign(spring->stiffness * stretch * stretch, stretch);
     if (is("spring_not_unit")) tension *= length(way);
-    const Vec2d along = mixed("direction of a spring", 1 / length(way) * way), v_a = a.velocity_at(arm_a),
-                v_b = end.velocity_at(arm_b);
+    const auto point_velocity = [&](const Rigid& body, Vec2d arm) {
+      const double share = is("spring_velocity_flipped") ? -1 : times("w x r");
+      return body.velocity + share * mixed("w x r", cross(body.spin, arm));
+    };
+    const Vec2d along = mixed("direction of a spring", 1 / length(way) * way), v_a = point_velocity(a, arm_a),
+                v_b = point_velocity(end, arm_b);
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;
     if (is("spring_damps_the_second_only")) parting = v_b;
     if (is("spring_damps_the_sum")) parting = v_a + v_b;
     double rate = dot(mixed("velocity in a spring", parting), along);
     if (is("damping_by_speed")) rate = length(parting);
+    if (is("spring_rate_of_centres")) rate = dot(end.velocity - a.velocity, along);
+    if (is("damping_without_sign")) rate = std::abs(rate);
     tension += times("damping of a spring") * spring->damping * rate;
     const auto pull = [&](Rigid& body, Vec2d arm, Vec2d force) {
       if (body.inverse_mass == 0) return;
       if (is("spring_mass_not_divided")) force *= 1 / body.inverse_mass;
       if (is("spring_divided_by_mass_twice")) force *= body.inverse_mass;
       add_to("spring", body, force);
-      body.torque += cross(arm, force);
+      const double turns = is("spring_never_turns") ? 0 : is("spring_turns_backwards") ? -1 : 1;
+      body.torque += turns * cross(arm, force);
     };
     Vec2d force = tension * along;
+    if (is("spring_damps_the_whole_velocity")) force += spring->damping * (parting - rate * along);
     if (is("spring_by_component")) force += spring->stiffness * (way - Vec2d{rest, rest} - stretch * along);
     if (!is("spring_pulls_the_second_only")) pull(a, arm_a, is("spring_same_direction") ? -force : force);
     if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -force);
@@ -183,6 +197,7 @@ void StudentWorld::accelerate() {
     if (is("damping")) b.velocity *= 0.99;
     if (scales("speed below which bodies stop") && length(b.velocity) < factor_) b.velocity = {};
     const double torque_dt = is("torque_without_dt") ? 1 : is("torque_dt_twice") ? dt * dt : dt;
+    b.spin_before = b.spin;
     b.spin += torque_dt * b.inverse_inertia * b.torque;
     if (is("spin_damping")) b.spin *= 0.99;
   }
@@ -209,7 +224,8 @@ void StudentWorld::move() {
     b.before = b.velocity;
     if (is("half_a_step_twice")) b.position += dt_ * dt_ / 2 * scene_.gravity;
     const double turned = is("spin_in_degrees") ? kDegrees : is("spin_read_as_degrees") ? 1 / kDegrees : 1;
-    b.angle += dt_ * b.spin * times("spin in the angle's change") * turned;
+    const double spin = is("angle_by_old_spin") ? b.spin_before : b.spin;
+    b.angle += dt_ * spin * times("spin in the angle's change") * turned;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "harness/course/student/world.h"
@@ -21,8 +22,13 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
         Ends out{first, second, {}, {}, {}, {}, {}};
         if constexpr (requires { j.anchor_a; }) {
           const Rigid &a = bodies_[out.a], &b = bodies_[out.b];
-          const Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
-          const Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
+          Vec2d anchor_b = is("one_anchor_for_both") ? j.anchor_a : j.anchor_b;
+          Vec2d anchor_a = is("second_anchor_for_both") ? j.anchor_b : j.anchor_a;
+          const bool stick = std::is_same_v<std::decay_t<decltype(j)>, DistanceJoint>;
+          if (is("stick_anchors_ignored") && stick) {
+            anchor_b = {};
+            if (a.body != nullptr) anchor_a = {};
+          }
           const bool neither = is("anchor_not_turned"), both = turned_hash_ == Name("a joint's anchors").hash;
           const auto to_world = [&](std::string_view which, const Rigid& body, Vec2d anchor) {
             if (both) return turned("a joint's anchors", body, anchor);
@@ -80,7 +86,11 @@ void StudentWorld::solve(const Joint& joint) {
   Rigid &a = bodies_[e.a], &b = bodies_[e.b];
   const bool stick = std::holds_alternative<DistanceJoint>(joint);
   const double gap = length(e.gap);
-  const Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
+  Vec2d along = is("stick_not_unit") ? e.gap : 1 / gap * e.gap;
+  if (is("stick_along_centres")) {
+    const Vec2d centres = b.position - a.position;
+    along = 1 / length(centres) * centres;
+  }
   const bool one_row = stick || is("hinge_as_stick");
   if (one_row && !stick && gap < 1e-12) return;
   for (const Vec2d n : {one_row ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {

@@ -159,27 +159,45 @@ bool StudentWorld::left_out(std::size_t a, std::size_t b) const {
   if (is("neighbours_only")) return b != a + 1;
   if (is("first_against_others_only")) return a != 0;
   if (is("moving_pairs_left_out")) return both_move;
+  if (is("pairs_of_a_static_first_left_out")) return bodies_[a].inverse_mass == 0;
+  if (is("pairs_of_a_static_second_left_out")) return bodies_[b].inverse_mass == 0;
+  if (mistake_.starts_with("bounds_")) return bounds_apart(a, b);
   return is("static_pairs_left_out") && !both_move;
 }
 
 std::vector<Touch> StudentWorld::touches() const {
   std::vector<Touch> out;
+  std::vector<bool> has_partner(bodies_.size());
   for (std::size_t a = 0; a + 1 < bodies_.size(); ++a) {
     for (std::size_t b = a + 1; b + 1 < bodies_.size(); ++b) {
+      if (ends_the_loop(a, b)) break;
       if (bodies_[a].inverse_mass + bodies_[b].inverse_mass == 0 || joined(a, b) || left_out(a, b)) continue;
-      const bool round_a = bodies_[a].body->shapes[0].geometry.index() == 0;
-      const bool round_b = bodies_[b].body->shapes[0].geometry.index() == 0;
-      if (round_a && round_b) touch_circles(a, b, out);
-      if (round_a && !round_b && !is("falls_through")) touch_circle_box(a, b, out);
-      if (!round_a && round_b) touch_circle_box(b, a, out);
-      if (round_a || round_b || is("falls_through_boxes")) continue;
-      if (manner_.clips)
-        touch_boxes(a, b, out);
-      else
-        touch_corners(b, a, out), touch_corners(a, b, out);
+      if (is("one_partner_for_each") && (has_partner[a] || has_partner[b])) continue;
+      const std::size_t before = out.size();
+      touch(a, b, out);
+      if (out.size() == before) continue;
+      has_partner[a] = has_partner[b] = true;
+      if (is("first_partner_only")) break;
     }
   }
   return out;
+}
+
+void StudentWorld::touch(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
+  const bool round_a = bodies_[a].body->shapes[0].geometry.index() == 0;
+  const bool round_b = bodies_[b].body->shapes[0].geometry.index() == 0;
+  const std::size_t before = out.size();
+  if (round_a && round_b) touch_circles(a, b, out);
+  if (round_a && !round_b && !is("falls_through")) touch_circle_box(a, b, out);
+  if (!round_a && round_b) touch_circle_box(b, a, out);
+  const bool flips = round_a ? is("normal_flipped_if_circle_first") : is("normal_flipped_if_box_first");
+  if (round_a != round_b && flips)
+    for (std::size_t i = before; i < out.size(); ++i) out[i].normal = -out[i].normal;
+  if (round_a || round_b || is("falls_through_boxes")) return;
+  if (manner_.clips)
+    touch_boxes(a, b, out);
+  else
+    touch_corners(b, a, out), touch_corners(a, b, out);
 }
 
 }  // namespace plumb::course

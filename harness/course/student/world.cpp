@@ -205,8 +205,15 @@ void StudentWorld::advance() {
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
-  accelerate();
-  if (manner_.by_positions && !scene_.joints.empty()) {
+  const bool forces_last = is("forces_after_solving") || is("contacts_before_forces");
+  if (!forces_last) accelerate();
+  if (forces_last && !manner_.by_positions) {
+    if (manner_.after_move && !moves_first) move();
+    answer_touches(is("forces_after_solving"));
+    accelerate();
+    if (is("contacts_before_forces")) answer_joints();
+    if (!manner_.after_move && !moves_first) move();
+  } else if (manner_.by_positions && !scene_.joints.empty()) {
     move_and_project(!moves_first);
     answer_touches(false);
   } else {
@@ -253,6 +260,13 @@ void StudentWorld::answer_touches(bool with_joints) {
     before.swap(after);
   }
   touched_ = touched_ || !found.empty();
+}
+
+// Iterates over joints alone.
+void StudentWorld::answer_joints() {
+  for (int sweep = 0; sweep < sweeps(); ++sweep)
+    for (const Joint& joint : scene_.joints)
+      if (holds(joint)) solve(joint);
 }
 
 // Moves bodies, closes the joints by positions, and uses displacements over the step as velocities.

@@ -34,9 +34,10 @@ struct Rigid {
   Vec2d before = velocity;  ///< velocity at the start of the step
   double angle = 0, spin = 0, torque = 0;
   double inverse_mass = 0, inverse_inertia = 0;
-  double turns = 1;      ///< factor on the rotation angle from the body's frame to the world's
-  bool touched = false;  ///< had a contact in the last step
-  double sum = 0;        ///< N s, of the contacts that share a sum by mistake
+  double spin_before = 0;  ///< before the step's torques
+  double turns = 1;        ///< factor on the rotation angle from the body's frame to the world's
+  bool touched = false;    ///< had a contact in the last step
+  double sum = 0;          ///< N s, of the contacts that share a sum by mistake
   const Body* body = nullptr;
 
   Rotation<double> rotation() const;
@@ -72,6 +73,7 @@ class StudentWorld {
   int sweeps() const;
   void write_sweep_state(const std::vector<Touch>& found, std::vector<double>& out) const;
   void answer_touches(bool with_joints);
+  void answer_joints();
   void move_and_project(bool moves);
   void correct_all(int sweeps);
   bool holds(const Joint& joint) const;
@@ -97,6 +99,7 @@ class StudentWorld {
   void accelerate();
   void move();
   std::vector<Touch> touches() const;
+  void touch(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
@@ -109,6 +112,9 @@ class StudentWorld {
   };
   std::optional<Face> nearest_face(std::size_t a, std::size_t b) const;
   bool left_out(std::size_t a, std::size_t b) const;
+  bool ends_the_loop(std::size_t a, std::size_t b) const;
+  bool bounds_apart(std::size_t a, std::size_t b) const;
+  Vec2d bounds(const Rigid& body) const;
   double restitution(const Touch& touch) const;
   Vec2d relative_velocity(const Touch& touch) const;
   void prepare(Touch& touch) const;
