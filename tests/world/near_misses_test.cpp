@@ -205,5 +205,118 @@ TEST(NearMisses, ABoxPassesACorner) {
   }
 }
 
+// A box flies over a bar that stands still on a hinge, 5 to 50 mm above its highest corner.
+template <class Real>
+void pass_a_hinged_bar(double angle, double speed, double room, double phase, double step,
+                       Solver solver = Solver::SoftSteps) {
+  BasicWorld<Real> world({.gravity = {0, 0}, .sleeping = false, .solver = solver});
+  const BodyId frame = world.create_body({.type = BodyType::Static});
+  const BodyId bar = world.create_body({.angle = angle}, {.geometry = Box{1, 0.3}});
+  world.create_joint(frame, bar, {.kind = RevoluteDefinition{}});
+  const double top = 0.5 * std::abs(std::sin(angle)) + 0.15 * std::abs(std::cos(angle));
+  const BodyId box =
+      world.create_body({.position = {-2 - phase * speed * step, top + room + 0.15}, .velocity = {speed, 0}},
+                        {.geometry = Box{0.5, 0.3}});
+  run(world, static_cast<int>(4 / (speed * step)) + 2, step);
+  EXPECT_EQ(world.velocity(box), (Vec2d{speed, 0}))
+      << angle << ", " << speed << ", " << room << ", " << phase;
+  EXPECT_EQ(world.angular_velocity(box), 0) << angle << ", " << speed << ", " << room << ", " << phase;
+  EXPECT_EQ(world.angular_velocity(bar), 0) << angle << ", " << speed << ", " << room << ", " << phase;
+}
+
+TEST(NearMisses, ABoxPassesABarOnAHinge) {
+  for (const Solver solver : {Solver::SoftSteps, Solver::SequentialImpulses, Solver::Direct})
+    pass_a_hinged_bar<float>(0.85084801034723567, 10, 0.02, 0, kStep, solver);
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 480})
+    for (const double speed : {1.0, 3.0, 10.0, 30.0})
+      for (const double room : {0.005, 0.02, 0.05})
+        for (int k = 0; k < 8; ++k) {
+          const double angle = (k + 0.5) * 3.14159265358979 / 8;
+          pass_a_hinged_bar<float>(angle, speed, room, k / 8.0, step);
+          pass_a_hinged_bar<double>(angle, speed, room, (7 - k) / 8.0, step);
+        }
+}
+
+// A body flies straight over a crate of 1 m that rests on the floor, and over one on top of another.
+template <class Real>
+void pass_a_resting_crate(const ShapeGeometry& geometry, int crates, double speed, double room, int k) {
+  BasicWorld<Real> world({.sleeping = false});
+  world.create_body({.type = BodyType::Static, .position = {0, -1}}, {.geometry = Box{60, 2}});
+  for (int i = 0; i < crates; ++i)
+    world.create_body({.position = {0, 0.5 + i}}, {.geometry = Box{1, 1}, .density = 100});
+  run(world, 20);
+  const BodyId body = world.create_body({.position = {-2 - k / 8.0 * speed * kStep, crates + room + 0.15},
+                                         .velocity = {speed, 0},
+                                         .gravity_scale = 0},
+                                        {.geometry = geometry});
+  run(world, static_cast<int>(4.5 / (speed * kStep)) + 1);
+  EXPECT_EQ(world.velocity(body), (Vec2d{speed, 0})) << crates << ", " << speed << ", " << room << ", " << k;
+  EXPECT_EQ(world.angular_velocity(body), 0) << crates << ", " << speed << ", " << room << ", " << k;
+}
+
+TEST(NearMisses, WhatFliesOverARestingCrateIsNotDeflected) {
+  for (const int crates : {1, 2})
+    for (const double speed : {3.0, 10.0, 30.0})
+      for (int k = 0; k < 8; ++k) {
+        pass_a_resting_crate<float>(Circle{0.15}, crates, speed, 0.02, k);
+        pass_a_resting_crate<double>(Box{0.5, 0.3}, crates, speed, 0.02, k);
+        pass_a_resting_crate<float>(Capsule{{-0.3, 0}, {0.3, 0}, 0.15}, crates, speed, 0.05, k);
+      }
+}
+
+// What does meet the bar still does: in time, whatever the step and the phase. The box strikes its end flat,
+// and without restitution both move on together: m u = m v + I w / r, v = r w at the arm r of the blow.
+TEST(NearMisses, WhatMeetsABarOnAHingeStrikesIt) {
+  for (const double speed : {1.0, 3.0, 10.0, 30.0, 100.0})
+    for (int k = 0; k < 8; ++k) {
+      World world({.gravity = {0, 0}, .sleeping = false});
+      const BodyId frame = world.create_body({.type = BodyType::Static});
+      const BodyId bar = world.create_body({}, {.geometry = Box{0.3, 1}, .material = {.friction = 0}});
+      world.create_joint(frame, bar, {.kind = RevoluteDefinition{}});
+      const BodyId ball =
+          world.create_body({.position = {-1 - k / 8.0 * speed * kStep, 0.45}, .velocity = {speed, 0}},
+                            {.geometry = Circle{0.1}, .material = {.friction = 0}});
+      const double mass = world.mass(ball), arm = 0.45;
+      const double after = speed * mass / (mass + world.inertia(bar) / (arm * arm));
+      const double meets = (0.75 + k / 8.0 * speed * kStep) / speed;
+      while (world.time() + kStep < meets - 2 * kStep) world.step(kStep);
+      EXPECT_EQ(world.velocity(ball).x, speed);
+      while (world.time() < meets + kStep) world.step(kStep);
+      EXPECT_NEAR(world.velocity(ball).x, after, 0.1 * speed) << speed << ", " << k;
+      EXPECT_NEAR(world.angular_velocity(bar), -after / arm, 0.15 * speed / arm) << speed << ", " << k;
+    }
+}
+
+// Two gears coast inside their backlash at the speeds of their ratio: the teeth pass in and out of the gaps
+// and never touch.
+TEST(NearMisses, GearsThatCoastKeepTheirEnergy) {
+  constexpr double kPi = 3.14159265358979323846, kDistance = 1.55;
+  for (const double spin : {3.0, 7.0, 12.0, 20.0}) {
+    World world({.gravity = {0, 0}});
+    const BodyId frame = world.create_body({.type = BodyType::Static});
+    const auto gear = [&](double x, int teeth, double radius, double phase) {
+      const BodyId body = world.create_body({.position = {x, 0}});
+      world.create_shape(body, {.geometry = Circle{radius * 0.8}, .material = {.friction = 0}});
+      for (int i = 0; i < teeth; ++i) {
+        const double angle = phase + i * 2 * kPi / teeth, width = kPi * radius / teeth;
+        const double c = std::cos(angle), s = std::sin(angle);
+        std::vector<Vec2d> tooth{{radius * 0.75, -0.52 * width},
+                                 {radius * 0.75, 0.52 * width},
+                                 {radius + 0.12, 0.25 * width},
+                                 {radius + 0.12, -0.25 * width}};
+        for (Vec2d& p : tooth) p = {p.x * c - p.y * s, p.x * s + p.y * c};
+        world.create_shape(body, {.geometry = Polygon{tooth}, .material = {.friction = 0}});
+      }
+      world.create_joint(frame, body, {.kind = RevoluteDefinition{.anchor_a = {x, 0}}});
+      return body;
+    };
+    const BodyId large = gear(0, 16, 1, 0), small = gear(kDistance, 8, 0.5, kPi + kPi / 8);
+    world.set_angular_velocity(large, spin), world.set_angular_velocity(small, -2 * spin);
+    run(world, 300);
+    EXPECT_NEAR(world.angular_velocity(large), spin, 1e-4 * spin);
+    EXPECT_NEAR(world.angular_velocity(small), -2 * spin, 2e-4 * spin);
+  }
+}
+
 }  // namespace
 }  // namespace plumb

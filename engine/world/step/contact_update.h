@@ -194,7 +194,7 @@ template <class Real>
   if (is_beyond_margin(w, contact, face, dt)) return touch_change;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   if (manifold.separating != kNoFace) face = manifold.separating;
-  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
+  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, false, dt, h);
   if (at.prediction == ImpactPrediction::Hit) {
     begin_speculative_contact(w, block, id, at, dt);
     return 0;
@@ -236,7 +236,8 @@ template <class Real>
     prepare_impact_contact(w, contact, ahead, c, c.current_separation);
     return true;
   }
-  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, dt, h);
+  const bool pressed = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+  const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, pressed, dt, h);
   if (at.prediction == ImpactPrediction::Hit) {
     prepare_impact_contact(w, contact, at, c, c.current_separation);
     ContactConstraint<Real> updated = c;

@@ -40,6 +40,24 @@ bool is_unsupported(const WorldData<Real>& w, int body) {
   return w.scratch.has_contact_load[body] == 0;
 }
 
+// Returns by how much dynamic bodies that press on a body may still push it off its predicted path, m: by no
+// more than they move relative to it. Returns -1 if none does, apart from `partner`. Reads only what does not
+// change while contacts are updated.
+template <class Real>
+Real push_of_neighbours(const WorldData<Real>& w, int body, int partner, Real dt) {
+  if (w.scratch.has_contact_load[body] == 0) return -1;
+  Real fastest = -1;
+  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
+    const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
+    if (other == partner || contact.home != ContactHome::Graph || !w.is_dynamic(other)) return;
+    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
+    if (!(c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0)) return;
+    fastest = std::max(fastest, max_point_speed(w.motion[other].velocity - w.motion[body].velocity,
+                                                rotation_speed(w, other) + rotation_speed(w, body)));
+  });
+  return fastest < 0 ? fastest : dt * fastest;
+}
+
 // Returns the body's motion in the step, relative to `origin`.
 template <class Real>
 Sweep<double> sweep_of(const WorldData<Real>& w, int body, Vec2d origin, double dt) {
@@ -138,18 +156,17 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
 
 template <class Real>
 SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                                  const ContactManifold<Real>& closest, Real dt,
+                                                  const ContactManifold<Real>& closest, bool pressed, Real dt,
                                                   Real substep) {
   const int a = contact.body_a, b = contact.body_b;
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   if (closest.count == 0 && !needs_impact_search(w, contact, smaller, dt)) return {};
   for (int i = 0; i < closest.count; ++i)
     if (!(closest.points[i].separation > -rounding_overlap(w, a, b))) return {};
-  // Keep the manifold of two bodies of a pile: they push each other off the trajectories that a search for
-  // the time of impact would follow.
-  if (closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) &&
-      !(is_unsupported(w, a) && is_unsupported(w, b)))
-    return {};
+  // Joints and other contacts may change the paths of such bodies after an impact: the solver resolves it.
+  const bool held = closest.count > 0 && w.is_dynamic(a) && w.is_dynamic(b) &&
+                    !(is_unsupported(w, a) && is_unsupported(w, b));
+  if (held && pressed) return {};
   const double time = static_cast<double>(dt);
   const Sweep<double> sweep_a = sweep_of(w, a, w.position[a], time),
                       sweep_b = sweep_of(w, b, w.position[a], time);
@@ -164,12 +181,22 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
                          static_cast<Real>(ahead * sweep_b.delta_angle), smaller))
       return {};
   }
+  Real may_be_pushed = 0;
+  if (held) {
+    // Keep the manifold of two bodies of a crowd: what drives both hands on more pushes in the step than
+    // their velocities show.
+    const Real push_a = push_of_neighbours(w, a, b, dt), push_b = push_of_neighbours(w, b, a, dt);
+    if (push_a >= 0 && push_b >= 0) return {};
+    may_be_pushed = std::max({push_a, push_b, Real(0)});
+    for (int i = 0; i < closest.count; ++i)
+      if (closest.points[i].separation < may_be_pushed) return {};
+  }
   // Search to rounding: with a coarser tolerance, a shape that passes at a smaller distance would count as
   // hit.
-  const ImpactResult<Real> impact = time_of_impact(w.convex(contact.shape_a), sweep_a,
-                                                   w.convex(contact.shape_b), sweep_b, Real(0), Real(0));
+  const ImpactResult<Real> impact = time_of_impact(
+      w.convex(contact.shape_a), sweep_a, w.convex(contact.shape_b), sweep_b, may_be_pushed, Real(0));
   if (impact.state == ImpactResult<Real>::State::Separated) return {.prediction = ImpactPrediction::Miss};
-  if (impact.state != ImpactResult<Real>::State::Hit) return {};
+  if (impact.state != ImpactResult<Real>::State::Hit || held) return {};
   return speculative_contact_at(w, contact, sweep_a, sweep_b, impact.exact_fraction, smaller, time);
 }
 
@@ -191,14 +218,14 @@ void prepare_impact_contact(const WorldData<Real>& w, const ContactRecord& conta
   for (int i = 0; i < c.count; ++i) c.separation[i] = std::max(c.separation[i], Real(0));
 }
 
-#define PLUMB_FOR(Real)                                                                                    \
-  template SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>&, const ContactRecord&, \
-                                                             const ContactManifold<Real>&, Real, Real);    \
-  template void prepare_speculative_contact(const WorldData<Real>&, const ContactRecord&,                  \
-                                            const SpeculativeContact<Real>&, ContactConstraint<Real>&,     \
-                                            Real(&)[2]);                                                   \
-  template void prepare_impact_contact(const WorldData<Real>&, const ContactRecord&,                       \
-                                       const SpeculativeContact<Real>&, ContactConstraint<Real>&,          \
+#define PLUMB_FOR(Real)                                                                                \
+  template SpeculativeContact<Real> find_speculative_contact(                                          \
+      const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, bool, Real, Real);   \
+  template void prepare_speculative_contact(const WorldData<Real>&, const ContactRecord&,              \
+                                            const SpeculativeContact<Real>&, ContactConstraint<Real>&, \
+                                            Real(&)[2]);                                               \
+  template void prepare_impact_contact(const WorldData<Real>&, const ContactRecord&,                   \
+                                       const SpeculativeContact<Real>&, ContactConstraint<Real>&,      \
                                        Real(&)[2]);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

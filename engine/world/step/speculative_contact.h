@@ -39,10 +39,13 @@ struct SpeculativeContact {
 ///
 /// Solvers look a substep ahead, so planes that would be crossed up to a substep after the step count, too.
 ///
-/// Bodies in free flight are predicted on their parabola, all others on a straight line.
+/// Bodies in free flight are predicted on their parabola, all others on a straight line. If a joint or
+/// a pressing contact holds one of two dynamic bodies, shapes that pass each other get no contact, and those
+/// that meet keep the plane of `closest`. They also keep it if they press on each other (`pressed`: they had
+/// an impulse in the last substep), or if other dynamic bodies press on them and may push them together.
 template <class Real>
 SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
-                                                  const ContactManifold<Real>& closest, Real dt,
+                                                  const ContactManifold<Real>& closest, bool pressed, Real dt,
                                                   Real substep);
 
 /// Returns the speculative margin: a fraction of the smaller shape's extent, plus the possible approach in
