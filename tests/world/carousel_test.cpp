@@ -84,6 +84,38 @@ TYPED_TEST(Carousel, RidersNeitherSinkNorRise) {
   }
 }
 
+// A box that is created on a turning plate, from touching it to 0.1 mm above it, moves along with it. A
+// contact whose plane is that of a step's start would let it sink by r x^2 / 2 in each step, x the rotation
+// in it.
+TYPED_TEST(Carousel, WhatIsCreatedOnATurningPlateRidesFromTheFirstStepOn) {
+  constexpr double kFloor = 4.8, kSize = 0.5;
+  for (const double rate : {-6.0, 1.0, 6.0}) {
+    for (const double dt : {1 / 60.0, 1 / 240.0}) {
+      for (const double gap : {0.0, 1e-6, 1e-4}) {
+        for (const double gravity : {0.0, 9.81}) {
+          BasicWorld<TypeParam> world({.gravity = {0, -gravity}});
+          const BodyId plate = world.create_body(
+              {.type = BodyType::Kinematic, .angular_velocity = rate},
+              ShapeDefinition{.geometry = Box{3.2, 0.4}, .position = {0, -5}, .material = {.friction = 1}});
+          const double out = kFloor - kSize / 2 - gap, x = rate * dt;
+          const BodyId box = world.create_body(
+              {.position = {0, -out}, .velocity = {rate * out, 0}, .angular_velocity = rate},
+              ShapeDefinition{.geometry = Box{kSize, kSize}, .material = {.friction = 1}});
+          double deepest = 0;
+          for (double turned = 0; turned < 1; turned += std::abs(x)) {
+            world.step(dt);
+            const double angle = world.angle(plate);
+            const Vec2d at = world.position(box);
+            deepest = std::max(deepest, std::sin(angle) * at.x - std::cos(angle) * at.y + kSize / 2 - kFloor);
+          }
+          EXPECT_LT(deepest, 0.5 * out * x * x)
+              << rate << " rad/s, dt " << dt << ", gap " << gap << ", gravity " << gravity;
+        }
+      }
+    }
+  }
+}
+
 TYPED_TEST(Carousel, ThinRidersDoNotFallThroughTheFloor) {
   for (const double rate : {-8.0, -4.0, 4.0, 8.0}) {
     const Ride ride{Box{0.14, 0.0044}, 0.0022, 0.07, rate};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
+#include <ostream>
 #include <random>
 #include <sstream>
 #include <string>
@@ -46,6 +48,8 @@ struct Slide {
   double speed = 5, dt = 1.0 / 60, seconds = 2;
   double angle = 0;  // rad, of the floor, to which gravity is at right angles
   Vec2d origin{};    // m
+  BodyType ground = BodyType::Static;
+  double friction = 0;
 };
 
 std::string text_of(const Slide& run) {
@@ -59,15 +63,15 @@ std::string text_of(const Slide& run) {
 template <class World>
 void lay_tile(World& w, const Slide& run, int i, double from, double width,
               std::vector<ShapeDefinition>& of_one) {
-  const Material smooth{.friction = 0};
+  const Material material{.friction = run.friction};
   const double thick = std::min(width, 1.0), half = width / 2;
   const auto body = [&](double y) {
-    BodyDefinition at{.type = BodyType::Static};
+    BodyDefinition at{.type = run.ground};
     at.position = run.origin + turned({from + half, y}, run.angle);
     at.angle = run.angle;
     return at;
   };
-  ShapeDefinition shape{.material = smooth};
+  ShapeDefinition shape{.material = material};
   const double slant = i % 2 == 0 ? 0.2 : -0.2;
   switch (run.floor) {
     case Floor::Boxes:
@@ -98,7 +102,7 @@ void lay_tile(World& w, const Slide& run, int i, double from, double width,
       w.create_body(body(-thick / 4), shape);
       break;
     case Floor::Chains:
-      w.create_chain(w.create_body(body(0)), {.points = {{half, 0}, {-half, 0}}, .material = smooth});
+      w.create_chain(w.create_body(body(0)), {.points = {{half, 0}, {-half, 0}}, .material = material});
       break;
   }
 }
@@ -182,6 +186,94 @@ TEST(Seams, NoneIsMetWhereATileIsShorterThanAStep) {
         run.dt = 1 / 35.0, run.seconds = 1.2;
         expect_as_on_a_flat_floor<BasicWorld<float>>(run);
         expect_as_on_a_flat_floor<BasicWorld<double>>(run);
+      }
+    }
+  }
+}
+
+// A car whose wheels roll over tiles; lengths in its size, the distance from its middle to a wheel.
+struct Drive {
+  Floor floor = Floor::Boxes;
+  double size = 1;    // m
+  double width = 1;   // of a tile
+  double travel = 1;  // in a step
+  bool sprung = true;
+  BodyType ground = BodyType::Static;
+  double angle = 0;  // rad, as of a slide
+};
+
+std::ostream& operator<<(std::ostream& out, const Drive& drive) {
+  return out << (drive.sprung ? "sprung" : "rigid") << " car of " << drive.size << " m on floor "
+             << static_cast<int>(drive.floor) << " of tiles of " << drive.width << " sizes, "
+             << (drive.ground == BodyType::Static ? "static" : "kinematic") << ", at " << drive.travel
+             << " sizes a step";
+}
+
+constexpr double kDriveStep = 1 / 60.0, kDriveSubstep = kDriveStep / 4;                // s
+constexpr double kWheelRadius = 0.5, kWheelDensity = 10, kChassisMass = 3 * 0.6 * 20;  // of a car of size 1
+
+// Returns how far a wheel's centre comes from the height of its radius, m.
+template <class World>
+double wheels_leave_their_height_by(const Drive& drive) {
+  World w({.gravity = turned({0, -kGravity}, drive.angle), .sleeping = false});
+  const double size = drive.size, radius = kWheelRadius * size, width = drive.width * size;
+  const double speed = drive.travel * size / kDriveStep;
+  const int steps = static_cast<int>(std::ceil(std::max(8.0, 12 * drive.width) / drive.travel));
+  const double distance = steps * drive.travel * size;
+  Slide floor{};
+  floor.floor = drive.floor, floor.angle = drive.angle, floor.ground = drive.ground, floor.friction = 1;
+  std::vector<ShapeDefinition> of_one;
+  double x = -3.03 * size;
+  for (int i = 0; x < 1.2 * distance + 3 * size; ++i, x += width) lay_tile(w, floor, i, x, width, of_one);
+  if (!of_one.empty()) w.create_body(BodyDefinition{.type = drive.ground, .angle = drive.angle}, of_one);
+  const auto add = [&](Vec2d at, double density, const ShapeGeometry& geometry) {
+    return w.create_body({.position = turned(at, drive.angle), .angle = drive.angle},
+                         {.geometry = geometry, .density = density, .material = {.friction = 1}});
+  };
+  std::vector<BodyId> car{add({0, size}, 20, Box{3 * size, 0.6 * size})};
+  for (const double side : {-size, size}) {
+    car.push_back(add({side, radius}, kWheelDensity, Circle{radius}));
+    const Vec2d anchor{side, radius - size};
+    // The motors accelerate the car by a fifth, with some g / 10. The springs of a car of 9.81 m have 1.5 Hz.
+    const Motor motor{-1.2 * speed / radius, 0.05 * w.mass(car[0]) * kGravity * radius};
+    if (drive.sprung) {
+      const Spring spring{1.5 * std::sqrt(kGravity / size), 0.7};
+      w.create_joint(car[0], car.back(),
+                     {.kind = WheelDefinition{.anchor_a = anchor, .spring = spring, .motor = motor}});
+    } else {
+      w.create_joint(car[0], car.back(), {.kind = RevoluteDefinition{.anchor_a = anchor, .motor = motor}});
+    }
+  }
+  for (const BodyId body : car) w.set_velocity(body, turned({speed, 0}, drive.angle));
+  for (const int wheel : {1, 2}) w.set_angular_velocity(car[wheel], -speed / radius);
+  double most = 0;
+  for (int i = 0; i < steps; ++i) {
+    w.step(kDriveStep);
+    for (const int wheel : {1, 2})
+      most = std::max(most, std::fabs(turned(w.position(car[wheel]), -drive.angle).y - radius));
+  }
+  return most;
+}
+
+// A load of acceleration a sinks by at most a h^2, h the substep; the springs may still swing, which doubles
+// the load. Without a contact for one step a wheel sinks by (1/2 + 1/8) a (4 h)^2.
+TEST(Seams, WheelsOnJointsKeepTheirHeight) {
+  const double wheel = std::numbers::pi * kWheelRadius * kWheelRadius * kWheelDensity;
+  const double load = kGravity * (kChassisMass / 2 + wheel) / wheel;  // m/s^2
+  const double bound = 2 * load * kDriveSubstep * kDriveSubstep;
+  for (const Floor floor : kFloors) {
+    for (const double size : {0.02, 0.3, 2.0, 50.0}) {
+      for (const double width : {0.5, 2.0}) {
+        for (const double travel : {0.1, 0.26, 0.47}) {
+          Drive drive{floor, size, width, travel};
+          for (const BodyType ground : {BodyType::Static, BodyType::Kinematic}) {
+            drive.ground = ground, drive.angle = 0;
+            EXPECT_LT(wheels_leave_their_height_by<World>(drive), bound) << drive;
+            drive.angle = 0.3;
+            EXPECT_LT(wheels_leave_their_height_by<DoubleWorld>(drive), bound) << drive << ", in double";
+            drive.sprung = !drive.sprung;
+          }
+        }
       }
     }
   }

@@ -140,16 +140,31 @@ void begin_contact_with(WorldData<Real>& w, int block, int id, Real dt, bool loa
   w.scratch.begun_contacts.add(block, begun);
 }
 
-/// Does the same for a predicted impact; impacts in free flight are decided later.
+/// Prepares a contact at a predicted impact. Its plane is that of the impact, not of the middle of a step,
+/// from where recycling turns planes on (recycled_manifold.h): if body a turns, the manifold is kept for this
+/// step only. A box that was created on a turning plate would otherwise sink by r x^2 / 2 in each step.
+template <class Real>
+void prepare_predicted_contact(const WorldData<Real>& w, const ContactRecord& contact,
+                               const SpeculativeContact<Real>& at, ContactConstraint<Real>& c,
+                               Real (&impulse)[2]) {
+  prepare_impact_contact(w, contact, at, c, impulse);
+  if (w.motion[contact.body_a].angular_velocity != 0) c.recycle_budget = Real(-1);
+}
+
+/// Starts a contact without points at a predicted impact; impacts in free flight are decided later. Bodies
+/// that touch, and rotate together rather than approach, have straight paths that meet, too, but ride from
+/// the first step on, unless they bounce. `closest`: the manifold at the step's start.
 template <class Real>
 [[gnu::always_inline]] inline void begin_speculative_contact(WorldData<Real>& w, int block, int id,
+                                                             const ContactManifold<Real>& closest,
                                                              const SpeculativeContact<Real>& at, Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
-  prepare_impact_contact(w, contact, at, c, c.normal_impulse);
+  prepare_predicted_contact(w, contact, at, c, c.normal_impulse);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
-  if (is_impact_in_flight(w, contact, at, c, dt)) {
+  const bool rides = !(c.restitution > 0) && rebuild_rotating_contact(w, contact, closest, dt, c);
+  if (!rides && is_impact_in_flight(w, contact, at, c, dt)) {
     w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
     return;
   }
@@ -172,14 +187,47 @@ template <class Real, class IdAt>
     __builtin_prefetch(&w.shapes[shape]), __builtin_prefetch(&w.tight_aabbs[shape]);
 }
 
-/// Returns true if a contact keeps its plane although its bodies' straight paths miss each other: that of a
-/// loaded body with a segment of a chain. The body follows the surface, from segment to segment, and the load
-/// that its path leaves out may press it onto the next one: without the plane, a disc that rolls over
-/// a hump of short segments falls freely for a whole step.
+/// Returns true if the bodies' present velocities carry a point of a manifold across its plane, within the
+/// step or the substep after it, which the solver looks at too. A point that nearly touches must cross by
+/// more than a recycled manifold tolerates; otherwise it rests.
 template <class Real>
-bool follows_surface(const WorldData<Real>& w, const ContactRecord& contact) {
-  return enabled(Switch::SegmentsAhead) && w.forms[contact.shape_a].chain &&
-         (w.scratch.has_contact_load[contact.body_a] != 0 || w.scratch.has_contact_load[contact.body_b] != 0);
+bool crosses_plane(const WorldData<Real>& w, const ContactRecord& contact,
+                   const ContactManifold<Real>& manifold, Real dt, Real h) {
+  const SolverBody<Real>&a = w.motion[contact.body_a], &b = w.motion[contact.body_b];
+  const ShapeForm<Real>&form_a = w.forms[contact.shape_a], &form_b = w.forms[contact.shape_b];
+  const Real time = dt + h, angle_a = time * a.angular_velocity, angle_b = time * b.angular_velocity;
+  const Rotation<Real> q = w.rotation[contact.body_a];
+  const Vec2<Real> n = q * manifold.normal, a_to_b = centres_a_to_b(w, contact);
+  const Real along = time * dot(n, b.velocity - a.velocity);
+  const Real tolerance = Real(tuning::kRecycleDistance) * std::min(form_a.extent, form_b.extent);
+  // Points of a disc that turns about its centre stay on its surface.
+  const Real arm_a = std::max(w.extents[contact.body_a] - form_a.radius, Real(0)),
+             arm_b = std::max(w.extents[contact.body_b] - form_b.radius, Real(0));
+  const Real bend = Real(0.5) * (angle_a * angle_a * arm_a + angle_b * angle_b * arm_b);
+  for (int i = 0; i < manifold.count; ++i) {
+    const Vec2<Real> arm = q * manifold.points[i].point;
+    const Real separation = manifold.points[i].separation,
+               end = separation + along + cross(arm - a_to_b, n) * angle_b - cross(arm, n) * angle_a;
+    if (end < (separation > tolerance ? bend : -tolerance)) return true;
+  }
+  return false;
+}
+
+/// Returns true if a contact keeps its plane although its bodies' straight paths miss each other. The paths
+/// leave out the loads of other contacts and of joints, which may press a body onto the surface: without the
+/// plane, a wheel that rolls onto a new tile falls for a whole step. A plane that the paths do not cross
+/// holds the loads, and deflects no body that passes a corner. A loaded body follows a chain from segment to
+/// segment, across its planes too: otherwise a disc that rolls over a hump of short segments falls for a
+/// whole step.
+template <class Real>
+bool keeps_plane(const WorldData<Real>& w, const ContactRecord& contact,
+                 const ContactManifold<Real>& manifold, Real dt, Real h) {
+  const auto bears_contact = [&](int body) { return w.scratch.has_contact_load[body] != 0; };
+  const auto has_joint = [&](int body) { return w.is_dynamic(body) && w.bodies[body].first_joint != kNone; };
+  const bool loaded = bears_contact(contact.body_a) || bears_contact(contact.body_b);
+  if (loaded && w.forms[contact.shape_a].chain && enabled(Switch::SegmentsAhead)) return true;
+  return (loaded || has_joint(contact.body_a) || has_joint(contact.body_b)) &&
+         !crosses_plane(w, contact, manifold, dt, h);
 }
 
 /// Updates a contact without points: starts it if it gets points, and ends the touch of an impact in flight
@@ -196,7 +244,7 @@ template <class Real>
   if (manifold.separating != kNoFace) face = manifold.separating;
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, false, dt, h);
   if (at.prediction == ImpactPrediction::Hit) {
-    begin_speculative_contact(w, block, id, at, dt);
+    begin_speculative_contact(w, block, id, manifold, at, dt);
     return 0;
   }
   if (const SpeculativeContact<Real> arriving = arriving_contact(w, contact, manifold, dt);
@@ -209,12 +257,13 @@ template <class Real>
   if (const SpeculativeContact<Real> ahead = segment_ahead(w, contact, manifold, dt, h);
       ahead.manifold.count > 0) {
     begin_contact_with(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
-      prepare_impact_contact(w, contact, ahead, c, c.normal_impulse);
+      prepare_predicted_contact(w, contact, ahead, c, c.normal_impulse);
     });
     return 0;
   }
   if (manifold.count == 0) return touch_change;
-  if (at.prediction == ImpactPrediction::Miss && !follows_surface(w, contact)) return touch_change;
+  if (at.prediction == ImpactPrediction::Miss && !keeps_plane(w, contact, manifold, dt, h))
+    return touch_change;
   begin_contact_with(w, block, id, dt, false, [&](ContactConstraint<Real>& c) {
     prepare_rotating_contact(w, contact, manifold, dt, c, c.normal_impulse);
   });
@@ -233,13 +282,13 @@ template <class Real>
   if (const SpeculativeContact<Real> ahead = segment_ahead(w, contact, manifold, dt, h);
       ahead.manifold.count > 0) {
     // Overlaps of a plane extrapolated back are not real, and are not pushed out.
-    prepare_impact_contact(w, contact, ahead, c, c.current_separation);
+    prepare_predicted_contact(w, contact, ahead, c, c.current_separation);
     return true;
   }
   const bool pressed = c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
   const SpeculativeContact<Real> at = find_speculative_contact(w, contact, manifold, pressed, dt, h);
   if (at.prediction == ImpactPrediction::Hit) {
-    prepare_impact_contact(w, contact, at, c, c.current_separation);
+    prepare_predicted_contact(w, contact, at, c, c.current_separation);
     ContactConstraint<Real> updated = c;
     updated.normal_impulse[0] = c.current_separation[0], updated.normal_impulse[1] = c.current_separation[1];
     if (is_impact_in_flight(w, contact, at, updated, dt)) {
@@ -252,7 +301,8 @@ template <class Real>
   }
   // The prediction ignores the load that a contact carries: keep a contact that holds a body.
   const bool loaded = c.current_separation[0] > 0 || c.current_separation[1] > 0;
-  return c.count > 0 && (loaded || at.prediction != ImpactPrediction::Miss || follows_surface(w, contact));
+  return c.count > 0 &&
+         (loaded || at.prediction != ImpactPrediction::Miss || keeps_plane(w, contact, manifold, dt, h));
 }
 
 /// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they
