@@ -259,7 +259,7 @@ MUTATIONS = [
     Mutation("world: a body is not seen coming in its first step", "engine/world/step/pairs.cpp",
              "  predict_fat_aabbs(w, dt);", "", "world", ("world/frictional_impacts",)),
     Mutation("world: a contact that carries a load ends where its points would part", "engine/world/step/contact_update.h",
-             "(loaded || at.prediction != ImpactPrediction::Miss || follows", "(at.prediction != ImpactPrediction::Miss || follows",
+             "(loaded || at.prediction != ImpactPrediction::Miss || keeps_plane", "(at.prediction != ImpactPrediction::Miss || keeps_plane",
              "world", ("world/frictional_impacts",)),
     Mutation("precise: a corner level with a face is struck", "engine/precise/events/contacts.cpp",
              "candidate.grazing_speed = grazing_speed,\n    candidate.rate_tolerance = std::max(candidate.rate_tolerance, grazing_speed);", "", "precise", ("precise/impacts",)),

@@ -264,8 +264,9 @@ TEST(NearMisses, WhatFliesOverARestingCrateIsNotDeflected) {
       }
 }
 
-// What does meet the bar still does: in time, whatever the step and the phase. The box strikes its end flat,
-// and without restitution both move on together: m u = m v + I w / r, v = r w at the arm r of the blow.
+// Checks that what does meet the bar still does: in time, whatever the step and the phase. The box strikes
+// its end flat, and without restitution both move on together: m u = m v + I w / r, v = r w at the arm r of
+// the blow.
 TEST(NearMisses, WhatMeetsABarOnAHingeStrikesIt) {
   for (const double speed : {1.0, 3.0, 10.0, 30.0, 100.0})
     for (int k = 0; k < 8; ++k) {
