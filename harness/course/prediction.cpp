@@ -358,7 +358,8 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
     return;
   }
   if (found.size() == 1 && found.front().contradicted) {
-    if (finding.proven) return;
+    // What the check itself has recognised by its readings is more than what other checks refute.
+    if (finding.proven || (!finding.mistake.empty() && finding.mistake != found.front().name)) return;
     finding.mistake.clear();
     finding.says = fmt::format("{} It is close to this, but other checks, which pass, would differ. {}: {}",
                                describe(finding), found.front().name, found.front().says);

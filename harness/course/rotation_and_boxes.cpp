@@ -275,6 +275,15 @@ Finding least_overlap(const Lab& lab) {
       .finding();
 }
 
+// Comes last in the chapter, so that a mistake in forces at points is named by the checks before.
+Finding corner_spring(const Lab& lab) {
+  const Spin spring = by_a_spring(lab);
+  return Judgement()
+      .read("spin of a box that a damped spring pulls at a corner", "rad/s", spring.is, spring.due,
+            0.12 * std::abs(spring.due + 3))
+      .finding();
+}
+
 }  // namespace
 
 Chapter rotation_and_boxes() {
@@ -296,7 +305,8 @@ Chapter rotation_and_boxes() {
               {"slides", "friction slows a sliding box by mu g", kContacts, slides},
               {"box_rests", "a box rests on the ground", kContacts, box_rests},
               {"turned_box", "a ball bounces off the sides of a turned box", kContacts, turned_box},
-              {"discs_rub", "a disc that spins turns another", kContacts, discs_rub}}};
+              {"discs_rub", "a disc that spins turns another", kContacts, discs_rub},
+              {"corner_spring", "a damped spring at a corner spins a box", kPush, corner_spring}}};
 }
 
 }  // namespace plumb::course

@@ -445,16 +445,12 @@ Finding discs_rub(const Lab& lab) {
   const double share = 2 * v * lab.dt() / rb + 0.01;
   const Vec2d va = q.inverse() * trace.last(0).velocity, vb = q.inverse() * trace.last(1).velocity;
   const double spin_a = w - ra * across / ia, spin_b = -rb * across / ib;
-  // Last, so that a mistake in forces at points is named by the checks before.
-  const Spin spring = by_a_spring(lab);
   return Judgement()
       .read("the second along the approach", "m/s", vb.x, j / mb, share * j / mb)
       .read("the first across the approach", "m/s", va.y, -across / ma, share * across / ma)
       .read("the second across the approach", "m/s", vb.y, across / mb, share * across / mb)
       .read("spin of the first", "rad/s", trace.last(0).angular_velocity, spin_a, share * (w - spin_a))
       .read("spin of the second", "rad/s", trace.last(1).angular_velocity, spin_b, share * -spin_b)
-      .read("spin of a box that a damped spring pulls at a corner", "rad/s", spring.is, spring.due,
-            0.12 * std::abs(spring.due + 3))
       .mistake("friction_ignored", {j / mb, 0, 0, w, 0},
                "The discs do not rub: friction is not used for circles.")
       .finding();

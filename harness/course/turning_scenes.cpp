@@ -78,6 +78,7 @@ Spin by_a_spring(const Lab& lab) {
     at += kFine * v;
     angle += kFine * w;
   }
+  lab.run(scene_of("turning box", {}, {make(crate)}), kTime);
   return spin_of(lab, scene, kTime, w);
 }
 

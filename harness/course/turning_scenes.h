@@ -22,8 +22,8 @@ struct Spin {
   double is = 0, due = 0;  ///< rad/s
 };
 
-/// Pulls a turned box by a damped spring at a point off its centre. Both are equal if the engine refuses the
-/// scene.
+/// Pulls a turned box by a damped spring at a point off its centre. Both are equal if the engine refuses
+/// springs. Throws `NotYet` if it refuses boxes.
 Spin by_a_spring(const Lab& lab);
 
 /// Pushes a turned box by a force that turns with it. Both are equal if the engine refuses the scene.

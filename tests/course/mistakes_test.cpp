@@ -148,6 +148,8 @@ constexpr Seed kSeeds[] = {
     {"contact_point_at_second_centre", "discs_rub", "contact_point_at_centre"},
     {"friction_lever_not_squared", "discs_rub", "lever_not_squared"},
     {"friction_never_spins", "discs_rub", "friction_never_spins"},
+    {"spring_never_turns", "corner_spring", "spring_never_turns"},
+    {"spring_turns_backwards", "corner_spring", "torque_backwards"},
     {"stick_impulse_only_pulls", "stick_weighs_masses", "stick_only_pulls"},
     {"gravity@-x,y", "scene_says_gravity", "axis_reversed"},
     {"velocity in an impulse@y,x", "bounces", "axes_mixed"},
