@@ -358,7 +358,7 @@ void name_check(const std::vector<Predictable>& mistakes, const Search& search, 
     return;
   }
   if (found.size() == 1 && found.front().contradicted) {
-    // What the check itself has recognised by its readings is more than what other checks refute.
+    // Keeps what the check itself has recognised by its readings: other checks refute only what was found.
     if (finding.proven || (!finding.mistake.empty() && finding.mistake != found.front().name)) return;
     finding.mistake.clear();
     finding.says = fmt::format("{} It is close to this, but other checks, which pass, would differ. {}: {}",
