@@ -54,7 +54,10 @@ Lab::Lab(const reference::Backend& engine, const reference::StepSettings& settin
 Trace Lab::run(const Scene& scene, double duration, int finer) const {
   reference::StepSettings settings = settings_;
   settings.dt /= finer;
-  if (const std::string reason = engine_.unsupported(scene, settings); !reason.empty()) throw NotYet(reason);
+  for (const reference::Backend* engine : {&engine_, refuses_as_})
+    if (engine != nullptr)
+      if (const std::string reason = engine->unsupported(scene, settings); !reason.empty())
+        throw NotYet(reason);
   Trace trace;
   trace.times.push_back(0);
   trace.states.emplace_back();

@@ -57,6 +57,10 @@ class Lab {
   Lab(const reference::Backend& engine, const reference::StepSettings& settings,
       std::vector<Recorded>* runs = nullptr, Watcher watcher = {});
 
+  /// Refuses from now on what another lab's engine refuses, too, so that both make the same runs. The other
+  /// lab must outlive this one.
+  void refuse_as(const Lab& other) { refuses_as_ = &other.engine_; }
+
   /// Steps `scene` for as many whole steps as fit into `duration`, in s, with a sample after each. A step is
   /// dt / `finer`. Throws `NotYet`, or `Error` if the engine fails.
   Trace run(const Scene& scene, double duration, int finer = 1) const;
@@ -105,6 +109,7 @@ class Lab {
 
  private:
   const reference::Backend& engine_;
+  const reference::Backend* refuses_as_ = nullptr;
   reference::StepSettings settings_;
   reference::Method method_;
   std::vector<Recorded>* runs_;

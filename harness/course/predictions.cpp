@@ -138,7 +138,8 @@ std::optional<Attempt> Predictions::attempt(const Planted& planted, const Check&
   };
   Attempt out;
   try {
-    const Lab lab(*student, lab_.plain_settings(), &out.runs, watch);
+    Lab lab(*student, lab_.plain_settings(), &out.runs, watch);
+    lab.refuse_as(lab_);
     out.finding = check.run(lab);
   } catch (const std::exception&) {
     return std::nullopt;
