@@ -26,7 +26,7 @@ MISTAKES = [
        "            fx, fy = T * nx + f[\"damping\"] * (bvx - avx), T * ny + f[\"damping\"] * (bvy - avy)\n"
        "            add(i, fx, fy, arx, ary)\n"
        "            add(j, -fx, -fy, brx, bry)")],
-     "passes"),
+     "damping_not_along_spring"),
     ("each component within 10 m/s", WHOLE, 1,
      [("                b.w += b.torque * b.ii * h\n",
        "                b.w += b.torque * b.ii * h\n"

@@ -258,7 +258,7 @@ MISTAKES = [
     ('friction of the ground alone', 4,
      'c["mu"] = rule(self.rules["friction"], a.mu, b.mu)',
      'c["mu"] = b.mu',
-     "friction_maximum"),
+     "friction_of_one"),
     ('friction along the motion', 4,
      'j = -(vx * tx + vy * ty) / c["kt"]',
      'j = (vx * tx + vy * ty) / c["kt"]',
