@@ -80,6 +80,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
   scratch.has_contact_load.assign(w.bodies.size(), 0);
+  scratch.pushers.assign(w.bodies.size(), kUnknownPusher);
   const auto recycle = [&](int block) {
     const ContactRun<Real> run = runs[block];
     for (int i = 0; i < run.count; ++i) {

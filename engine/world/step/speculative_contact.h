@@ -29,6 +29,10 @@ struct SpeculativeContact {
   Vec2<Real> velocity{};                      ///< m/s, of b's centre of mass relative to a's, at the impact
 };
 
+/// Entries of Scratch::pushers beside a body's index and kNone: no search has counted the pushers yet, or
+/// there are several.
+constexpr int kUnknownPusher = -2, kSeveralPushers = -3;
+
 /// Finds the speculative contact of two shapes with the current manifold `closest`. The plane through the
 /// closest points is only an estimate: it would deflect a shape that passes a corner closely, and a rotating
 /// shape hits elsewhere. So if a plane would be crossed, it counts only if the shapes really touch.
@@ -43,8 +47,9 @@ struct SpeculativeContact {
 /// a pressing contact holds one of two dynamic bodies, shapes that pass each other get no contact, and those
 /// that meet keep the plane of `closest`. They also keep it if they press on each other (`pressed`: they had
 /// an impulse in the last substep), or if other dynamic bodies press on them and may push them together.
+/// Changes nothing but the entries of `Scratch::pushers` that it had to find.
 template <class Real>
-SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+SpeculativeContact<Real> find_speculative_contact(WorldData<Real>& w, const ContactRecord& contact,
                                                   const ContactManifold<Real>& closest, bool pressed, Real dt,
                                                   Real substep);
 
