@@ -11,7 +11,7 @@ MISTAKES = [
     ("a bounce asks for the whole speed", "chapter1", 1,
      [("self.restitution(ball, wall, -closing)",
        "self.restitution(ball, wall, ball.velocity.length())")],
-     "passes"),
+     "threshold_of_whole_speed"),
     ("slow bodies are not moved", WHOLE, 1,
      [("            if b.dyn:\n"
        "                b.x += b.vx * self.dt",
