@@ -84,6 +84,7 @@ inline constexpr std::array kIntegrators{"velocity_verlet", "semi_implicit_euler
 
 void bind_errors();
 void bind_definitions(py::module_& module);
+void bind_joint_kinds(py::module_& module);
 void bind_world(py::module_& module);
 void bind_simulation(py::module_& module);
 
