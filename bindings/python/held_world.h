@@ -70,13 +70,15 @@ using WorldPointer = std::shared_ptr<HeldWorld>;
 
 namespace pybind11::detail {
 
-/// Refuses None where a world belongs: pybind11 passes it as a null pointer to functions that take a shared one.
+/// Refuses None where a world belongs: pybind11 passes it as a null pointer to functions that take a shared
+/// one.
 template <>
 struct type_caster<plumb::python::WorldPointer>
     : copyable_holder_caster<plumb::python::HeldWorld, plumb::python::WorldPointer> {
   bool load(handle source, bool convert) {
     return !source.is_none() &&
-           copyable_holder_caster<plumb::python::HeldWorld, plumb::python::WorldPointer>::load(source, convert);
+           copyable_holder_caster<plumb::python::HeldWorld, plumb::python::WorldPointer>::load(source,
+                                                                                               convert);
   }
 };
 

@@ -43,14 +43,13 @@ void for_each_field(const Kind& kind, Visit&& visit) {
 template <class Kind>
 py::dict fields_of(const Kind& kind) {
   py::dict all;
-  for_each_field(kind, [&](const char* name, const auto& value, const FieldRule&) {
-    all[name] = as_python(value);
-  });
+  for_each_field(
+      kind, [&](const char* name, const auto& value, const FieldRule&) { all[name] = as_python(value); });
   return all;
 }
 
-/// Makes the class of a kind of joint: its arguments can be read, but not set, since a kind is a copy of what the
-/// joint has.
+/// Makes the class of a kind of joint: its arguments can be read, but not set, since a kind is a copy of what
+/// the joint has.
 template <class Kind>
 py::class_<Kind> joint(py::module_& module, const char* name, const char* about) {
   py::class_<Kind> type(module, name, about);

@@ -25,8 +25,7 @@ struct HeldLawBody {
 };
 
 /// Applies a function of a body's state that returns (x, y, torque).
-void apply_function(const WorldPointer& held,
-                    const std::function<py::object(HeldLawBody)>& law, double dt,
+void apply_function(const WorldPointer& held, const std::function<py::object(HeldLawBody)>& law, double dt,
                     bool wakes) {
   held->visit([&](auto& w) {
     plumb::apply_law(w,

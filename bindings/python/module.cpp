@@ -74,6 +74,13 @@ void bind_definitions(py::module_& module) {
       .def_readwrite("density", &ShapeDefinition::density, "kg/m^2")
       .def_property_readonly("friction", [](const ShapeDefinition& d) { return d.material.friction; })
       .def_property_readonly("restitution", [](const ShapeDefinition& d) { return d.material.restitution; })
+      .def_property_readonly("rolling_resistance",
+                             [](const ShapeDefinition& d) { return d.material.rolling_resistance; })
+      .def_property_readonly(
+          "surface_speed", [](const ShapeDefinition& d) { return d.material.surface_speed; }, "m/s")
+      .def_property_readonly("category", [](const ShapeDefinition& d) { return d.filter.category; })
+      .def_property_readonly("mask", [](const ShapeDefinition& d) { return d.filter.mask; })
+      .def_property_readonly("group", [](const ShapeDefinition& d) { return d.filter.group; })
       .def_readwrite("sensor", &ShapeDefinition::sensor)
       .def_readwrite("hit_events", &ShapeDefinition::hit_events)
       .def_readwrite("pre_solve", &ShapeDefinition::pre_solve)

@@ -260,7 +260,8 @@ void bind_world(py::module_& module) {
               if (!hook) return w.on_pre_solve({});
               w.on_pre_solve([hook = *hook, world](const ContactReading& c) {
                 const py::gil_scoped_acquire held;
-                return returned<bool>(hook(reading_of(world.lock(), c)), "the hook of on_pre_solve", kTrueOrFalse);
+                return returned<bool>(hook(reading_of(world.lock(), c)), "the hook of on_pre_solve",
+                                      kTrueOrFalse);
               });
             });
           },

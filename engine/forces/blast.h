@@ -16,8 +16,8 @@ struct Blast {
 };
 
 /// Calls `visit(normal, length)` for 2^levels equal parts of an arc of unit normals from `from` to `to`, less
-/// than half a turn: with the normal at the middle and the chord's length, so that the parts together are as wide
-/// as the arc.
+/// than half a turn: with the normal at the middle and the chord's length, so that the parts together are as
+/// wide as the arc.
 template <class Visit>
 void visit_halves(Vec2d from, Vec2d to, int levels, Visit&& visit) {
   const Vec2d sum = from + to, middle = (1 / std::sqrt(length_squared(sum))) * sum;
@@ -52,9 +52,9 @@ inline std::optional<OutlineArc> facing_arc(const OutlineArc& arc) {
 }
 
 /// Calls `push(impulse, point)` (N s, m) for the parts of a shape's outline that face the blast's centre. A
-/// surface at distance d gets impulse (1 - d / radius) along the ray per metre across it; edges and the facing
-/// parts of roundings are divided into eight pieces, each pushed at its middle. `shape` is relative to the centre
-/// of the blast.
+/// surface at distance d gets impulse (1 - d / radius) along the ray per metre across it; edges and the
+/// facing parts of roundings are divided into eight pieces, each pushed at its middle. `shape` is relative to
+/// the centre of the blast.
 template <class Push>
 void visit_blast(const Blast& blast, const Convex<double>& shape, Push&& push) {
   constexpr int kLevels = 3, kPieces = 1 << kLevels;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-
 namespace plumb {
 namespace {
 
@@ -19,9 +18,8 @@ struct Push {
 
 Push pushed(const Blast& blast, const Convex<double>& shape) {
   Push sum;
-  visit_blast(blast, shape, [&](Vec2d impulse, Vec2d point) {
-    sum.impulse += impulse, sum.turn += cross(point, impulse);
-  });
+  visit_blast(blast, shape,
+              [&](Vec2d impulse, Vec2d point) { sum.impulse += impulse, sum.turn += cross(point, impulse); });
   return sum;
 }
 
@@ -122,7 +120,8 @@ TEST(Blast, DiscsOfManyCornersArePushedLikeDiscs) {
   std::vector<Corner<double>> memory;
   std::vector<Vec2d> corners;
   for (int i = 0; i < 256; ++i)
-    corners.push_back(0.3 * Vec2d{std::cos(2 * std::numbers::pi * i / 256), std::sin(2 * std::numbers::pi * i / 256)});
+    corners.push_back(
+        0.3 * Vec2d{std::cos(2 * std::numbers::pi * i / 256), std::sin(2 * std::numbers::pi * i / 256)});
   const Blast blast{.radius = 4, .impulse = 1};
   const double disc = pushed(blast, placed({{0, 0}}, 0.3, 0, {2, 0}, memory)).impulse.x;
   const double polygon = pushed(blast, placed(corners, 0, 0.001, {2, 0}, memory)).impulse.x;
