@@ -100,3 +100,23 @@ def test_a_hook_that_returns_something_else_is_a_type_error(hook, wrong):
     getattr(world, hook)(lambda *given: True)
     world.step(count=30)
     assert ball.position[1] == pytest.approx(0.5, abs=1e-3)
+
+
+def test_a_snapshot_repeats_a_step_that_a_hook_has_thrown_out_of():
+    world = plumb.World()
+    world.create_body(plumb.ShapeDefinition(plumb.Box(20, 2), pre_solve=True), type="static", position=(0, -1))
+    body = world.create_body(plumb.Box(1, 1), position=(0, 0.8), angle=0.5, velocity=(2, 0))
+    world.on_pre_solve(lambda contact: True)
+    world.step(count=20)
+    saved, state = world.save(), (body.position, body.angle, body.velocity, body.angular_velocity)
+    world.step()
+    undisturbed = world.full_hash()
+    world.restore(saved)
+    world.on_pre_solve(lambda contact: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        world.step()
+    assert (body.position, body.angle, body.velocity, body.angular_velocity) == state
+    world.on_pre_solve(lambda contact: True)
+    world.restore(saved)
+    world.step()
+    assert world.full_hash() == undisturbed
