@@ -310,15 +310,16 @@ void bind_simulation(py::module_& module) {
                     "`threads` share the worlds.")
       .def(py::init<const WorldPointer&, int, const std::vector<HeldBody>&, int>(), arg("world"),
            arg("count"), arg("bodies"), py::kw_only(), arg("threads") = 1)
-      .def("__len__", &Batch::size)
+      .def("__len__", [](const Batch& b) { return b.size(); })
       .def("world", &Batch::world, arg("index"))
-      .def("hashes", &Batch::hashes)
+      .def("hashes", [](const Batch& b) { return b.hashes(); })
       .def("step", &Batch::step, arg("actions") = py::none(), py::kw_only(), arg("dt") = 1.0 / 60,
            arg("substeps") = 4, arg("count") = 1,
            "Applies actions, (worlds, bodies, 3): force (N) and torque (N m), in each of `count` steps; "
            "returns `observe()`.")
-      .def("observe", &Batch::observe,
-           "(worlds, bodies, 6): x, y (m), angle (rad), velocity (m/s), angular velocity (rad/s).")
+      .def(
+          "observe", [](const Batch& b) { return b.observe(); },
+          "(worlds, bodies, 6): x, y (m), angle (rad), velocity (m/s), angular velocity (rad/s).")
       .def("reset", &Batch::reset, arg("which") = py::none(),
            "Takes all worlds, or those of a mask, back to the start.");
 

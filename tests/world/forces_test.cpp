@@ -242,6 +242,12 @@ TYPED_TEST(ForceLaws, AnExplosionPushesAWallByItsIntegralAndSparesWhatItCovers) 
   EXPECT_NEAR(world.velocity(wall).y, 0, 1e-5);
 }
 
+TYPED_TEST(ForceLaws, ASpringNeedsTwoBodies) {
+  typename TestFixture::World world(weightless());
+  const BodyId body = add_body(world, {0, 0}, kDisc);
+  EXPECT_THROW(apply_spring(world, body, {0, 0}, body, {1, 0}, {}, kDt), Error);
+}
+
 TYPED_TEST(ForceLaws, AttractionIsSoftenedLikeABallOfEvenDensity) {
   typename TestFixture::World world(weightless());
   const BodyId body = add_body(world, {0.05, 0}, kDisc);

@@ -12,6 +12,8 @@ NONE_FOR_A_WORLD = [
     "plumb.World.bodies.fget(None)", "plumb.World.events.fget(None)", "plumb.World.overlap_box(None, (0, 0), (1, 1))",
     "plumb.World.apply_linear_drag(None, 1.0)", "plumb.World.ray_cast(None, (0, 0), (1, 0))",
     "plumb.World().create_joint(None, None, plumb.Weld())", "plumb.Body.position.fget(None)",
+    "plumb.Rollback.save(None)", "plumb.Batch.__len__(None)", "plumb.Batch.hashes(None)", "plumb.Batch.observe(None)",
+    "plumb.Batch.step(None)", "plumb.Simulation.step(None)", "plumb.Simulation.hash(None)",
     "plumb.World().create_body([None])", "plumb.Batch(plumb.World(), 1, [None])",
 ]
 
