@@ -25,13 +25,13 @@ def test_locks_are_read_as_they_were_set():
 
 def test_materials_filters_and_owners_are_read():
     world = plumb.World()
-    definition = plumb.ShapeDefinition(plumb.Circle(0.5), rolling_resistance=0.1, surface_speed=2, category=4,
+    definition = plumb.ShapeDefinition(plumb.Circle(0.5), rolling_resistance=0.125, surface_speed=2, category=4,
                                        mask=1 << 63, group=-3)
-    assert (definition.rolling_resistance, definition.surface_speed) == (0.1, 2)
+    assert (definition.rolling_resistance, definition.surface_speed) == (0.125, 2)
     assert (definition.category, definition.mask, definition.group) == (4, 1 << 63, -3)
     body = world.create_body(definition)
     shape, = body.shapes
-    assert shape.rolling_resistance == 0.1 and shape.filter == (4, 1 << 63, -3)
+    assert shape.rolling_resistance == 0.125 and shape.filter == (4, 1 << 63, -3)
     shape.rolling_resistance = 0.25
     shape.set_filter(mask=7)
     assert shape.rolling_resistance == 0.25 and shape.filter == (1, 7, 0)
