@@ -57,6 +57,8 @@ plumb_chain_definition plumb_default_chain(void) {
 plumb_joint_definition plumb_default_joint(plumb_joint_kind kind) {
   plumb_joint_definition result{};
   result.kind = kind;
+  // For an unknown kind it keeps the error, and create_joint refuses the definition.
+  plumb::c::checked([&] { plumb::c::in<int>(kind, 11, "joint", "kind"); });
   result.axis = {1, 0};
   result.length = 1;
   result.ratio = 1;

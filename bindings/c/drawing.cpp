@@ -145,6 +145,7 @@ plumb_status plumb_world_draw_between(const plumb_world* world, const plumb_past
 size_t plumb_world_svg(const plumb_world* world, const plumb_draw_options* options, int width, char* to,
                        size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
+    if (capacity > 0) require(to, "out");
     if (width < 1)
       throw Error(Error::Kind::Value, "picture", "width", std::to_string(width), "must be at least 1 pixel");
     const plumb::DrawOptions drawn = options_of(options);
@@ -154,7 +155,7 @@ size_t plumb_world_svg(const plumb_world* world, const plumb_draw_options* optio
     plumb::SvgDraw picture;
     plumb::draw(w, picture, drawn);
     const std::string text = drawn.bounds ? picture.picture(*drawn.bounds, width) : picture.picture(width);
-    if (capacity > text.size()) std::memcpy(&require(to, "out"), text.c_str(), text.size() + 1);
+    if (capacity > text.size()) std::memcpy(to, text.c_str(), text.size() + 1);
     return text.size() + 1;
   });
 }

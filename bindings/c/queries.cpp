@@ -18,9 +18,12 @@ plumb_nearest_hit hit_of(const plumb::NearestResult& r) {
   return {out(r.shape), out(r.body), out(r.point), out(r.normal), r.distance};
 }
 
-template <class Hit>
-bool give(const auto& found, Hit* hit) {
-  if (found && hit != nullptr) *hit = hit_of(*found);
+/// Fills `hit` with what `query` finds. Throws before it asks if there is no place for it.
+template <class Hit, class Query>
+bool give(Hit* hit, Query&& query) {
+  require(hit, "hit");
+  const auto found = query();
+  if (found) *hit = hit_of(*found);
   return found.has_value();
 }
 
@@ -32,7 +35,7 @@ bool plumb_ray_cast_closest(const plumb_world* world, plumb_vec2 origin, plumb_v
                             const plumb_query_filter* filter, plumb_ray_hit* hit) {
   return read_or(false, world, [&](const auto& w) {
     const Filtered only(filter);
-    return give(plumb::ray_cast_closest(w, in(origin), in(translation), only.get()), hit);
+    return give(hit, [&] { return plumb::ray_cast_closest(w, in(origin), in(translation), only.get()); });
   });
 }
 plumb_status plumb_ray_cast(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
@@ -61,9 +64,10 @@ bool plumb_cast_shape_closest(const plumb_world* world, const plumb_geometry* sh
                               plumb_vec2 translation, const plumb_query_filter* filter, plumb_cast_hit* hit) {
   return read_or(false, world, [&](const auto& w) {
     const Filtered only(filter);
-    return give(plumb::cast_shape_closest(w, shape_of(shape), in(pose.position), pose.angle, in(translation),
-                                          only.get()),
-                hit);
+    return give(hit, [&] {
+      return plumb::cast_shape_closest(w, shape_of(shape), in(pose.position), pose.angle, in(translation),
+                                       only.get());
+    });
   });
 }
 plumb_status plumb_cast_shape(const plumb_world* world, const plumb_geometry* shape, plumb_pose pose,
@@ -110,7 +114,7 @@ bool plumb_nearest(const plumb_world* world, plumb_vec2 point, double max_distan
                    const plumb_query_filter* filter, plumb_nearest_hit* hit) {
   return read_or(false, world, [&](const auto& w) {
     const Filtered only(filter);
-    return give(plumb::nearest(w, in(point), max_distance, only.get()), hit);
+    return give(hit, [&] { return plumb::nearest(w, in(point), max_distance, only.get()); });
   });
 }
 plumb_distance_result plumb_distance_between(const plumb_world* world, plumb_shape a, plumb_shape b) {

@@ -136,12 +136,31 @@ void bind_bodies(py::module_& module) {
             h.world->visit([&](auto& w) { w.set_locks(h.id, x, y, rotation); });
           },
           arg("x") = false, arg("y") = false, arg("rotation") = false)
+      .def_property_readonly(
+          "locks",
+          [](const HeldBody& h) {
+            const BodyLocks locks = h.world->visit([&](auto& w) { return w.locks(h.id); });
+            return py::make_tuple(locks.x, locks.y, locks.rotation);
+          },
+          "x, y and rotation, as set_locks sets them")
       .def(
           "world_point",
           [](const HeldBody& h, Vec2d local) {
             return h.world->visit([&](auto& w) { return w.world_point(h.id, local); });
           },
           arg("local"), "m, in the world, of a point in the body's frame.")
+      .def(
+          "local_point",
+          [](const HeldBody& h, Vec2d point) {
+            return h.world->visit([&](auto& w) { return w.local_point(h.id, point); });
+          },
+          arg("world"), "m, in the body's frame, of a point of the world.")
+      .def(
+          "velocity_at",
+          [](const HeldBody& h, Vec2d point) {
+            return h.world->visit([&](auto& w) { return w.velocity_at(h.id, point); });
+          },
+          arg("point"), "m/s, of the body at a point of the world, m.")
       .def(
           "create_shape",
           [](const HeldBody& h, const std::variant<ShapeDefinition, ShapeGeometry>& shape) {

@@ -60,6 +60,22 @@ std::string name_in(const std::array<const char*, kCount>& names, Enum value) {
   return names[static_cast<std::size_t>(value)];
 }
 
+/// Converts what a function of the user returned. Throws TypeError that says what `function` must return.
+template <class Result>
+Result returned(const py::object& value, const char* function, const char* wanted) {
+  py::detail::make_caster<Result> result;
+  if (!value.is_none() && result.load(value, true)) return py::detail::cast_op<Result>(result);
+  throw py::type_error(std::string(function) + " must return " + wanted + ", not " +
+                       std::string(py::str(py::repr(value))));
+}
+
+/// Throws Error (Value) for a number below `least`.
+inline void require_count(const char* subject, const char* field, int value, int least) {
+  if (value >= least) return;
+  throw Error(Error::Kind::Value, subject, field, std::to_string(value),
+              "must be " + std::to_string(least) + " or more");
+}
+
 inline constexpr std::array kPrecisions{"float", "double"};
 inline constexpr std::array kBodyTypes{"static", "kinematic", "dynamic"};
 inline constexpr std::array kCombines{"geometric_mean", "product", "maximum", "minimum", "average"};
@@ -68,6 +84,7 @@ inline constexpr std::array kIntegrators{"velocity_verlet", "semi_implicit_euler
 
 void bind_errors();
 void bind_definitions(py::module_& module);
+void bind_joint_kinds(py::module_& module);
 void bind_world(py::module_& module);
 void bind_simulation(py::module_& module);
 

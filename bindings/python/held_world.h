@@ -66,6 +66,26 @@ struct HeldWorld : std::enable_shared_from_this<HeldWorld> {
 
 using WorldPointer = std::shared_ptr<HeldWorld>;
 
+}  // namespace plumb::python
+
+namespace pybind11::detail {
+
+/// Refuses None where a world belongs: pybind11 passes it as a null pointer to functions that take a shared
+/// one.
+template <>
+struct type_caster<plumb::python::WorldPointer>
+    : copyable_holder_caster<plumb::python::HeldWorld, plumb::python::WorldPointer> {
+  bool load(handle source, bool convert) {
+    return !source.is_none() &&
+           copyable_holder_caster<plumb::python::HeldWorld, plumb::python::WorldPointer>::load(source,
+                                                                                               convert);
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace plumb::python {
+
 /// Handles as Python has them: each keeps its world alive.
 template <class Id>
 struct Held {

@@ -10,6 +10,8 @@ using py::arg;
 void bind_joints(py::module_& module) {
   py::class_<HeldJoint> joint(module, "Joint", "A joint of two bodies.");
   joint.def_property_readonly("valid", PLUMB_READ(HeldJoint, w.valid(h.id)))
+      .def_property("user_data", PLUMB_READ(HeldJoint, w.user_data(h.id)),
+                    PLUMB_SET(HeldJoint, std::uint64_t, w.set_user_data(h.id, value)))
       .def_property_readonly("kind", PLUMB_READ(HeldJoint, JointKind(w.kind(h.id))))
       .def_property_readonly("bodies",
                              [](const HeldJoint& h) {

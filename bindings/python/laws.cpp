@@ -25,13 +25,13 @@ struct HeldLawBody {
 };
 
 /// Applies a function of a body's state that returns (x, y, torque).
-void apply_function(const WorldPointer& held,
-                    const std::function<std::tuple<double, double, double>(HeldLawBody)>& law, double dt,
+void apply_function(const WorldPointer& held, const std::function<py::object(HeldLawBody)>& law, double dt,
                     bool wakes) {
   held->visit([&](auto& w) {
     plumb::apply_law(w,
                      [&](const LawBody& body) {
-                       const auto [x, y, torque] = law(HeldLawBody{{held, body.id}, body});
+                       const auto [x, y, torque] = returned<std::tuple<double, double, double>>(
+                           law(HeldLawBody{{held, body.id}, body}), "a law", "(x, y, torque), three numbers");
                        return Wrench<double>{{x, y}, torque};
                      },
                      {wakes, dt});

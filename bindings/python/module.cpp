@@ -1,5 +1,4 @@
 #include "bindings/python/conversion.h"
-#include "engine/joints/definitions.h"
 #include "engine/world/definitions.h"
 
 namespace plumb::python {
@@ -23,27 +22,6 @@ void bind_errors() {
     }
   });
 }
-
-namespace {
-
-using Pair = std::optional<std::pair<double, double>>;
-
-std::optional<Spring> spring(Pair given) {
-  return given ? std::optional(Spring{given->first, given->second}) : std::nullopt;
-}
-std::optional<Range> range(Pair given) {
-  return given ? std::optional(Range{given->first, given->second}) : std::nullopt;
-}
-std::optional<Motor> motor(Pair given) {
-  return given ? std::optional(Motor{given->first, given->second}) : std::nullopt;
-}
-
-template <class Kind>
-py::class_<Kind> joint(py::module_& module, const char* name, const char* about) {
-  return py::class_<Kind>(module, name, about);
-}
-
-}  // namespace
 
 void bind_definitions(py::module_& module) {
   using py::arg;
@@ -96,96 +74,17 @@ void bind_definitions(py::module_& module) {
       .def_readwrite("density", &ShapeDefinition::density, "kg/m^2")
       .def_property_readonly("friction", [](const ShapeDefinition& d) { return d.material.friction; })
       .def_property_readonly("restitution", [](const ShapeDefinition& d) { return d.material.restitution; })
+      .def_property_readonly("rolling_resistance",
+                             [](const ShapeDefinition& d) { return d.material.rolling_resistance; })
+      .def_property_readonly(
+          "surface_speed", [](const ShapeDefinition& d) { return d.material.surface_speed; }, "m/s")
+      .def_property_readonly("category", [](const ShapeDefinition& d) { return d.filter.category; })
+      .def_property_readonly("mask", [](const ShapeDefinition& d) { return d.filter.mask; })
+      .def_property_readonly("group", [](const ShapeDefinition& d) { return d.filter.group; })
       .def_readwrite("sensor", &ShapeDefinition::sensor)
       .def_readwrite("hit_events", &ShapeDefinition::hit_events)
       .def_readwrite("pre_solve", &ShapeDefinition::pre_solve)
       .def_readwrite("user_data", &ShapeDefinition::user_data);
-
-  constexpr const char* kRevolute =
-      "A common point; the bodies turn about it. limits: (lower, upper), rad; motor: (speed, max_torque), "
-      "rad/s and N m; spring: (hertz, damping_ratio).";
-  joint<DistanceDefinition>(module, "Distance",
-                            "A distance between two anchors: a rod, a spring when `spring` is given, a rope "
-                            "when `range` is. Lengths in m, motor: (speed, max_force), m/s and N.")
-      .def(py::init([](double length, Vec2d a, Vec2d b, Pair s, Pair r, Pair m) {
-             return DistanceDefinition{a, b, length, spring(s), range(r), motor(m)};
-           }),
-           arg("length") = 1.0, py::kw_only(), arg("anchor_a") = Vec2d{}, arg("anchor_b") = Vec2d{},
-           arg("spring") = py::none(), arg("range") = py::none(), arg("motor") = py::none());
-  joint<RevoluteDefinition>(module, "Revolute", kRevolute)
-      .def(py::init([](Vec2d a, Vec2d b, double reference, Pair l, Pair m, Pair s, double target) {
-             return RevoluteDefinition{a, b, reference, range(l), motor(m), spring(s), target};
-           }),
-           py::kw_only(), arg("anchor_a") = Vec2d{}, arg("anchor_b") = Vec2d{}, arg("reference_angle") = 0.0,
-           arg("limits") = py::none(), arg("motor") = py::none(), arg("spring") = py::none(),
-           arg("target_angle") = 0.0);
-  joint<PrismaticDefinition>(module, "Prismatic",
-                             "Slides along an axis of a without turning. limits in m, motor: (speed, "
-                             "max_force), m/s and N.")
-      .def(
-          py::init([](Vec2d axis, Vec2d a, Vec2d b, double reference, Pair l, Pair m, Pair s, double target) {
-            return PrismaticDefinition{a, b, axis, reference, range(l), motor(m), spring(s), target};
-          }),
-          arg("axis") = Vec2d{1, 0}, py::kw_only(), arg("anchor_a") = Vec2d{}, arg("anchor_b") = Vec2d{},
-          arg("reference_angle") = 0.0, arg("limits") = py::none(), arg("motor") = py::none(),
-          arg("spring") = py::none(), arg("target_translation") = 0.0);
-  joint<WeldDefinition>(module, "Weld", "Holds b to a; rigid without springs, (hertz, damping_ratio).")
-      .def(py::init([](Vec2d a, Vec2d b, double reference, Pair linear, Pair angular) {
-             return WeldDefinition{a, b, reference, spring(linear), spring(angular)};
-           }),
-           py::kw_only(), arg("anchor_a") = Vec2d{}, arg("anchor_b") = Vec2d{}, arg("reference_angle") = 0.0,
-           arg("linear_spring") = py::none(), arg("angular_spring") = py::none());
-  joint<WheelDefinition>(module, "Wheel",
-                         "A wheel b on a suspension along an axis of a. limits in m, motor: (speed, "
-                         "max_torque), rad/s and N m.")
-      .def(py::init([](Vec2d axis, Vec2d a, Vec2d b, Pair s, Pair l, Pair m) {
-             return WheelDefinition{a, b, axis, spring(s), range(l), motor(m)};
-           }),
-           arg("axis") = Vec2d{0, 1}, py::kw_only(), arg("anchor_a") = Vec2d{}, arg("anchor_b") = Vec2d{},
-           arg("spring") = py::none(), arg("limits") = py::none(), arg("motor") = py::none());
-  const MotorDefinition follow;
-  joint<MotorDefinition>(module, "Motor",
-                         "Drives b towards a pose relative to a with limited force (N) and torque (N m).")
-      .def(py::init(
-               [](Vec2d position, double angle, double force, double torque, std::pair<double, double> s) {
-                 return MotorDefinition{position, angle, force, torque, {s.first, s.second}};
-               }),
-           py::kw_only(), arg("target_position") = Vec2d{}, arg("target_angle") = 0.0, arg("max_force") = 0.0,
-           arg("max_torque") = 0.0,
-           arg("spring") = std::pair(follow.spring.hertz, follow.spring.damping_ratio));
-  const MouseDefinition drag;
-  joint<MouseDefinition>(module, "Mouse",
-                         "Pulls a point of b towards a point of the world, m, with at most `max_force`, N.")
-      .def(py::init([](Vec2d target, double force, Vec2d b, std::pair<double, double> s) {
-             return MouseDefinition{b, target, {s.first, s.second}, force};
-           }),
-           arg("target"), py::kw_only(), arg("max_force") = 0.0, arg("anchor_b") = Vec2d{},
-           arg("spring") = std::pair(drag.spring.hertz, drag.spring.damping_ratio));
-  joint<GearDefinition>(module, "Gear", "angle_b = ratio angle_a + phase, rad.")
-      .def(py::init([](double ratio, double phase) {
-             return GearDefinition{ratio, phase};
-           }),
-           arg("ratio") = -1.0, arg("phase") = 0.0);
-  joint<PulleyDefinition>(module, "Pulley",
-                          "A rope over two pulleys: length_a + ratio length_b is constant, m.")
-      .def(py::init([](Vec2d ground_a, Vec2d ground_b, Vec2d a, Vec2d b, double ratio,
-                       std::optional<double> length) {
-             return PulleyDefinition{ground_a, ground_b, a, b, ratio, length};
-           }),
-           arg("ground_a"), arg("ground_b"), py::kw_only(), arg("anchor_a") = Vec2d{},
-           arg("anchor_b") = Vec2d{}, arg("ratio") = 1.0, arg("length") = py::none());
-  joint<RatchetDefinition>(module, "Ratchet",
-                           "Lets b turn in one direction alone; teeth are `tooth` apart, rad.")
-      .def(py::init([](double tooth, double phase) {
-             return RatchetDefinition{tooth, phase};
-           }),
-           arg("tooth") = 0.1, arg("phase") = 0.0);
-  joint<FrictionDefinition>(module, "Friction", "Resists motion of b relative to a, N and N m.")
-      .def(py::init([](double force, double torque, Vec2d a, Vec2d b) {
-             return FrictionDefinition{a, b, force, torque};
-           }),
-           arg("max_force"), arg("max_torque"), py::kw_only(), arg("anchor_a") = Vec2d{},
-           arg("anchor_b") = Vec2d{});
 }
 
 }  // namespace plumb::python
@@ -196,6 +95,7 @@ PYBIND11_MODULE(_plumb, module) {
   module.attr("__version__") = PLUMB_VERSION;
   bind_errors();
   bind_definitions(module);
+  bind_joint_kinds(module);
   bind_world(module);
   bind_simulation(module);
 }

@@ -10,13 +10,34 @@ namespace {
 
 using py::arg;
 
-/// Returns a filter of a query; `ignore` is a body of `world` or None.
-QueryFilter filter_of(const WorldPointer& world, const std::optional<HeldBody>& ignore,
-                      std::uint64_t category, std::uint64_t mask, bool sensors) {
-  QueryFilter filter;
-  filter.category = category, filter.mask = mask, filter.sensors = sensors;
-  if (ignore) filter.ignore = id_in(world, *ignore, "ignore");
-  return filter;
+/// Holds what a query considers, as its keyword arguments say it.
+struct Considered {
+  const WorldPointer& world;
+  std::optional<HeldBody> ignore;
+  std::uint64_t category, mask;
+  bool sensors;
+
+  QueryFilter filter() const {
+    QueryFilter filter;
+    filter.category = category, filter.mask = mask, filter.sensors = sensors;
+    if (ignore) filter.ignore = id_in(world, *ignore, "ignore");
+    return filter;
+  }
+};
+
+/// Adds a query of the world to its class: `query(world, filter, own arguments...)`, where `filter` is made
+/// from the keyword arguments that all queries have in common. `Own` are the types of its own arguments.
+template <class... Own, class Query, class... Names>
+void bind_query(HeldWorldClass& type, const char* name, Query query, const char* about, Names&&... names) {
+  type.def(
+      name,
+      [query](const WorldPointer& h, Own... own, std::optional<HeldBody> ignore, std::uint64_t category,
+              std::uint64_t mask, bool sensors) {
+        return query(h, Considered{h, ignore, category, mask, sensors}.filter(), own...);
+      },
+      std::forward<Names>(names)..., py::kw_only(), arg("ignore") = py::none(),
+      arg("category") = QueryFilter{}.category, arg("mask") = QueryFilter{}.mask, arg("sensors") = false,
+      about);
 }
 
 py::dict hit_of(const WorldPointer& held, const auto& hit) {
@@ -27,36 +48,83 @@ py::dict hit_of(const WorldPointer& held, const auto& hit) {
 }  // namespace
 
 void bind_queries(HeldWorldClass& world) {
+  bind_query<Vec2d, Vec2d>(
+      world, "ray_cast",
+      [](const WorldPointer& h, const QueryFilter& filter, Vec2d origin, Vec2d translation) -> py::object {
+        const auto hit = h->visit([&](auto& w) { return ray_cast_closest(w, origin, translation, filter); });
+        if (!hit) return py::none();
+        py::dict found = hit_of(h, *hit);
+        found["fraction"] = hit->fraction;
+        return found;
+      },
+      "The closest hit of a ray (m) as a dict of shape, body, point, normal and fraction, or None.",
+      arg("origin"), arg("translation"));
+  bind_query<Vec2d, Vec2d>(
+      world, "ray_cast_all",
+      [](const WorldPointer& h, const QueryFilter& filter, Vec2d origin, Vec2d translation) {
+        std::vector<RayResult> hits;
+        h->visit([&](auto& w) { ray_cast_all(w, origin, translation, filter, hits); });
+        py::list all;
+        for (const RayResult& hit : hits) {
+          py::dict found = hit_of(h, hit);
+          found["fraction"] = hit.fraction;
+          all.append(found);
+        }
+        return all;
+      },
+      "All hits of a ray, by fraction.", arg("origin"), arg("translation"));
+  bind_query<const ShapeGeometry&, Vec2d, double, Vec2d>(
+      world, "cast_shape",
+      [](const WorldPointer& h, const QueryFilter& filter, const ShapeGeometry& shape, Vec2d position,
+         double angle, Vec2d translation) -> py::object {
+        const auto hit = h->visit([&](auto& w) {
+          return cast_shape_closest(w, QueryShape(shape), position, angle, translation, filter);
+        });
+        if (!hit) return py::none();
+        py::dict found = hit_of(h, *hit);
+        found["fraction"] = hit->fraction, found["overlapped"] = hit->overlapped;
+        return found;
+      },
+      "First contact of a shape that moves by `translation`, m, or None.", arg("shape"), arg("position"),
+      arg("angle"), arg("translation"));
+  bind_query<const ShapeGeometry&, Vec2d, double>(
+      world, "overlap_shape",
+      [](const WorldPointer& h, const QueryFilter& filter, const ShapeGeometry& shape, Vec2d position,
+         double angle) {
+        std::vector<ShapeId> found;
+        h->visit([&](auto& w) { overlap_shape(w, QueryShape(shape), position, angle, filter, found); });
+        return handles(h, found);
+      },
+      "Shapes that overlap or touch a shape at a pose, m and rad.", arg("shape"), arg("position"),
+      arg("angle") = 0.0);
+  bind_query<Vec2d, Vec2d>(
+      world, "overlap_box",
+      [](const WorldPointer& h, const QueryFilter& filter, Vec2d lower, Vec2d upper) {
+        std::vector<ShapeId> found;
+        h->visit([&](auto& w) { overlap_box(w, Aabb<double>{lower, upper}, filter, found); });
+        return handles(h, found);
+      },
+      "Shapes that overlap or touch a box, m.", arg("lower"), arg("upper"));
+  bind_query<Vec2d>(
+      world, "shapes_at",
+      [](const WorldPointer& h, const QueryFilter& filter, Vec2d point) {
+        std::vector<ShapeId> found;
+        h->visit([&](auto& w) { shapes_at(w, point, filter, found); });
+        return handles(h, found);
+      },
+      "Shapes that contain a point, m.", arg("point"));
+  bind_query<Vec2d, double>(
+      world, "nearest",
+      [](const WorldPointer& h, const QueryFilter& filter, Vec2d point, double max_distance) -> py::object {
+        const auto hit = h->visit([&](auto& w) { return nearest(w, point, max_distance, filter); });
+        if (!hit) return py::none();
+        py::dict found = hit_of(h, *hit);
+        found["distance"] = hit->distance;
+        return found;
+      },
+      "The shape whose surface is nearest, within max_distance, m, or None.", arg("point"),
+      arg("max_distance"));
   world
-      .def(
-          "ray_cast",
-          [](const WorldPointer& h, Vec2d origin, Vec2d translation, std::optional<HeldBody> ignore,
-             std::uint64_t category, std::uint64_t mask, bool sensors) -> py::object {
-            const auto hit = h->visit([&](auto& w) {
-              return ray_cast_closest(w, origin, translation, filter_of(h, ignore, category, mask, sensors));
-            });
-            if (!hit) return py::none();
-            py::dict found = hit_of(h, *hit);
-            found["fraction"] = hit->fraction;
-            return found;
-          },
-          arg("origin"), arg("translation"), py::kw_only(), arg("ignore") = py::none(),
-          arg("category") = QueryFilter{}.category, arg("mask") = QueryFilter{}.mask, arg("sensors") = false,
-          "The closest hit of a ray (m) as a dict of shape, body, point, normal and fraction, or None.")
-      .def(
-          "ray_cast_all",
-          [](const WorldPointer& h, Vec2d origin, Vec2d translation) {
-            std::vector<RayResult> hits;
-            h->visit([&](auto& w) { ray_cast_all(w, origin, translation, {}, hits); });
-            py::list all;
-            for (const RayResult& hit : hits) {
-              py::dict found = hit_of(h, hit);
-              found["fraction"] = hit.fraction;
-              all.append(found);
-            }
-            return all;
-          },
-          arg("origin"), arg("translation"), "All hits of a ray, by fraction.")
       .def(
           "ray_casts",
           [](HeldWorld& h, const py::array_t<double, py::array::c_style | py::array::forcecast>& rays) {
@@ -75,57 +143,6 @@ void bind_queries(HeldWorldClass& world) {
           },
           arg("rays"),
           "Fractions at which rays hit, 1 for none: rays is (n, 4), origins and translations, m.")
-      .def(
-          "cast_shape",
-          [](const WorldPointer& h, const ShapeGeometry& shape, Vec2d position, double angle,
-             Vec2d translation, std::optional<HeldBody> ignore) -> py::object {
-            const auto hit = h->visit([&](auto& w) {
-              return cast_shape_closest(
-                  w, QueryShape(shape), position, angle, translation,
-                  filter_of(h, ignore, QueryFilter{}.category, QueryFilter{}.mask, false));
-            });
-            if (!hit) return py::none();
-            py::dict found = hit_of(h, *hit);
-            found["fraction"] = hit->fraction, found["overlapped"] = hit->overlapped;
-            return found;
-          },
-          arg("shape"), arg("position"), arg("angle"), arg("translation"), py::kw_only(),
-          arg("ignore") = py::none(), "First contact of a shape that moves by `translation`, m, or None.")
-      .def(
-          "overlap_shape",
-          [](const WorldPointer& h, const ShapeGeometry& shape, Vec2d position, double angle) {
-            std::vector<ShapeId> found;
-            h->visit([&](auto& w) { overlap_shape(w, QueryShape(shape), position, angle, {}, found); });
-            return handles(h, found);
-          },
-          arg("shape"), arg("position"), arg("angle") = 0.0)
-      .def(
-          "overlap_box",
-          [](const WorldPointer& h, Vec2d lower, Vec2d upper) {
-            std::vector<ShapeId> found;
-            h->visit([&](auto& w) { overlap_box(w, Aabb<double>{lower, upper}, {}, found); });
-            return handles(h, found);
-          },
-          arg("lower"), arg("upper"))
-      .def(
-          "shapes_at",
-          [](const WorldPointer& h, Vec2d point) {
-            std::vector<ShapeId> found;
-            h->visit([&](auto& w) { shapes_at(w, point, {}, found); });
-            return handles(h, found);
-          },
-          arg("point"))
-      .def(
-          "nearest",
-          [](const WorldPointer& h, Vec2d point, double max_distance) -> py::object {
-            const auto hit = h->visit([&](auto& w) { return nearest(w, point, max_distance); });
-            if (!hit) return py::none();
-            py::dict found = hit_of(h, *hit);
-            found["distance"] = hit->distance;
-            return found;
-          },
-          arg("point"), arg("max_distance"),
-          "The shape whose surface is nearest, within max_distance, m, or None.")
       .def(
           "move",
           [](const WorldPointer& h, const Capsule& capsule, Vec2d position, Vec2d velocity, double dt,

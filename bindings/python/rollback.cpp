@@ -39,8 +39,9 @@ void bind_rollback(py::module_& module) {
                            "The last states of a world in memory, for inputs that arrive late: go back, and "
                            "take the steps since then again. Keeps up to `frames` states, 1 to 10000.")
       .def(py::init<WorldPointer, int>(), arg("world"), arg("frames"))
-      .def("save", &HeldRollback::save,
-           "Saves the present state under its step count, instead of the oldest one if it is full.")
+      .def(
+          "save", [](HeldRollback& r) { r.save(); },
+          "Saves the present state under its step count, instead of the oldest one if it is full.")
       .def("back_to", &HeldRollback::back_to, arg("step"),
            "Restores the state after `step` steps, and drops later ones.")
       .def(

@@ -56,6 +56,18 @@ void bind_shapes(py::module_& module) {
             return h.world->visit([&](auto& w) { return contains(w, h.id, point); });
           },
           arg("point"), "True for a point of the world, m, in this shape.")
+      .def(
+          "distance",
+          [](const HeldShape& h, const HeldShape& other) {
+            const ShapeId to = id_in(h.world, other, "other");
+            const ShapeDistance d = h.world->visit([&](auto& w) { return distance(w, h.id, to); });
+            return py::dict(arg("distance") = d.distance, arg("point_a") = d.point_a,
+                            arg("point_b") = d.point_b, arg("normal") = d.normal);
+          },
+          arg("other"),
+          "Distance to another shape, m, negative: the least translation that separates them; a dict with "
+          "the "
+          "nearest points of this and the other one, and the normal from this to it.")
       .def_property_readonly("overlapping", PLUMB_READ(HeldShape, handles(h.world, w.overlapping(h.id))),
                              "Shapes in a sensor in the last step.")
       .def_property("friction", PLUMB_READ(HeldShape, w.material(h.id).friction),
@@ -68,6 +80,16 @@ void bind_shapes(py::module_& module) {
                     PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.surface_speed = value;
                               w.set_material(h.id, m)),
                     "m/s")
+      .def_property("rolling_resistance", PLUMB_READ(HeldShape, w.material(h.id).rolling_resistance),
+                    PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.rolling_resistance = value;
+                              w.set_material(h.id, m)))
+      .def_property_readonly(
+          "filter",
+          [](const HeldShape& h) {
+            const Filter f = h.world->visit([&](auto& w) { return w.filter(h.id); });
+            return py::make_tuple(f.category, f.mask, f.group);
+          },
+          "(category, mask, group), as set_filter sets them")
       .def(
           "set_filter",
           [](const HeldShape& h, std::uint64_t category, std::uint64_t mask, std::int32_t group) {
@@ -81,6 +103,7 @@ void bind_shapes(py::module_& module) {
 
   py::class_<HeldChain> chain(module, "Chain", "A chain of segments of a body.");
   chain.def_property_readonly("valid", PLUMB_READ(HeldChain, w.valid(h.id)))
+      .def_property_readonly("body", PLUMB_READ(HeldChain, (HeldBody{h.world, w.body(h.id)})))
       .def_property_readonly("segments", PLUMB_READ(HeldChain, handles(h.world, w.segments(h.id))))
       .def("destroy", [](const HeldChain& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
   bind_common(chain, "Chain");

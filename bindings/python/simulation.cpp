@@ -56,14 +56,14 @@ py::dict dict_of(const BodyState& s) {
 class Batch {
  public:
   Batch(const WorldPointer& world, int count, const std::vector<HeldBody>& bodies, int threads)
-      : threads_(std::max(1, threads)) {
-    if (count < 1)
-      throw Error(Error::Kind::Value, "batch", "count", std::to_string(count), "must be 1 or more");
+      : threads_(threads) {
+    require_count("batch", "count", count, 1), require_count("batch", "threads", threads, 1);
     world->visit([&](auto& w) { initial_ = save(w); });
     for (const HeldBody& body : bodies) {
       if (body.world != world)
         throw Error(Error::Kind::Name, "batch", "bodies", std::to_string(body.id.index),
                     "is of another world");
+      world->visit([&](auto& w) { w.position(body.id); });  // throws for the handle of a destroyed body
       ids_.push_back(body.id);
     }
     for (int i = 0; i < count; ++i) {
@@ -76,7 +76,11 @@ class Batch {
   }
 
   int size() const { return static_cast<int>(worlds_.size()); }
-  WorldPointer world(int index) const { return worlds_.at(static_cast<std::size_t>(index)); }
+  WorldPointer world(int index) const {
+    if (index >= 0 && index < size()) return worlds_[static_cast<std::size_t>(index)];
+    throw Error(Error::Kind::Name, "batch", "index", std::to_string(index),
+                "the batch has " + std::to_string(size()) + " worlds, from 0");
+  }
   std::vector<std::uint64_t> hashes() const {
     std::vector<std::uint64_t> all;
     for (const WorldPointer& world : worlds_) all.push_back(world->visit([](auto& w) { return w.hash(); }));
@@ -85,6 +89,7 @@ class Batch {
 
   using Actions = py::array_t<double, py::array::c_style | py::array::forcecast>;
   py::array_t<double> step(const std::optional<Actions>& actions, double dt, int substeps, int count) {
+    require_count("batch", "count", count, 0);
     const std::size_t width = 3 * ids_.size();
     if (actions && (actions->ndim() != 3 || actions->shape(0) != size() ||
                     actions->shape(1) != static_cast<py::ssize_t>(ids_.size()) || actions->shape(2) != 3)) {
@@ -305,15 +310,16 @@ void bind_simulation(py::module_& module) {
                     "`threads` share the worlds.")
       .def(py::init<const WorldPointer&, int, const std::vector<HeldBody>&, int>(), arg("world"),
            arg("count"), arg("bodies"), py::kw_only(), arg("threads") = 1)
-      .def("__len__", &Batch::size)
+      .def("__len__", [](const Batch& b) { return b.size(); })
       .def("world", &Batch::world, arg("index"))
-      .def("hashes", &Batch::hashes)
+      .def("hashes", [](const Batch& b) { return b.hashes(); })
       .def("step", &Batch::step, arg("actions") = py::none(), py::kw_only(), arg("dt") = 1.0 / 60,
            arg("substeps") = 4, arg("count") = 1,
            "Applies actions, (worlds, bodies, 3): force (N) and torque (N m), in each of `count` steps; "
            "returns `observe()`.")
-      .def("observe", &Batch::observe,
-           "(worlds, bodies, 6): x, y (m), angle (rad), velocity (m/s), angular velocity (rad/s).")
+      .def(
+          "observe", [](const Batch& b) { return b.observe(); },
+          "(worlds, bodies, 6): x, y (m), angle (rad), velocity (m/s), angular velocity (rad/s).")
       .def("reset", &Batch::reset, arg("which") = py::none(),
            "Takes all worlds, or those of a mask, back to the start.");
 

@@ -12,6 +12,7 @@ namespace plumb::python {
 namespace {
 
 using py::arg;
+constexpr const char* kTrueOrFalse = "True or False";
 using Shapes = std::variant<std::monostate, ShapeDefinition, ShapeGeometry,
                             std::vector<std::variant<ShapeDefinition, ShapeGeometry>>>;
 
@@ -118,6 +119,7 @@ void bind_world(py::module_& module) {
       .def(
           "step",
           [](HeldWorld& h, double dt, int substeps, int count) {
+            require_count("step", "count", count, 0);
             h.visit([&](auto& w) {
               const py::gil_scoped_release released;
               for (int i = 0; i < count; ++i) w.step(dt, substeps);
@@ -252,13 +254,14 @@ void bind_world(py::module_& module) {
           "woke (bodies).")
       .def(
           "on_pre_solve",
-          [](HeldWorld& h, std::optional<std::function<bool(py::dict)>> hook) {
+          [](HeldWorld& h, std::optional<std::function<py::object(py::dict)>> hook) {
             const std::weak_ptr<HeldWorld> world = h.weak_from_this();
             h.visit([&](auto& w) {
               if (!hook) return w.on_pre_solve({});
               w.on_pre_solve([hook = *hook, world](const ContactReading& c) {
                 const py::gil_scoped_acquire held;
-                return hook(reading_of(world.lock(), c));
+                return returned<bool>(hook(reading_of(world.lock(), c)), "the hook of on_pre_solve",
+                                      kTrueOrFalse);
               });
             });
           },
@@ -266,14 +269,15 @@ void bind_world(py::module_& module) {
           "Calls hook(contact) for contacts of shapes with pre_solve; False disables one in this step.")
       .def(
           "on_filter",
-          [](HeldWorld& h, std::optional<std::function<bool(HeldShape, HeldShape)>> filter) {
+          [](HeldWorld& h, std::optional<std::function<py::object(HeldShape, HeldShape)>> filter) {
             const std::weak_ptr<HeldWorld> world = h.weak_from_this();
             h.visit([&](auto& w) {
               if (!filter) return w.on_filter({});
               w.on_filter([filter = *filter, world](ShapeId a, ShapeId b) {
                 const py::gil_scoped_acquire held;
                 const WorldPointer own = world.lock();
-                return filter(HeldShape{own, a}, HeldShape{own, b});
+                return returned<bool>(filter(HeldShape{own, a}, HeldShape{own, b}), "the filter of on_filter",
+                                      kTrueOrFalse);
               });
             });
           },

@@ -35,8 +35,8 @@ class Check {
       refuse(field, 0, "must not be zero: a direction is wanted");
   }
   template <class T>
-  void operator()(const std::string& field, const T& value, const FieldRule&) const {
-    inner_fields(value, FieldRule{}, [&](const char* name, double number, const FieldRule& rule) {
+  void operator()(const std::string& field, const T& value, const FieldRule& joint_rule) const {
+    inner_fields(value, joint_rule, [&](const char* name, double number, const FieldRule& rule) {
       if (number != rule.none) (*this)(field + "." + name, number, rule);
     });
     if constexpr (std::is_same_v<T, Range>) {
@@ -51,8 +51,6 @@ class Check {
 
   // Rules of one kind.
   void whole(const DistanceDefinition& rod) const {
-    if (rod.range && rod.range->upper < 0)
-      refuse("range.upper", rod.range->upper, "must not be negative: a distance never is");
     if (rod.motor && !rod.spring && !rod.range)
       refuse("motor.speed", rod.motor->speed,
              "has nothing to move: a rod's length is fixed; give a spring or a range");

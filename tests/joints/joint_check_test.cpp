@@ -45,7 +45,10 @@ TEST(JointCheck, Distance) {
   expect_refused(DistanceDefinition{.spring = Spring{1, -1}}, subject, "spring.damping_ratio");
   expect_refused(DistanceDefinition{.range = Range{2, 1}}, subject, "range.lower");
   expect_refused(DistanceDefinition{.range = Range{kNaN, 1}}, subject, "range.lower");
-  expect_refused(DistanceDefinition{.range = Range{-2, -1}}, subject, "range.upper");
+  expect_refused(DistanceDefinition{.range = Range{-2, -1}}, subject, "range.lower");
+  expect_refused(DistanceDefinition{.range = Range{-1, 1}}, subject, "range.lower");
+  expect_refused(DistanceDefinition{.range = Range{.upper = -1}}, subject, "range.upper");
+  EXPECT_NO_THROW(validate(DistanceDefinition{.range = Range{.upper = 1}}));  // a rope
   expect_refused(DistanceDefinition{.range = Range{kInfinity, kInfinity}}, subject, "range.lower");
   expect_refused(DistanceDefinition{.range = Range{}, .motor = Motor{1, -1}}, subject, "motor.max_force");
   expect_refused(DistanceDefinition{.motor = Motor{1, 1}}, subject, "motor.speed");  // along a rod

@@ -79,6 +79,34 @@ TEST(QueriesUse, RefuseWhatIsNotANumberAndWhatIsGone) {
   EXPECT_THROW(distance(world, a, b), Error);
 }
 
+// Ignoring what is gone would ignore nothing, or the body that has its index now.
+TEST(QueriesUse, RefuseToIgnoreABodyThatIsGone) {
+  World world;
+  const BodyId gone = world.create_body({});
+  world.destroy(gone);
+  world.create_body({}, ShapeDefinition{.geometry = Circle{0.5}});
+  const QueryFilter filter{.ignore = gone}, none{.ignore = BodyId{}};
+  std::vector<RayResult> hits;
+  std::vector<ShapeId> found;
+  const QueryShape disc = Circle{0.5};
+  const Aabb<double> box{{-1, -1}, {1, 1}};
+  const auto visit = [](ShapeId) { return true; };
+  EXPECT_THROW(ray_cast_closest(world, {-5, 0}, {9, 0}, filter), Error);
+  EXPECT_THROW(ray_cast(world, {-5, 0}, {9, 0}, filter, [](const RayResult&) { return 1.0; }), Error);
+  EXPECT_THROW(ray_cast_all(world, {-5, 0}, {9, 0}, filter, hits), Error);
+  EXPECT_THROW(cast_shape_closest(world, disc, {-5, 0}, 0, {9, 0}, filter), Error);
+  EXPECT_THROW(cast_shape(world, disc, {}, 0, {9, 0}, filter, [](const CastShapeResult&) { return 1.0; }),
+               Error);
+  EXPECT_THROW(overlap_shape(world, disc, {}, 0, filter, visit), Error);
+  EXPECT_THROW(overlap_shape(world, disc, {}, 0, filter, found), Error);
+  EXPECT_THROW(overlap_box(world, box, filter, visit), Error);
+  EXPECT_THROW(overlap_box(world, box, filter, found), Error);
+  EXPECT_THROW(shapes_at(world, {}, filter, visit), Error);
+  EXPECT_THROW(shapes_at(world, {}, filter, found), Error);
+  EXPECT_THROW(nearest(world, {}, 1, filter), Error);
+  EXPECT_TRUE(ray_cast_closest(world, {-5, 0}, {9, 0}, none).has_value());
+}
+
 TEST(QueriesUse, AllocateNothing) {
   Crowd<float> crowd(7, {});
   const QueryShape shape = Polygon{{{-1, 0}, {1, 0}, {0, 1}}, 0.2};

@@ -29,6 +29,7 @@ void explode(BasicWorld<Real>& world, const Blast& blast, const ExplosionOptions
   require_positive("explosion", "radius", blast.radius);
   require_finite("explosion", "impulse", blast.impulse);
   WorldData<Real>& w = unlocked_with_masses(world);
+  if (options.occlusion && options.cover.ignore != BodyId{}) world.position(options.cover.ignore);
   const Lock<Real> lock(w, options.occlusion && options.cover.condition.asks());
   WrenchList list;
   for_each_law_body(w, true, [&](int body) {

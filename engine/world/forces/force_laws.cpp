@@ -1,6 +1,7 @@
 #include "engine/world/force_laws.h"
 
 #include <cmath>
+#include <string>
 
 #include "engine/forces/fluid_drag.h"
 #include "engine/scene/error.h"
@@ -144,6 +145,10 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
   require_not_negative("spring", "rest_length", spring.rest_length);
   require_finite("spring", "point_a", point_a);
   require_finite("spring", "point_b", point_b);
+  if (a == b) {
+    throw Error(Error::Kind::Value, "spring", "b", std::to_string(b.index),
+                "must be another body than a: a spring pulls two ends");
+  }
   require_positive("spring", "dt", dt);
   WorldData<Real>& w = unlocked_with_masses(world);
   const Vec2d end_a = world.world_point(a, point_a), end_b = world.world_point(b, point_b);

@@ -27,6 +27,12 @@ void check(const char* query, const char* field, double v) {
   if (!is_finite(v)) require_finite(query, field, v);
 }
 
+// Throws for a filter that ignores a body which is gone: it would consider the one that has its index now.
+template <class Real>
+void check(const BasicWorld<Real>& world, const QueryFilter& filter) {
+  if (filter.ignore != BodyId{}) world.position(filter.ignore);
+}
+
 double l1_norm(Vec2d v) { return std::abs(v.x) + std::abs(v.y); }
 
 template <class Real>
@@ -263,6 +269,7 @@ template <class Real>
 std::optional<RayResult> ray_cast_closest(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation,
                                           const QueryFilter& filter) {
   Closest<RayResult> closest;
+  check(world, filter);
   const Lock<Real> lock(world.data(), filter.condition.asks());
   visit_ray(world.data(), origin, translation, filter, closest);
   return closest.best;
@@ -271,6 +278,7 @@ std::optional<RayResult> ray_cast_closest(const BasicWorld<Real>& world, Vec2d o
 template <class Real>
 void ray_cast(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation, const QueryFilter& filter,
               VisitRay visit) {
+  check(world, filter);
   const Lock<Real> lock(world.data());
   visit_ray(world.data(), origin, translation, filter, visit);
 }
@@ -279,6 +287,7 @@ template <class Real>
 void ray_cast_all(const BasicWorld<Real>& world, Vec2d origin, Vec2d translation, const QueryFilter& filter,
                   std::vector<RayResult>& hits) {
   hits.clear();
+  check(world, filter);
   const Lock<Real> lock(world.data(), filter.condition.asks());
   visit_ray(world.data(), origin, translation, filter, [&](const RayResult& hit) {
     hits.push_back(hit);
@@ -294,6 +303,7 @@ std::optional<CastShapeResult> cast_shape_closest(const BasicWorld<Real>& world,
                                                   Vec2d position, double angle, Vec2d translation,
                                                   const QueryFilter& filter) {
   Closest<CastShapeResult> closest;
+  check(world, filter);
   const Lock<Real> lock(world.data(), filter.condition.asks());
   visit_cast(world.data(), shape, position, angle, translation, filter, closest);
   return closest.best;
@@ -302,6 +312,7 @@ std::optional<CastShapeResult> cast_shape_closest(const BasicWorld<Real>& world,
 template <class Real>
 void cast_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                 Vec2d translation, const QueryFilter& filter, VisitCast visit) {
+  check(world, filter);
   const Lock<Real> lock(world.data());
   visit_cast(world.data(), shape, position, angle, translation, filter, visit);
 }
@@ -309,6 +320,7 @@ void cast_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d po
 template <class Real>
 void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                    const QueryFilter& filter, VisitShape visit) {
+  check(world, filter);
   const Lock<Real> lock(world.data());
   visit_overlaps(world.data(), shape, position, angle, filter, visit);
 }
@@ -316,6 +328,7 @@ void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d
 template <class Real>
 void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d position, double angle,
                    const QueryFilter& filter, std::vector<ShapeId>& found) {
+  check(world, filter);
   const Lock<Real> lock(world.data(), filter.condition.asks());
   collect(found,
           [&](VisitShape visit) { visit_overlaps(world.data(), shape, position, angle, filter, visit); });
@@ -324,6 +337,7 @@ void overlap_shape(const BasicWorld<Real>& world, const QueryShape& shape, Vec2d
 template <class Real>
 void overlap_box(const BasicWorld<Real>& world, const Aabb<double>& box, const QueryFilter& filter,
                  VisitShape visit) {
+  check(world, filter);
   const Lock<Real> lock(world.data());
   visit_overlaps(world.data(), box, filter, visit);
 }
@@ -331,12 +345,14 @@ void overlap_box(const BasicWorld<Real>& world, const Aabb<double>& box, const Q
 template <class Real>
 void overlap_box(const BasicWorld<Real>& world, const Aabb<double>& box, const QueryFilter& filter,
                  std::vector<ShapeId>& found) {
+  check(world, filter);
   const Lock<Real> lock(world.data(), filter.condition.asks());
   collect(found, [&](VisitShape visit) { visit_overlaps(world.data(), box, filter, visit); });
 }
 
 template <class Real>
 void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& filter, VisitShape visit) {
+  check(world, filter);
   const Lock<Real> lock(world.data());
   visit_shapes_at(world.data(), point, filter, visit);
 }
@@ -344,6 +360,7 @@ void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& fi
 template <class Real>
 void shapes_at(const BasicWorld<Real>& world, Vec2d point, const QueryFilter& filter,
                std::vector<ShapeId>& found) {
+  check(world, filter);
   const Lock<Real> lock(world.data(), filter.condition.asks());
   collect(found, [&](VisitShape visit) { visit_shapes_at(world.data(), point, filter, visit); });
 }
@@ -354,6 +371,7 @@ std::optional<NearestResult> nearest(const BasicWorld<Real>& world, Vec2d point,
   check("nearest", "point", point);
   if (!(max_distance >= 0)) require_not_negative("nearest", "max_distance", max_distance);
   const WorldData<Real>& w = world.data();
+  check(world, filter);
   const Lock<Real> lock(w, filter.condition.asks());
   double limit = std::min(max_distance, 4 * kLargestNumber);  // no shape is farther away
   const double margin = rounding_margin(w, l1_norm(point));

@@ -67,7 +67,7 @@ struct QueryFilter {
   std::uint64_t category = ~std::uint64_t{0};  ///< categories of the query
   std::uint64_t mask = ~std::uint64_t{0};      ///< categories that it considers
   bool sensors = false;                        ///< true: includes sensors
-  BodyId ignore{};                             ///< a body to skip
+  BodyId ignore{};                             ///< a body to skip; default-constructed: none
   /// Tested last. It must not change the world: such calls throw during the query.
   ShapeCondition condition{};
 };

@@ -104,6 +104,65 @@ TEST_F(C, NamesWhatIsWrongWithAValue) {
   EXPECT_STREQ(plumb_last_error().message, "");
 }
 
+TEST_F(C, RefusesNullsWhereItWouldWrite) {
+  plumb_ray_hit hit;
+  const plumb_geometry circle = plumb_circle(0.5);
+  const auto refused = [](auto found) {
+    const bool named = plumb_last_error().status == PLUMB_VALUE &&
+                       std::string(plumb_last_error().message).find("NULL") != std::string::npos;
+    plumb_clear_error();
+    return !found && named;
+  };
+  // Asks an empty world first, and then one with a box.
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(refused(plumb_ray_cast_closest(world, {-5, 0}, {9, 0}, nullptr, nullptr))) << i;
+    EXPECT_TRUE(refused(plumb_cast_shape_closest(world, &circle, {{-5, 0}, 0}, {9, 0}, nullptr, nullptr)))
+        << i;
+    EXPECT_TRUE(refused(plumb_nearest(world, {0, 5}, 9, nullptr, nullptr))) << i;
+    EXPECT_TRUE(refused(plumb_world_svg(world, nullptr, 100, nullptr, 5))) << i;
+    EXPECT_GT(plumb_world_svg(world, nullptr, 100, nullptr, 0), 0u) << "asks for the size";
+    box(PLUMB_DYNAMIC, {0, 0}, 1, 1);
+  }
+  EXPECT_TRUE(plumb_ray_cast_closest(world, {-5, 0}, {9, 0}, nullptr, &hit));
+  EXPECT_EQ(plumb_last_error().status, PLUMB_OK);
+}
+
+TEST_F(C, RefusesStaleBodiesToIgnoreAndUnknownKindsOfJoints) {
+  const plumb_body body = box(PLUMB_DYNAMIC, {0, 0}, 1, 1);
+  ASSERT_EQ(plumb_body_destroy(world, body), PLUMB_OK);
+  box(PLUMB_DYNAMIC, {0, 0}, 1, 1);  // takes its index
+  plumb_query_filter filter = plumb_default_query_filter();
+  filter.ignore = body;
+  plumb_ray_hit hit;
+  plumb_nearest_hit near;
+  const plumb_geometry circle = plumb_circle(0.5);
+  const auto refused = [](auto found) {
+    const bool named = plumb_last_error().status == PLUMB_NAME;
+    plumb_clear_error();
+    return !found && named;
+  };
+  EXPECT_TRUE(refused(plumb_ray_cast_closest(world, {-5, 0}, {9, 0}, &filter, &hit)));
+  EXPECT_TRUE(refused(plumb_ray_cast_all(world, {-5, 0}, {9, 0}, &filter, &hit, 1)));
+  EXPECT_TRUE(refused(plumb_overlap_shape(world, &circle, {{0, 0}, 0}, &filter, nullptr, 0)));
+  EXPECT_TRUE(refused(plumb_overlap_box(world, {-1, -1}, {1, 1}, &filter, nullptr, 0)));
+  EXPECT_TRUE(refused(plumb_shapes_at(world, {0, 0}, &filter, nullptr, 0)));
+  EXPECT_TRUE(refused(plumb_nearest(world, {0, 5}, 9, &filter, &near)));
+  plumb_mover_options options = plumb_default_mover();
+  options.filter = filter;
+  const plumb_geometry capsule = plumb_capsule({0, 0.3}, {0, 1}, 0.3);
+  EXPECT_TRUE(refused(plumb_move(world, &capsule, {3, 0}, {1, 0}, kDt, &options, nullptr, 0).on_ground));
+  plumb_blast blast = plumb_default_blast();
+  blast.occlusion = true, blast.cover.ignore = body;
+  EXPECT_EQ(plumb_world_explode(world, &blast), PLUMB_NAME);
+  plumb_clear_error();
+
+  plumb_default_joint(static_cast<plumb_joint_kind>(13));
+  EXPECT_EQ(plumb_last_error().status, PLUMB_VALUE);
+  EXPECT_STREQ(plumb_last_error().field, "kind");
+  EXPECT_STREQ(plumb_last_error().value, "13");
+  plumb_clear_error();
+}
+
 TEST_F(C, RefusesNullsDeadHandlesAndNumbersThatAreNoEnumerators) {
   EXPECT_EQ(plumb_world_step(nullptr, kDt, 4), PLUMB_VALUE);
   EXPECT_THAT(plumb_last_error().message, HasSubstr("world"));

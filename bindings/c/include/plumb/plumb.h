@@ -648,7 +648,8 @@ typedef struct plumb_distance_result {
 typedef double (*plumb_ray_visitor)(const plumb_ray_hit* hit, void* context);
 typedef double (*plumb_cast_visitor)(const plumb_cast_hit* hit, void* context);
 
-/* `filter` may be NULL. Functions that return bool say that something was found, and then fill `hit`. */
+/* `filter` may be NULL, `hit` may not. Functions that return bool say that something was found, and then fill
+ * `hit`. */
 PLUMB_API bool plumb_ray_cast_closest(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
                                       const plumb_query_filter* filter, plumb_ray_hit* hit);
 PLUMB_API plumb_status plumb_ray_cast(const plumb_world* world, plumb_vec2 origin, plumb_vec2 translation,
