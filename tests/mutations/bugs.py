@@ -253,7 +253,7 @@ MUTATIONS = [
              "- tangent_mass * (pair.tangent_velocity(c) - c.surface_speed)",
              "- tangent_mass * (pair.tangent_velocity(c) + c.surface_speed)", "world"),
     Mutation("world: restitution squared", "engine/world/continuous/rebound.cpp",
-             "fast ? -double(c.restitution)", "fast ? -double(c.restitution * c.restitution)", "world"),
+             "fast ? -double(effective_restitution(c))", "fast ? -double(c.restitution * c.restitution)", "world"),
     Mutation("world: a slip that friction turns round goes on", "engine/world/contact_solver/contact_impact.cpp",
              "violation = std::max(violation, -slip * rows_.after(2, found));", "", "world", ("world/frictional_impacts",)),
     Mutation("world: a body is not seen coming in its first step", "engine/world/step/pairs.cpp",

@@ -59,7 +59,7 @@ FEATURES = [
     # Materials.
     feature("Friction", WORLD + "contact_solver/contact_passes.h", "max_friction = c.friction * normal_sum(c);", "max_friction = normal_sum(c) / 2;",
             "world/contacts"),
-    feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = c.restitution * impact_speed;", "rebound = impact_speed;",
+    feature("Restitution", WORLD + "contact_solver/restitution_contacts.cpp", "rebound = effective_restitution(c) * impact_speed;", "rebound = impact_speed;",
             "world/restitution"),
     feature("Rolling resistance", WORLD + "state/contact_setup.cpp",
             "std::max(a.rolling_resistance, b.rolling_resistance)", "std::min(a.rolling_resistance, b.rolling_resistance)",

@@ -63,7 +63,8 @@ struct ContactConstraint {
   Real recycle_budget = 0;          ///< m, relative motion left until the manifold is rebuilt
   int contact = 0;                  ///< index of its record
   std::uint16_t features[2] = {};
-  std::uint8_t locks = 0;  ///< locked axes of the bodies (locked_axes.h); 0 if a body has both locked
+  /// Locked axes of the bodies (locked_axes.h), none if a body has both locked, and what they do to friction.
+  std::uint8_t locks = 0;
 };
 
 /// Returns true if a contact has had a normal impulse in the step, as far as the motion depends on it. A

@@ -67,6 +67,23 @@ struct ContactPair {
     apply((first + second) * c.normal, first * c.arm_a[0] + second * c.arm_a[1],
           first * c.arm_b[0] + second * c.arm_b[1]);
   }
+  /// Sets and applies impulses that nearly cancel along the bodies' free axes: only their sums are rounded.
+  void apply_unrounded(const double (&normal)[2], double friction) {
+    for (int i = 0; i < 2; ++i) c.normal_impulse[i] = static_cast<Real>(normal[i]);
+    c.tangent_impulse = static_cast<Real>(friction);
+    const Vec2d n = c.normal.template as<double>(), t{n.y, -n.x},
+                impulse = (normal[0] + normal[1]) * n + friction * t;
+    const auto change = [&](SolverBody<Real>& body, Vec2d by, const Real(&arm)[2], double arm_tangent,
+                            double sign) {
+      const double angular = normal[0] * double(arm[0]) + normal[1] * double(arm[1]) + friction * arm_tangent;
+      body.velocity =
+          (body.velocity.template as<double>() + (sign * double(body.inverse_mass)) * by).template as<Real>();
+      body.angular_velocity =
+          static_cast<Real>(double(body.angular_velocity) + sign * double(body.inverse_inertia) * angular);
+    };
+    change(a, free_of_a(impulse, c.locks), c.arm_a, double(c.arm_tangent_a), -1);
+    change(b, free_of_b(impulse, c.locks), c.arm_b, double(c.arm_tangent_b), 1);
+  }
   /// Returns the total friction impulse with which the contact would stick.
   Real sticking_impulse() const { return c.tangent_impulse - c.tangent_mass * slip_velocity(); }
   Real sticking_torque() const {

@@ -142,7 +142,7 @@ void predict_impacts(const SolverBody<Real>* motion, RestitutionContact<Real>& b
     // before and after.
     const bool scheduled = start == 0 && bounce.has_impact[i];
     predicted.time[i] = std::max(s / closing_speed, start);
-    predicted.target[i] = scheduled ? bounce.end_speed[i] : c.restitution * closing_speed;
+    predicted.target[i] = scheduled ? bounce.end_speed[i] : effective_restitution(c) * closing_speed;
     predicted.velocity_before[i] = -closing_speed;
   }
 }

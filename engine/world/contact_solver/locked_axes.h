@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/solver_body.h"
 
@@ -9,7 +11,14 @@
 namespace plumb {
 
 /// Bits of ContactConstraint::locks.
-enum ContactLock : unsigned { kLockAX = 1, kLockAY = 2, kLockBX = 4, kLockBY = 8 };
+enum ContactLock : unsigned {
+  kLockAX = 1,
+  kLockAY = 2,
+  kLockBX = 4,
+  kLockBY = 8,
+  kOneFreedom = 16,  ///< the normal's row has what friction does (`update_friction_row`)
+  kJams = 32         ///< they depend on each other, and friction permits no sliding
+};
 
 /// Returns a direction without the components along the locked axes of body a, or of body b.
 template <class Vec>
@@ -34,6 +43,10 @@ Number linear_response(const SolverBody<Real>& a, const SolverBody<Real>& b, uns
          Number(b.inverse_mass) * dot(free_of_b(row, locks), direction);
 }
 
+/// Mobility, as a fraction of the largest, up to which a row is blocked or two rows depend on each other: a
+/// thousandth of a radian, squared. The rest is mostly rounding of the rows' directions.
+inline constexpr double kDependentRows = 1e-6;
+
 /// Returns the mobility, 1/kg, up to which locked axes block a row, given the squares of the arms of
 /// its point: a millionth of the largest of any row there. The row is then a thousandth of a radian or less
 /// off what is locked, and the rest is mostly rounding of its direction. Its impulse would be up to the
@@ -41,8 +54,54 @@ Number linear_response(const SolverBody<Real>& a, const SolverBody<Real>& b, uns
 template <class Real>
 Real least_mobility(const SolverBody<Real>& a, const SolverBody<Real>& b, Real arm_a_squared,
                     Real arm_b_squared) {
-  return Real(1e-6) * (a.inverse_mass + b.inverse_mass + a.inverse_inertia * arm_a_squared +
-                       b.inverse_inertia * arm_b_squared);
+  return Real(kDependentRows) * (a.inverse_mass + b.inverse_mass + a.inverse_inertia * arm_a_squared +
+                                 b.inverse_inertia * arm_b_squared);
+}
+
+/// Returns the mobility between a contact's normal and tangent, 1/kg: the relative velocity along one that a
+/// unit impulse along the other gives, at a point with the arm `arm_a` and `arm_b` along n.
+template <class Real>
+Real friction_coupling(const SolverBody<Real>& a, const SolverBody<Real>& b, const ContactConstraint<Real>& c,
+                       Real arm_a, Real arm_b) {
+  const Vec2<Real> n = c.normal, t{n.y, -n.x};
+  return linear_response(a, b, c.locks, n, t, false) + a.inverse_inertia * arm_a * c.arm_tangent_a +
+         b.inverse_inertia * arm_b * c.arm_tangent_b;
+}
+
+/// Returns true if impulses move a body, or nothing does.
+template <class Real>
+bool moves_by_impulses_alone(const SolverBody<Real>& body) {
+  return is_dynamic(body) || (body.velocity == Vec2<Real>{} && body.angular_velocity == 0);
+}
+
+/// Sets the friction row of a contact, or removes it if the bodies have only one freedom relative to each
+/// other, as a bead on a rail has. Normal and friction then act along the same line of it: a body that the
+/// normal has stopped does not slide, so friction has nothing left to do but to hold it when it would
+/// rebound. If the cone of friction contains the direction that is blocked, the body jams (Painleve) and does
+/// not rebound. Both rows together would depend on each other: only their difference acts, while the impulses
+/// grow without a bound. Against a body that moves as told, the rows have different velocities: both are
+/// kept. `k_n`, `k_t`: mobilities along normal and tangent, 1/kg, 0 if blocked.
+template <class Real>
+void update_friction_row(const SolverBody<Real>& a, const SolverBody<Real>& b, Real k_n, Real k_t,
+                         ContactConstraint<Real>& c) {
+  c.tangent_mass = k_t > 0 ? 1 / k_t : Real(0);
+  unsigned locks = c.locks & (kLockAX | kLockAY | kLockBX | kLockBY);
+  c.locks = static_cast<std::uint8_t>(locks);
+  if (!(k_n > 0 && k_t > 0)) return;
+  const Real k_nt = friction_coupling(a, b, c, c.arm_a[0], c.arm_b[0]);
+  if (k_n * k_t - k_nt * k_nt > Real(kDependentRows) * k_n * k_t) return;
+  if (moves_by_impulses_alone(a) && moves_by_impulses_alone(b) && c.surface_speed == 0) {
+    c.tangent_mass = c.tangent_impulse = 0;
+    locks |= kOneFreedom;
+  }
+  if (c.friction * k_t >= std::abs(k_nt)) locks |= kJams;
+  c.locks = static_cast<std::uint8_t>(locks);
+}
+
+/// Returns the coefficient of restitution of a contact as it is: a jammed one does not rebound.
+template <class Real>
+Real effective_restitution(const ContactConstraint<Real>& c) {
+  return (c.locks & kJams) != 0 ? Real(0) : c.restitution;
 }
 
 /// The axes of the bodies of a contact without locks: all are free.

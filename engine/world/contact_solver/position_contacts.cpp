@@ -41,7 +41,7 @@ void solve_normal_velocities(SolverBody<Real>* motion, ContactConstraint<Real>& 
   for (int i = 0; i < c.count; ++i) {
     const bool bounced = bounces(c, i, step);
     active[i] = c.normal_impulse[i] > 0 && (all || bounced || pair.normal_velocity(i) < 0);
-    if (bounced) target[i] = -c.restitution * c.approach[i];
+    if (bounced) target[i] = -effective_restitution(c) * c.approach[i];
   }
   pair.solve_normal_block(target, active[0], active[1]);
   pair.record_max_impulse();

@@ -33,13 +33,15 @@ template <class Real>
 void update_masses(const SolverBody<Real>& a, const SolverBody<Real>& b, ContactConstraint<Real>& c) {
   const Real least =
       least_mobility(a, b, c.arm_tangent_a * c.arm_tangent_a, c.arm_tangent_b * c.arm_tangent_b);
-  const auto mass = [&](Vec2<Real> row, Real arm_a, Real arm_b) {
-    const Real inverse = linear_response(a, b, c.locks, row, row, true) + a.inverse_inertia * arm_a * arm_a +
-                         b.inverse_inertia * arm_b * arm_b;
-    return inverse > least ? 1 / inverse : Real(0);
+  const auto mobility = [&](Vec2<Real> row, Real arm_a, Real arm_b) {
+    const Real k = linear_response(a, b, c.locks, row, row, true) + a.inverse_inertia * arm_a * arm_a +
+                   b.inverse_inertia * arm_b * arm_b;
+    return k > least ? k : Real(0);
   };
-  c.mass[0] = c.inverse_pp = mass(c.normal, c.arm_a[0], c.arm_b[0]);
-  c.tangent_mass = mass({c.normal.y, -c.normal.x}, c.arm_tangent_a, c.arm_tangent_b);
+  const Real k_n = mobility(c.normal, c.arm_a[0], c.arm_b[0]),
+             k_t = mobility({c.normal.y, -c.normal.x}, c.arm_tangent_a, c.arm_tangent_b);
+  c.mass[0] = c.inverse_pp = k_n > 0 ? 1 / k_n : Real(0);
+  update_friction_row(a, b, k_n, k_t, c);
 }
 
 }  // namespace
@@ -113,7 +115,7 @@ bool schedule_impacts(const SolverBody<Real>* motion, std::span<RestitutionConta
       if (bounce.radius_sum > 0 && c.tracking != ImpactTracking::Off) record_approach(c, i, -impact_speed);
       const Real time_left =
           u + impact_speed > 0 ? std::max(h - 2 * s / (u + impact_speed), Real(0)) : Real(0);
-      const Real rebound = c.restitution * impact_speed;
+      const Real rebound = effective_restitution(c) * impact_speed;
       bounce.end_speed[i] = std::max(rebound - a * time_left, Real(0));
     }
     bounce.impact_pending = bounce.impact_pending && !touches;

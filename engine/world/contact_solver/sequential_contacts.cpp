@@ -16,7 +16,7 @@ Real min_normal_velocity(const ContactPair<Real>& pair, int i, const SequentialS
   const Real target = -std::max(s, Real(0)) * step.inverse_h;
   const bool arrives =
       c.restitution > 0 && c.approach[i] < -step.bounce_threshold && s + step.h * c.approach[i] < 0;
-  return arrives ? std::max(target, -c.restitution * c.approach[i]) : target;
+  return arrives ? std::max(target, -effective_restitution(c) * c.approach[i]) : target;
 }
 
 template <class Real>

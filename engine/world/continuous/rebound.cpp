@@ -126,8 +126,8 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   fast = fast && may_bounce;
   double target_rate[2] = {};
   for (int i = 0; i < c.count; ++i) {
-    target_rate[i] =
-        std::max(fast ? -double(c.restitution) * double(c.approach[i]) : 0, speed_above_rounding(w, c, i));
+    target_rate[i] = std::max(fast ? -double(effective_restitution(c)) * double(c.approach[i]) : 0,
+                              speed_above_rounding(w, c, i));
     if (closed[i] || !(remaining_time > 0)) continue;
     // The point may close its gap in the time left, but no more.
     target_rate[i] = -double(c.separation[i]) / double(remaining_time);
@@ -138,9 +138,14 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
              friction = static_cast<Real>(impulses.friction);
   if (!std::isfinite(first) || !std::isfinite(second) || !std::isfinite(friction))
     return ImpactResponse::None;
+  if (impulses.jammed && !(first > 0 || second > 0)) return ImpactResponse::None;
   c.tangent_impulse = c.rolling_impulse = 0;
-  pair.apply_normal(first, second);
-  pair.set_friction(friction);
+  if (impulses.jammed) {
+    pair.apply_unrounded(impulses.normal, impulses.friction);
+  } else {
+    pair.apply_normal(first, second);
+    pair.set_friction(friction);
+  }
   pair.solve_rolling();
   c.tracking = ImpactTracking::Motion;
   pair.record_max_impulse();

@@ -48,7 +48,8 @@ void add_joints(WorldData<Real>& w, Real rate) {
   }
 }
 
-// Adds the points that overlap by more than the slop.
+// Adds the points that overlap by more than the slop, unless locked axes block them: their push would act
+// along what is free, by as much as the rounding of the normal lets it.
 template <class Real>
 void add_contacts(WorldData<Real>& w, Real rate) {
   constexpr Real kSlop = Real(tuning::kSlop / tuning::kDepenetrationSpeed);
@@ -56,7 +57,7 @@ void add_contacts(WorldData<Real>& w, Real rate) {
     const ContactPair<Real> pair(w.motion.data(), c);
     for (int i = 0; i < c.count; ++i) {
       const Real overlap = -pair.separation(i) - kSlop * c.depenetration_speed;
-      if (!(overlap > 0)) continue;
+      if (!(overlap > 0) || !(c.mass[i] > 0)) continue;
       add_row(w, {.body_a = c.body_a,
                   .body_b = c.body_b,
                   .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},

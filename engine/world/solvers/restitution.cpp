@@ -46,8 +46,8 @@ void predict_circle_normal(const WorldData<Real>& w, const ContactRecord& contac
   const Vec2<Real> t{c.normal.y, -c.normal.x};
   const Real inverse = linear_response(a, b, c.locks, t, t, true) + a.inverse_inertia * radius_a * radius_a +
                        b.inverse_inertia * radius_b * radius_b;
-  c.tangent_mass =
-      inverse > least_mobility(a, b, radius_a * radius_a, radius_b * radius_b) ? 1 / inverse : Real(0);
+  const bool blocked = !(inverse > least_mobility(a, b, radius_a * radius_a, radius_b * radius_b));
+  update_friction_row(a, b, c.mass[0] > 0 ? 1 / c.mass[0] : Real(0), blocked ? Real(0) : inverse, c);
 }
 
 // Collects the joints and the groups of bodies that they connect.

@@ -47,7 +47,7 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
   }
   const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
   c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - a_to_b, n);
-  c.tangent_mass = inverse(mobility(along_t, c.arm_tangent_a, c.arm_tangent_b, deeper));
+  update_friction_row(a, b, k[0], mobility(along_t, c.arm_tangent_a, c.arm_tangent_b, deeper), c);
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.

@@ -133,9 +133,9 @@ void begin_contact_with(WorldData<Real>& w, int block, int id, Real dt, bool loa
   const ContactRecord& contact = w.contacts[id];
   BegunContact<Real> begun{.loaded = loaded, .needs_pre_solve = needs_pre_solve_call(w, contact)};
   ContactConstraint<Real>& c = begun.constraint;
-  build(c);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
+  build(c);
   if (!begun.needs_pre_solve) begun.bounces = begin_contact_step(w, c, dt);
   w.scratch.begun_contacts.add(block, begun);
 }
@@ -160,9 +160,9 @@ template <class Real>
                                                              const SpeculativeContact<Real>& at, Real dt) {
   const ContactRecord& contact = w.contacts[id];
   ContactConstraint<Real> c;
-  prepare_predicted_contact(w, contact, at, c, c.normal_impulse);
   c.body_a = contact.body_a, c.body_b = contact.body_b, c.contact = id;
   mix_materials(w, contact, c);
+  prepare_predicted_contact(w, contact, at, c, c.normal_impulse);
   const bool rides = !(c.restitution > 0) && rebuild_rotating_contact(w, contact, closest, dt, c);
   if (!rides && is_impact_in_flight(w, contact, at, c, dt)) {
     w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
