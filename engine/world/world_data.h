@@ -385,6 +385,8 @@ struct Scratch {
   std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set
   std::vector<int> bounce_candidates;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<int> woken_contacts;     ///< contacts of bodies that woke in the step
+  BlockLists<int> found_turning;       ///< see next; by block
+  std::vector<int> turning_contacts;   ///< contacts whose points change within the step
   std::vector<RestitutionContact<Real>> restitution_contacts;
   std::vector<BodyMotion<Real>> motion_before_step;  ///< of the awake bodies: step_rollback.h
   std::vector<Real> earlier_impulses;                ///< N s, of contacts and joints: state/impulse_memory.h

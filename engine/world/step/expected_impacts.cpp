@@ -84,7 +84,8 @@ Real time_of_contact(const WorldData<Real>& w, const ContactConstraint<Real>& c)
 // simultaneous impacts together: a bar that falls flat on two posts leaves both at the same speed. Impacts
 // one after the other take place in flight, at their own times, because those after a body's first one may
 // change or not happen. Without restitution, dynamic bodies stay together and press on others within the
-// step, which only contacts can pass on: such impacts with several bodies are left to the solver.
+// step, which only contacts can pass on: such impacts with several bodies are left to the solver, as are
+// those of bodies that may reach a third one (`are_alone`).
 template <class Real>
 void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
   if (!enabled(Switch::SimultaneousImpacts)) return;
@@ -121,7 +122,58 @@ void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
   w.scratch.impact_bodies.clear();
 }
 
+// Returns true if another dynamic body than `partner` presses on a body.
+template <class Real>
+bool is_pressed_by_third(const WorldData<Real>& w, int body, int partner) {
+  if (!w.is_dynamic(body) || w.scratch.has_contact_load[body] == 0) return false;
+  return any_edge(w.contacts, w.bodies[body].first_contact, [&](const ContactRecord& contact) {
+    const int other = contact.body_a == body ? contact.body_b : contact.body_a;
+    if (other == partner || contact.home != ContactHome::Graph || !w.is_dynamic(other)) return false;
+    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
+    return c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
+  });
+}
+
 }  // namespace
+
+template <class Real>
+bool are_alone(const WorldData<Real>& w, int body_a, int body_b, Real dt) {
+  const SolverBody<Real>&a = w.motion[body_a], &b = w.motion[body_b];
+  const auto speed = [&](Vec2<Real> v, Real spin_speed) {
+    return std::abs(v.x) + std::abs(v.y) + spin_speed;
+  };
+  const Real spin_a = std::abs(a.angular_velocity) * w.extents[body_a],
+             spin_b = std::abs(b.angular_velocity) * w.extents[body_b];
+  const Real relative = speed(b.velocity - a.velocity, spin_a + spin_b);
+  const auto reaches_third = [&](int body, Real own_speed) {
+    const Real reach = dt * (own_speed + relative);
+    return any_edge(w.contacts, w.bodies[body].first_contact, [&](const ContactRecord& contact) {
+      if ((contact.body_a == body_a && contact.body_b == body_b) ||
+          (contact.body_a == body_b && contact.body_b == body_a))
+        return false;
+      return w.tight_aabbs[contact.shape_a].grown(reach).overlaps(w.tight_aabbs[contact.shape_b]);
+    });
+  };
+  return !reaches_third(body_a, speed(a.velocity, spin_a)) &&
+         !reaches_third(body_b, speed(b.velocity, spin_b));
+}
+
+template <class Real>
+bool turns_in_step(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
+  if (!w.is_dynamic(c.body_a) || !w.is_dynamic(c.body_b)) return false;
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Real along = dot(c.normal, b.velocity - a.velocity);
+  Real closing = 0;
+  for (int i = 0; i < c.count; ++i)
+    closing = std::max(closing, -(along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity));
+  const Real smaller = c.depenetration_speed * Real(1 / tuning::kDepenetrationSpeed);
+  const Real travel = dt * (closing + std::abs(a.angular_velocity) * w.extents[c.body_a] +
+                            std::abs(b.angular_velocity) * w.extents[c.body_b]);
+  if (!(travel * travel > Real(2 * tuning::kRecycleDistance) * (smaller * smaller))) return false;
+  if (is_pressed_by_third(w, c.body_a, c.body_b) || is_pressed_by_third(w, c.body_b, c.body_a)) return false;
+  const auto has_joint = [&](int body) { return w.bodies[body].first_joint != kNone; };
+  return has_joint(c.body_a) || has_joint(c.body_b) || are_alone(w, c.body_a, c.body_b, dt);
+}
 
 template <class Real>
 bool is_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
@@ -159,10 +211,13 @@ bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
   if (!solves_in_flight || contact.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
   if (!(c.restitution > 0)) {
     if (!enabled(Switch::Landings)) return false;
-    // Slower bodies strike with one corner after the other in different substeps, and two dynamic bodies move
-    // on together: contacts handle both at less cost.
-    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) return false;
-    if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) return false;
+    // Slower bodies strike with one corner after the other in different substeps: contacts handle them at
+    // less cost.
+    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) {
+      if (!turns_in_step(w, c, dt)) return false;
+    } else if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) {
+      return false;
+    }
   }
   const Real min_separation =
       c.count == 2 ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
@@ -199,7 +254,10 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
     more = false;
     for (ExpectedImpact<Real>& impact : impacts) {
       const ContactConstraint<Real>& c = impact.constraint;
-      if (impact.left_to_solver || (is_in_free_flight(w, c.body_a, dt) && is_in_free_flight(w, c.body_b, dt)))
+      if (impact.left_to_solver) continue;
+      const bool sticks = !(c.restitution > 0) && w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
+      if (is_in_free_flight(w, c.body_a, dt) && is_in_free_flight(w, c.body_b, dt) &&
+          !(sticks && !are_alone(w, c.body_a, c.body_b, dt)))
         continue;
       impact.left_to_solver = more = true;
       mark_loaded(w, c.body_a, c.body_b);
@@ -213,6 +271,8 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
 }
 
 #define PLUMB_FOR(Real)                                                                                     \
+  template bool are_alone(const WorldData<Real>&, int, int, Real);                                          \
+  template bool turns_in_step(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                \
   template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
   template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);             \
   template void clear_expected_impacts(WorldData<Real>&);                                                   \
