@@ -9,6 +9,7 @@
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/internal_edges.h"
+#include "engine/world/step/expected_impacts.h"
 
 namespace plumb {
 namespace {
@@ -110,7 +111,9 @@ bool needs_impact_search(const WorldData<Real>& w, const ContactRecord& contact,
   if (!(approach > max_predicted) || w.forms[contact.shape_a].chain) return false;
   if (!w.tight_aabbs[contact.shape_a].grown(approach).overlaps(w.tight_aabbs[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
-  return true;
+  // Two bodies of similar size, neither of them fast, approach by no more than twice `max_predicted`.
+  return approach > 2 * max_predicted || restitution_between(w, contact.shape_a, contact.shape_b) > 0 ||
+         are_alone(w, a, b, dt);
 }
 
 // Returns the speculative contact at a fraction of the step.
