@@ -40,7 +40,8 @@ plumb_blast plumb_default_blast(void) {
   return {out(d.centre), d.radius, d.impulse, false, plumb_default_query_filter()};
 }
 
-plumb_status plumb_world_apply_law(plumb_world* world, plumb_law_function law, void* context, bool wakes) {
+plumb_status plumb_world_apply_law(plumb_world* world, plumb_law_function law, void* context, double dt,
+                                   bool wakes) {
   return apply(world, [&](auto& w) {
     require(law, "law");
     const auto wrench_on = [&](const plumb::LawBody& b) {
@@ -49,7 +50,7 @@ plumb_status plumb_world_apply_law(plumb_world* world, plumb_law_function law, v
       const plumb_wrench wrench = law(&body, context);
       return plumb::Wrench<double>{in(wrench.force), wrench.torque};
     };
-    plumb::apply_law(w, wrench_on, {wakes});
+    plumb::apply_law(w, wrench_on, {wakes, dt});
   });
 }
 plumb_status plumb_world_apply_linear_drag(plumb_world* world, double linear, double angular, double dt,

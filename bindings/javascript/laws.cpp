@@ -17,8 +17,8 @@ plumb_attraction attraction(Reader& r) {
 extern "C" {
 
 // A law of the user's is asked between these two calls: an error of it then leaves the world as it was.
-/// Returns the bodies on which a law acts: 12 numbers each.
-PLUMB_EXPORT("law_bodies") double* js_law_bodies(plumb_world* w, int wakes) {
+/// Returns the bodies on which a law acts, as at the middle of a step of dt s: 12 numbers each.
+PLUMB_EXPORT("law_bodies") double* js_law_bodies(plumb_world* w, double dt, int wakes) {
   Writer out;
   const auto list = [](const plumb_law_body* body, void* context) {
     auto& to = *static_cast<Writer*>(context);
@@ -26,7 +26,7 @@ PLUMB_EXPORT("law_bodies") double* js_law_bodies(plumb_world* w, int wakes) {
     to.add(body->mass).add(body->inertia).wide(body->user_data);
     return plumb_wrench{};
   };
-  plumb_world_apply_law(w, list, &out, wakes != 0);
+  plumb_world_apply_law(w, list, &out, dt, wakes != 0);
   return out.done();
 }
 /// Applies the forces in the buffer to the same bodies, in the same order.
@@ -37,7 +37,7 @@ PLUMB_EXPORT("apply_wrenches") void js_apply_wrenches(plumb_world* w, int wakes)
     const plumb_vec2 force = from.point();
     return plumb_wrench{force, from.number()};
   };
-  plumb_world_apply_law(w, next, &r, wakes != 0);
+  plumb_world_apply_law(w, next, &r, 0, wakes != 0);
 }
 PLUMB_EXPORT("apply_linear_drag")
 void js_apply_linear_drag(plumb_world* w, double linear, double angular, double dt, int wakes) {

@@ -434,7 +434,8 @@ export class World {
   nearest(point: Vec2, maxDistance: number, filter?: QueryFilter): (Hit & {distance: number}) | null;
   move(capsule: Capsule, position: Vec2, velocity: Vec2, dt: number, options?: MoverOptions): MoverResult;
   /** Force laws: each call adds the forces of the next step, `dt` s long. */
-  applyLaw(law: (body: LawBody) => Wrench | void, options?: LawOptions): void;
+  /** Bodies are seen as at the middle of the step, which keeps the energy of springs and orbits; with dt = 0 as they are. */
+  applyLaw(law: (body: LawBody) => Wrench | void, dt: number, options?: LawOptions): void;
   /** N s/m and N m s */
   applyLinearDrag(rates: {linear?: number; angular?: number}, dt: number, options?: LawOptions): void;
   /** N s^2/m^2 */

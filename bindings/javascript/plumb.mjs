@@ -508,9 +508,10 @@ export class World {
   }
 
   // Force laws: each call adds the forces of the next step, `dt` s long.
-  /// Applies a law of your own: it returns {force, torque} for each body, or nothing.
-  applyLaw(law, options) {
-    const {wakes} = lawOf(options), n = result(call("law_bodies", [this._address, wakes])).slice();
+  /// Applies a law of your own: it returns {force, torque} for each body, or nothing. It sees bodies as at the middle of
+  /// the step, which keeps the energy of springs and orbits; with dt = 0 as they are.
+  applyLaw(law, dt, options) {
+    const {wakes} = lawOf(options), n = result(call("law_bodies", [this._address, dt, wakes])).slice();
     const wrenches = [];
     for (let i = 0; i < n.length; i += 12) {
       const userData = BigInt(n[i + 10]) | BigInt(n[i + 11]) << 32n;

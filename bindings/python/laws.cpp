@@ -18,18 +18,37 @@ void apply(const WorldPointer& held, bool wakes, Call&& call) {
   held->visit([&](auto& w) { call(w, LawOptions{wakes}); });
 }
 
-/// Applies a function of a body that returns (x, y, torque).
+/// State of a body, as passed to a law.
+struct HeldLawBody {
+  HeldBody body;
+  LawBody state;
+};
+
+/// Applies a function of a body's state that returns (x, y, torque).
 void apply_function(const WorldPointer& held,
-                    const std::function<std::tuple<double, double, double>(HeldBody)>& law, bool wakes) {
-  apply(held, wakes, [&](auto& w, LawOptions options) {
-    plumb::apply_law(
-        w,
-        [&](const LawBody& body) {
-          const auto [x, y, torque] = law(HeldBody{held, body.id});
-          return Wrench<double>{{x, y}, torque};
-        },
-        options);
+                    const std::function<std::tuple<double, double, double>(HeldLawBody)>& law, double dt,
+                    bool wakes) {
+  held->visit([&](auto& w) {
+    plumb::apply_law(w,
+                     [&](const LawBody& body) {
+                       const auto [x, y, torque] = law(HeldLawBody{{held, body.id}, body});
+                       return Wrench<double>{{x, y}, torque};
+                     },
+                     {wakes, dt});
   });
+}
+
+void bind_law_body(py::module_& module) {
+  const auto state = [](auto member) { return [member](const HeldLawBody& b) { return b.state.*member; }; };
+  py::class_<HeldLawBody>(module, "LawBody", "State of a body, as passed to a law: SI units, angles in rad.")
+      .def_readonly("body", &HeldLawBody::body)
+      .def_property_readonly("centre", state(&LawBody::centre), "m, of mass, (x, y).")
+      .def_property_readonly("angle", state(&LawBody::angle))
+      .def_property_readonly("velocity", state(&LawBody::velocity), "m/s, of the centre of mass, (x, y).")
+      .def_property_readonly("angular_velocity", state(&LawBody::angular_velocity))
+      .def_property_readonly("mass", state(&LawBody::mass))
+      .def_property_readonly("inertia", state(&LawBody::inertia), "kg m^2, about the centre of mass.")
+      .def_property_readonly("user_data", state(&LawBody::user_data));
 }
 
 /// Applies an array with a row of each body, by its index.
@@ -52,12 +71,15 @@ void apply_rows(const WorldPointer& held, const Wrenches& rows, bool wakes) {
 
 }  // namespace
 
-void bind_laws(HeldWorldClass& world) {
+void bind_laws(py::module_& module, HeldWorldClass& world) {
+  bind_law_body(module);
   world
-      .def("apply_law", &apply_function, arg("law"), py::kw_only(), arg("wakes") = false,
+      .def("apply_law", &apply_function, arg("law"), py::kw_only(), arg("dt") = 1.0 / 60,
+           arg("wakes") = false,
            "Adds the forces of the next step: law(body) returns (x, y, torque), N and N m about the centre "
-           "of mass. Laws act on awake dynamic bodies; with wakes on sleeping ones too. An error of the law "
-           "leaves the world as it was.")
+           "of mass. It sees bodies as at the middle of the step, which keeps the energy of springs and "
+           "orbits; with dt=0 as they are. Laws act on awake dynamic bodies; with wakes on sleeping ones "
+           "too. An error of the law leaves the world as it was.")
       .def("apply_wrenches", &apply_rows, arg("wrenches"), py::kw_only(), arg("wakes") = false,
            "Adds the forces of the next step from an array (n, 3) with a row of each body, by its index: x, "
            "y (N) and torque (N m).")

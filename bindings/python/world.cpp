@@ -281,7 +281,7 @@ void bind_world(py::module_& module) {
           "Calls filter(a, b) for shapes that come near each other and that their filters let touch; False: "
           "they do "
           "not collide. It must depend on the world's state alone.");
-  bind_arrays(bound), bind_snapshots(bound), bind_queries(bound), bind_laws(bound);
+  bind_arrays(bound), bind_snapshots(bound), bind_queries(bound), bind_laws(module, bound);
   bind_rollback(module);
 }
 

@@ -56,6 +56,18 @@ Experiment three_discs(double friction) {
           2};
 }
 
+// Two balls that fall side by side and meet more slowly than the speed below which restitution is 0.
+Experiment slow_meeting() {
+  return {
+      scene_of(
+          "slow meeting", {0, -kGravity},
+          {make(Ball{
+               .name = "a", .position = {-0.43, 0}, .velocity = {0.1, 2}, .mass = 1, .restitution = 0.6}),
+           make(Ball{
+               .name = "b", .position = {0.4, 0.1}, .velocity = {-0.08, 2}, .mass = 3, .restitution = 0.6})}),
+      0.5};
+}
+
 // Two balls of unequal mass on a damped spring that fall together: the sum of their velocities is not 0.
 Experiment falling_spring() {
   Scene scene = scene_of("falling spring", {0.5, -7},
@@ -88,6 +100,23 @@ Scene turning_box() {
                               .mass = 3,
                               .width = 1.2,
                               .height = 0.4})});
+}
+
+// A ball that lands with more than a step's gravity and less than two steps', the speed below which
+// restitution is 0; a bounce would lift it off the floor.
+Experiment soft_landing() {
+  return {scene_of("soft landing", {0, -kGravity},
+                   {make(Ball{.position = {0, 0.401}, .velocity = {0, -0.1}, .restitution = 0.9}),
+                    ground(0.5, 0)}),
+          0.5};
+}
+
+// A ball that overlaps the floor at the start and leaves it: no impulse has acted that a sum could hold.
+Experiment leaving_ball() {
+  return {
+      scene_of("leaving ball", {},
+               {make(Ball{.position = {0, 0.39}, .velocity = {0.5, 1}, .restitution = 0.6}), ground(0.2, 0)}),
+      0.5};
 }
 
 // A force at a point of a box that turns in the air.
@@ -226,8 +255,8 @@ Experiment two_rods(bool hangs) {
 
 std::vector<Experiment> experiments(int chapter) {
   if (chapter == kForces) return {free_ball(), falling_spring()};
-  if (chapter < kCollisions) return {free_ball()};
-  if (chapter == kCollisions) return {free_ball(), three_discs(0)};
+  if (chapter < kCollisions) return {free_ball(), soft_landing(), leaving_ball()};
+  if (chapter == kCollisions) return {free_ball(), three_discs(0), slow_meeting()};
   if (chapter == kBoxes)
     return {pushed_box(),        twisted_box(),       three_discs(0), three_discs(0.8),      spinning_disc(),
             landing_box(0, 0.4), landing_box(0.5, 0), two_boxes(0),   landing_box(0.5, 0.3), two_boxes(0.6)};

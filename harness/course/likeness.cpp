@@ -11,7 +11,7 @@ namespace {
 // m, distance from the origin beyond which a path only shows that it diverges.
 constexpr double kFar = 30;
 
-constexpr double kLever = 0.5;  // m, per rad of an angle: half the size of the checks' boxes
+constexpr double kMetresPerRadian = 0.5;  // m, per rad of an angle: half the size of the checks' boxes
 
 // Returns the nearest place within the range in which paths are compared.
 Vec2d in_range(Vec2d at) {
@@ -30,7 +30,7 @@ double square_distance(std::span<const BodyState> a, std::span<const BodyState> 
   double sum = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     const Vec2d way = in_range(a[i].position) - in_range(b[i].position);
-    const double turn = left ? 0 : kLever * (a[i].angle - b[i].angle);
+    const double turn = left ? 0 : kMetresPerRadian * (a[i].angle - b[i].angle);
     sum += dot(way, way) + turn * turn;
   }
   return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;

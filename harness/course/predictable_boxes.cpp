@@ -34,6 +34,10 @@ constexpr const char* kOneSide =
     "the normal.";
 constexpr const char* kAxesLeftOut =
     "Some axes of two boxes are left out: compare them along the width and the height of both.";
+constexpr const char* kClippedOnce =
+    "The side that touches is clipped at one end of the face only, so that a point may lie beside the other "
+    "end: clip "
+    "it at both.";
 constexpr const char* kExtent =
     "A box's extent along an axis is wrong: it is half of the width times |x . axis| plus half of the height "
     "times "
@@ -305,6 +309,8 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The side that touches is clipped at the wrong half side of the face: along the face, not across it."},
       {"face_not_clipped", "not_clipped", "4",
        "The side that touches is not clipped at the ends of the face, so that points lie beside it."},
+      {"clipped_at_the_upper_end_only", "not_clipped", "4", kClippedOnce},
+      {"clipped_at_the_lower_end_only", "not_clipped", "4", kClippedOnce},
       {"corners_farthest_out", "corners_farthest_out", "4",
        "The contact points are the corners that are farthest out: those that are farthest in touch."},
       {"middle_of_the_side", "one_corner", "4",

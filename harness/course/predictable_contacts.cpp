@@ -20,6 +20,17 @@ constexpr const char* kSumShared =
     "contact of "
     "each pair keeps a sum of its own, which is 0 at the start of the step and never negative.";
 
+constexpr const char* kNotSummed =
+    "The impulses of the last step are applied again at the start of a step, and the sums begin at 0, so "
+    "that contacts "
+    "cannot take them back: each sum begins with what was applied (warm starting), or nothing is applied.";
+
+constexpr const char* kNotCleared =
+    "The sum of a contact's impulses is kept from the last step without being applied, so that it may pull "
+    "as hard as "
+    "it pushed before: the sum is 0 at the start of a step, or the kept impulse is applied then (warm "
+    "starting).";
+
 constexpr const char* kRadiusOfAnother =
     "All circles have the radius of one of them: each body keeps its own.";
 
@@ -37,6 +48,10 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"size of the cells in which circles are compared*2", "place_matters", "3", kCells},
       {"size of the cells in which circles are compared*5", "place_matters", "3", kCells},
       {"size of the cells in which circles are compared*10", "place_matters", "3", kCells},
+      {"sums_applied_again", "warm_start_not_summed", "134", kNotSummed},
+      {"sums_applied_again_with_friction", "warm_start_not_summed", "4", kNotSummed},
+      {"sums_kept", "sum_not_cleared", "34", kNotCleared},
+      {"sums_kept_with_friction", "sum_not_cleared", "4", kNotCleared},
       {"sum_of_the_first_body", "sum_shared", "34", kSumShared},
       {"sum_of_the_second_body", "sum_shared", "34", kSumShared},
       {"sum_of_the_earlier_body", "sum_shared", "34", kSumShared},

@@ -380,6 +380,15 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_not_unit", "spring_not_unit", "2",
        "The spring's force is multiplied by its length: divide the way from end to end by its length to get "
        "the direction."},
+      {"spring_way_for_direction", "spring_not_unit", "2",
+       "The way from end to end stands for the spring's direction: divide it by its length."},
+      {"spring_over_square", "spring_not_unit", "2",
+       "The way from end to end is divided by the square of its length: divide it by its length to get the "
+       "direction."},
+      {"spring_over_rest_length", "spring_not_unit", "2",
+       "The way from end to end is divided by the spring's rest length: divide it by its length of now to "
+       "get the "
+       "direction."},
       {"spring_by_strain", "spring_by_strain", "2",
        "The spring's force is stiffness times the strain, (length - rest_length)/rest_length: it is "
        "stiffness "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -44,13 +45,6 @@ struct Search {
   std::vector<Fit> fits;
   std::size_t untried = 0;
 };
-
-// Returns true if the learner's engine fails in the same way without a mistake: then the declared method
-// itself causes the motion, and no mistake has to explain it.
-bool is_the_methods_own(Predictions& predictions, const Outcome& outcome, std::size_t check) {
-  const auto& right = predictions.of({}, check);
-  return right && right->finding.verdict == Verdict::Fail && same_readings(outcome.finding, right->finding);
-}
 
 // Returns the variants of a named mistake that can affect a check: those that fitted an earlier check, and
 // all known ones.
@@ -441,7 +435,10 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::ve
     Finding& finding = chapter[i].finding;
     if (!fails(finding) || finding.mistake == kRunsDiffer) continue;
     if (finding.diverged && found[i].fits.empty()) continue;
-    if (chapter[i].check->repeatable && !is_the_methods_own(predictions, chapter[i], i)) {
+    const bool comparable = chapter[i].check->repeatable;
+    const auto cause = comparable ? predictions.cause_in_design(i) : std::nullopt;
+    if (cause) found[i].fits = {*cause};
+    if (cause || (comparable && !predictions.fails_without_mistake(i, 0))) {
       const std::string ended =
           finding.diverged ? finding.says + (finding.says.ends_with('.') ? " " : ". ") : "";
       choose(found[i].fits, known, alone);

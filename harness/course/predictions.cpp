@@ -131,7 +131,12 @@ std::optional<Attempt> Predictions::attempt(const Planted& planted, std::size_t 
 
 std::optional<Attempt> Predictions::attempt(const Planted& planted, const Check& check,
                                             Lab::Watcher watcher) {
-  const auto student = make_student(planted.mistake, lab_.scheme(), manners_[planted.manner]);
+  return attempt(planted.mistake, manners_[planted.manner], check, std::move(watcher));
+}
+
+std::optional<Attempt> Predictions::attempt(const std::string& mistake, const Manner& manner,
+                                            const Check& check, Lab::Watcher watcher) {
+  const auto student = make_student(mistake, lab_.scheme(), manner);
   const auto watch = [&](std::size_t run, std::size_t state, std::span<const BodyState> states) {
     ++steps_;
     if (watcher) watcher(run, state, states);

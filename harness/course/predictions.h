@@ -80,6 +80,14 @@ class Predictions {
   /// Returns true if the tested engine's paths are those of a mistake, up to differences due to iterations.
   bool exactly(std::size_t check, std::size_t manner, const std::vector<Recorded>& wrong);
 
+  /// Returns true if the learner's engine fails a check in the same way without a mistake, in a design: then
+  /// the declared method or the design itself causes the motion, and no mistake has to explain it.
+  bool fails_without_mistake(std::size_t check, std::size_t manner);
+
+  /// Returns the property of the engine's design that spoils a check: a correct engine of that design fails
+  /// it in the same way, and passes it with the course's value of the property.
+  std::optional<Fit> cause_in_design(std::size_t check);
+
   /// Counts the other checks for which a mistake predicts another verdict, or other wrong readings.
   void refute(const Planted& planted, std::size_t check, Fit& fit);
 
@@ -118,6 +126,9 @@ class Predictions {
   std::vector<std::vector<double>> misfits();
   std::optional<Attempt> attempt(const Planted& planted, std::size_t check, Lab::Watcher watcher);
   std::optional<Attempt> attempt(const Planted& planted, const Check& check, Lab::Watcher watcher);
+  std::optional<Attempt> attempt(const std::string& mistake, const Manner& manner, const Check& check,
+                                 Lab::Watcher watcher);
+  std::optional<Fit> cause_in(const Manner& own, std::size_t check);
   std::optional<Attempt> within(const Planted& planted, std::size_t check, double limit);
 
   const Lab& lab_;

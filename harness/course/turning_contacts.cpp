@@ -399,6 +399,8 @@ Finding box_rests(const Lab& lab) {
     const Vec2d gravity{kSlope * kGravity, -kGravity};
     return lab.run(scene_of("pillar", gravity, bodies), 1).last(pillar_first ? 1 : 0).angle;
   };
+  const Tilt right = tips_over_an_end(lab, 1, true), left = tips_over_an_end(lab, -1, true),
+             right_below = tips_over_an_end(lab, 1, false), left_below = tips_over_an_end(lab, -1, false);
   const BodyState& end = trace.last(0);
   const double sunk = side / 2 - end.position.y, tolerance = kGravity * lab.dt() * lab.dt() + 0.03 * side;
   return Judgement()
@@ -408,6 +410,14 @@ Finding box_rests(const Lab& lab) {
       .read("slid", "m", end.position.x, 0, 0.02)
       .read("angle of a plank that stands on a pillar", "rad", on_pillar(false), 0, 0.02)
       .read("angle of a plank on a pillar that comes first in the scene", "rad", on_pillar(true), 0, 0.02)
+      .read("angle of a plank whose centre is to the right of a pillar that comes first", "rad", right.is,
+            right.due, right.tolerance)
+      .read("angle of a plank whose centre is to the left of a pillar that comes first", "rad", left.is,
+            left.due, left.tolerance)
+      .read("angle of a plank whose centre is to the right of a pillar", "rad", right_below.is,
+            right_below.due, right_below.tolerance)
+      .read("angle of a plank whose centre is to the left of a pillar", "rad", left_below.is, left_below.due,
+            left_below.tolerance)
       .mistake_if(trace.still(0), "no_gravity", "It hangs in the air: gravity pulls at it.")
       .mistake_if(sunk > side, "falls_through", "The box falls through the ground.")
       .mistake_if(std::abs(end.angle) > 0.02, "one_corner",

@@ -163,6 +163,33 @@ Stretch stick_at_a_rods_end(const Lab& lab) {
   return out;
 }
 
+Tilt tips_over_an_end(const Lab& lab, double side, bool pillar_first) {
+  constexpr double kTime = 0.3, kFine = 1e-4, kGravity = 9.81;             // s, s, m/s^2
+  constexpr double kHalf = 0.6, kBeyond = 0.2, kWidth = 2, kHeight = 0.2;  // m
+  const Body plank = make(Crate{.name = "plank",
+                                .position = {side * (kHalf + kBeyond), kHeight / 2},
+                                .width = kWidth,
+                                .height = kHeight,
+                                .restitution = 0,
+                                .friction = 2});
+  const Body pillar = fixed(make(Crate{.name = "pillar",
+                                       .position = {0, -1},
+                                       .width = 2 * kHalf,
+                                       .height = 2,
+                                       .restitution = 0,
+                                       .friction = 2}));
+  const auto bodies = pillar_first ? std::vector{pillar, plank} : std::vector{plank, pillar};
+  const Trace trace = lab.run(scene_of("plank beyond a pillar", {0, -kGravity}, bodies), kTime);
+  const double gyration =
+      (kWidth * kWidth + kHeight * kHeight) / 12 + kBeyond * kBeyond + kHeight * kHeight / 4;
+  double tilt = 0, speed = 0;
+  for (double t = 0; t < trace.duration(); t += kFine) {
+    speed += kFine * kGravity * (kBeyond * std::cos(tilt) + kHeight / 2 * std::sin(tilt)) / gyration;
+    tilt += kFine * speed;
+  }
+  return {trace.last(pillar_first ? 1 : 0).angle, -side * tilt, 2.5 * lab.dt() * speed};
+}
+
 Spin hit_by_a_turning_rod(const Lab& lab) {
   constexpr double kArm = 0.8, kMass = 3, kTurns = 2, kSmall = 0.2;
   Body rod = make(Crate{.name = "rod", .mass = kMass, .width = 0.2, .height = 2});

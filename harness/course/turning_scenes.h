@@ -46,6 +46,15 @@ struct Stretch {
 /// Throws a ball in the air that a stick joins to the end of a rod.
 Stretch stick_at_a_rods_end(const Lab& lab);
 
+struct Tilt {
+  double is = 0, due = 0;  ///< rad
+  double tolerance = 0;    ///< rad: the way of two and a half steps
+};
+
+/// Puts a plank on a pillar, with its centre beyond the pillar's right (`side` 1) or left (-1) end: it tips
+/// about that end. The pillar is the first body or the last one.
+Tilt tips_over_an_end(const Lab& lab, double side, bool pillar_first);
+
 /// Returns vx, m/s, of a ball at rest that the end of a rod hits which turns at 2 rad/s, and what it should
 /// be.
 Spin hit_by_a_turning_rod(const Lab& lab);

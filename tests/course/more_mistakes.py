@@ -11,7 +11,7 @@ MISTAKES = [
     ("a bounce asks for the whole speed", "chapter1", 1,
      [("self.restitution(ball, wall, -closing)",
        "self.restitution(ball, wall, ball.velocity.length())")],
-     "passes"),
+     "threshold_of_whole_speed"),
     ("slow bodies are not moved", WHOLE, 1,
      [("            if b.dyn:\n"
        "                b.x += b.vx * self.dt",
@@ -242,4 +242,74 @@ MISTAKES = [
      [("        self.length = scene.get(\"length\")\n",
        "        way = self.b.position - self.a.position\n        self.length = way.length()\n")],
      "length_of_start"),
+    ("the whole velocity is scaled", "chapter1", 1,
+     [("            ball.velocity -= normal * ((1 + self.restitution(ball, wall, -closing)) * closing)",
+       "            e = self.restitution(ball, wall, -closing)\n"
+       "            ball.velocity -= normal * (2 * closing)\n"
+       "            ball.velocity *= e")],
+     "along_wall_changed"),
+    ("a spring's direction by its rest length", "chapter2", 2,
+     [("direction = way * (1 / length)",
+       "direction = way * (1 / (law[\"rest_length\"] or 1))")],
+     "spring_not_unit"),
+    ("a bounce anew in each sweep, after the first as well", "chapter3", 3,
+     [("        j = (contact.bounce - self.closing(contact))",
+       "        self.prepare(contact) if contact.bounce else None\n"
+       "        j = (contact.bounce - self.closing(contact))")],
+     "restitution_ignored"),
+    ("impulses of the last step applied and not summed", WHOLE, 3,
+     [("        found = self.contacts()\n"
+       "        for _ in range(SWEEPS):",
+       "        found = self.contacts()\n"
+       "        old, self.old = getattr(self, 'old', {}), {}\n"
+       "        seen = {}\n"
+       "        for c in found:\n"
+       "            p = id(c['a']), id(c['b'])\n"
+       "            seen[p] = seen.get(p, 0) + 1\n"
+       "            c['key'] = p + (seen[p],)\n"
+       "            j = old.get(c['key'], 0.0)\n"
+       "            self.apply(c, j * c['n'][0], j * c['n'][1])\n"
+       "        for _ in range(SWEEPS):"),
+      ("        self.n += 1\n",
+       "        for c in found:\n"
+       "            self.old[c['key']] = c['sum']\n"
+       "        self.n += 1\n")],
+     "warm_start_not_summed"),
+    ("a normal in the frame of a turned box", "chapter4", 4,
+     [("    def touch(self, a, b):\n",
+       "    def touch_box(self, circle, box):\n"
+       "        local = (circle.position - box.position).turned(-box.angle)\n"
+       "        near = Vec(min(max(local.x, -box.half.x), box.half.x), min(max(local.y, -box.half.y), box.half.y))\n"
+       "        way = near - local\n"
+       "        distance = way.length()\n"
+       "        if not 0 < distance < circle.radius:\n"
+       "            return []\n"
+       "        return [Contact(circle, box, way * (1 / distance), circle.radius - distance, box.position + near.turned(box.angle))]\n"
+       "\n"
+       "    def touch(self, a, b):\n")],
+     "box_not_turned"),
+    ("a side clipped at one end", "chapter4", 4,
+     [("for side in (along, -along):",
+       "for side in (along,):")],
+     "not_clipped"),
+    ("x and y of a hinge from one velocity", WHOLE, 5,
+     [("        for nx, ny in axes:\n"
+       "            avx, avy = a.velocity(rax, ray)\n"
+       "            bvx, bvy = b.velocity(rbx, rby)\n",
+       "        avx, avy = a.velocity(rax, ray)\n"
+       "        bvx, bvy = b.velocity(rbx, rby)\n"
+       "        for nx, ny in axes:\n")],
+     "passes"),
+    ("a joint's error as a speed", WHOLE, 5,
+     [("            j = -rate / inverse_mass(a, b, rax, ray, rbx, rby, nx, ny)\n"
+       "            a.impulse",
+       "            dx, dy = b.x + rbx - a.x - rax, b.y + rby - a.y - ray\n"
+       "            error = dx * nx + dy * ny - (length or 0)\n"
+       "            j = (-rate - 0.2 * error) / inverse_mass(a, b, rax, ray, rbx, rby, nx, ny)\n"
+       "            a.impulse"),
+      ("        for _ in range(FIXES):\n"
+       "            for joint in self.joints:\n"
+       "                self.fix_joint(joint)\n",
+       "")],
+     "bias_without_dt"),
 ]

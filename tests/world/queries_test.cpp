@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "engine/world/queries.h"
 
@@ -237,6 +239,52 @@ TYPED_TEST(Queries, DistancesOfShapesAreThoseOfBruteForce) {
       }
     }
   });
+}
+
+// Tiles whose sides coincide up to rounding: a ray along their common side meets the top of one of them, and
+// never the gap. Shapes of one body and bodies side by side, boxes, polygons and segments, turned by any
+// angle.
+TYPED_TEST(Queries, RaysDoNotSlipThroughSeams) {
+  std::mt19937 from(3);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(from()) * 0x1p-32);
+  };
+  for (int run = 0; run < 600; ++run) {
+    BasicWorld<TypeParam> world;
+    const double pitch = between(0.1, 3), first = between(-50, 50),
+                 angle = run % 2 == 0 ? 0 : between(0, 6.3);
+    const int kind = run / 2 % 3;
+    const double half = kind == 2 ? 0 : between(0.05, 1), side = pitch / 2;
+    const bool one_body = run / 6 % 2 == 0;
+    const ShapeGeometry kinds[] = {Box{pitch, 2 * half},
+                                   Polygon{{{-side, -half}, {side, -half}, {side, half}, {-side, half}}},
+                                   Segment{{-side, 0}, {side, 0}}};
+    const Vec2d along{std::cos(angle), std::sin(angle)}, up{-along.y, along.x};
+    const BodyId body = world.create_body({.type = BodyType::Static, .angle = angle});
+    for (int i = 0; i < 10; ++i) {
+      const double at = first + i * pitch;
+      if (!one_body) {
+        world.create_body({.type = BodyType::Static, .position = at * along, .angle = angle},
+                          ShapeDefinition{.geometry = kinds[kind]});
+      } else if (kind == 0) {
+        world.create_shape(body, {.geometry = kinds[kind], .position = {at, 0}});
+      } else if (kind == 1) {
+        world.create_shape(
+            body, {.geometry = Polygon{
+                       {{at - side, -half}, {at + side, -half}, {at + side, half}, {at - side, half}}}});
+      } else {
+        world.create_shape(body, {.geometry = Segment{{at - side, 0}, {at + side, 0}}});
+      }
+    }
+    for (int i = 0; i < 9; ++i) {
+      const Vec2d seam = (first + (i + 0.5) * pitch) * along;
+      const auto hit = ray_cast_closest(world, seam + 5.0 * up, -10.0 * up);
+      ASSERT_TRUE(hit.has_value()) << "run " << run << " seam " << i;
+      const double rounding = 8 * std::numeric_limits<TypeParam>::epsilon() * 80;  // corners up to 80 m away
+      ASSERT_NEAR(10 * hit->fraction, 5 - half, rounding) << "run " << run << " seam " << i;
+      ASSERT_GT(dot(hit->normal, up), 0.999) << "run " << run << " seam " << i;
+    }
+  }
 }
 
 // Boxes in float are a metre coarse at 1e7 m, shapes and queries are not: a body that creeps through its

@@ -57,7 +57,7 @@ int main(int count, char** arguments) {
   double hardest = 0; /* m/s */
   for (const char* key = keys; *key != '\0'; ++key) {
     for (int frame = 0; frame < 30; ++frame) {
-      plumb_world_apply_law(world, engine, (void*)key, true);
+      plumb_world_apply_law(world, engine, (void*)key, 1.0 / 60, true);
       plumb_world_step(world, 1.0 / 60, 4);
       const plumb_events events = plumb_world_events(world);
       for (size_t i = 0; i < events.hit_count; ++i)

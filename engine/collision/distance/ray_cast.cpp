@@ -97,8 +97,9 @@ Entry enter_disc(Vec2d center, double radius, Vec2d origin, Vec2d direction) {
   return {fraction, radius > 0 ? direction_of(from + fraction * direction) : direction_of(-direction)};
 }
 
-/// Returns where the ray enters through the edge p .. p + e, moved out by `radius`.
-Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d direction) {
+/// Returns where the ray enters through the edge p .. p + e, moved out by `radius`, and longer by `tolerance`
+/// at either end.
+Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d direction, double tolerance = 0) {
   const double length = std::sqrt(length_squared(e));
   if (!(length > 0)) return {};
   const Vec2d normal{e.y / length, -e.x / length};
@@ -106,28 +107,32 @@ Entry enter_edge(Vec2d p, Vec2d e, double radius, Vec2d origin, Vec2d direction)
   if (!(approach > 0) || !(height >= 0)) return {};
   const double fraction = height / approach;
   const double along = dot(origin + fraction * direction - p, e);
-  if (!(along >= 0) || !(along <= length * length)) return {};
+  const double beyond = tolerance * length;
+  if (!(along >= -beyond) || !(along <= length * length + beyond)) return {};
   return {fraction, normal};
 }
 
 /// Clips the ray against the edges of a polygon without radius (Cyrus and Beck, 1978): no crack between two
-/// edges.
+/// edges. All edges are moved out by `tolerance`; the entry is where the ray meets the edge itself, from
+/// outside.
 template <class Real>
-Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d direction) {
-  Entry enter{0, {}};
-  double leave = kInfinity;
+Entry enter_polygon(const Convex<Real>& shape, Vec2d origin, Vec2d direction, double tolerance) {
+  Entry enter;
+  double enter_moved = -kInfinity, leave = kInfinity;
   for (int i = 0; i < shape.count; ++i) {
     const Vec2d p = corner(shape, i), m = edge_normal(shape, i, p);
     const double height = dot(m, origin - p), approach = -dot(m, direction);
+    const double moved = tolerance > 0 ? height - tolerance * std::sqrt(length_squared(m)) : height;
     if (approach > 0) {
-      if (height >= enter.fraction * approach) enter = {height / approach, m};
+      if (height >= 0 && moved >= enter_moved * approach)
+        enter_moved = moved / approach, enter = {height / approach, m};
     } else if (approach < 0) {
-      if (height > leave * approach) leave = height / approach;
-    } else if (height > 0) {
+      if (moved > leave * approach) leave = moved / approach;
+    } else if (moved > 0) {
       return {};
     }
   }
-  if (!(enter.fraction <= leave)) return {};
+  if (!(enter_moved <= leave) || !(leave >= 0)) return {};
   enter.normal = direction_of(enter.normal);
   return enter;
 }
@@ -149,25 +154,39 @@ Entry enter_rounded(const Convex<Real>& shape, Vec2d origin, Vec2d direction) {
   return first;
 }
 
+/// Returns where the ray crosses a line without thickness, which is longer by `tolerance` at either end.
+template <class Real>
+Entry enter_line(const Convex<Real>& shape, Vec2d origin, Vec2d direction, double tolerance) {
+  const Vec2d p = corner(shape, 0), q = corner(shape, 1);
+  const Entry there = enter_edge(p, q - p, 0, origin, direction, tolerance),
+              back = enter_edge(q, p - q, 0, origin, direction, tolerance);
+  return there.fraction < back.fraction ? there : back;
+}
+
 }  // namespace
 
 template <class Real>
-RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation) {
+RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation,
+                      double tolerance) {
   const Vec2d from = origin.template as<double>(), direction = translation.template as<double>();
   if (!(length_squared(direction) > 0) || contains(shape, origin)) return {};
-  const Entry entry = shape.count > 2 && !(shape.radius > 0) ? enter_polygon(shape, from, direction)
-                                                             : enter_rounded(shape, from, direction);
+  const bool rounded = shape.radius > 0;
+  Entry entry = shape.count > 2 && !rounded ? enter_polygon(shape, from, direction, tolerance)
+                                            : enter_rounded(shape, from, direction);
+  if (entry.fraction == kInfinity && shape.count == 2 && !rounded)
+    entry = enter_line(shape, from, direction, tolerance);
   if (!(entry.fraction <= 1)) return {};
   return {true, static_cast<Real>(entry.fraction), (from + entry.fraction * direction).template as<Real>(),
           entry.normal.template as<Real>()};
 }
 
 template <class Real>
-RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation) {
+RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation,
+                                double tolerance) {
   const Vec2d p = corner(segment, 0), front = outward(corner(segment, 1) - p);
   const bool from_front = dot(front, origin.template as<double>() - p) > 0;
   if (!from_front || !(dot(front, translation.template as<double>()) < 0)) return {};
-  return ray_cast(segment, origin, translation);
+  return ray_cast(segment, origin, translation, tolerance);
 }
 
 template <class Real>
@@ -193,10 +212,10 @@ SurfacePoint<Real> nearest_point(const Convex<Real>& shape, Vec2<Real> point) {
           static_cast<Real>(hull.distance - radius)};
 }
 
-#define PLUMB_INSTANTIATE(Real)                                                          \
-  template RayHit<Real> ray_cast(const Convex<Real>&, Vec2<Real>, Vec2<Real>);           \
-  template RayHit<Real> ray_cast_one_sided(const Convex<Real>&, Vec2<Real>, Vec2<Real>); \
-  template bool contains(const Convex<Real>&, Vec2<Real>);                               \
+#define PLUMB_INSTANTIATE(Real)                                                                  \
+  template RayHit<Real> ray_cast(const Convex<Real>&, Vec2<Real>, Vec2<Real>, double);           \
+  template RayHit<Real> ray_cast_one_sided(const Convex<Real>&, Vec2<Real>, Vec2<Real>, double); \
+  template bool contains(const Convex<Real>&, Vec2<Real>);                                       \
   template SurfacePoint<Real> nearest_point(const Convex<Real>&, Vec2<Real>);
 PLUMB_INSTANTIATE(float)
 PLUMB_INSTANTIATE(double)

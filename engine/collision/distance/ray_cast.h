@@ -24,13 +24,19 @@ struct SurfacePoint {
 /// Finds the first point of `shape` on the ray from `origin` to `origin + translation` (m, in the shape's
 /// frame). A ray that starts inside or on the surface hits nothing: it has no point of entry. Exact but for
 /// roundings: edges and arcs, no iteration. Computed in double precision for both types of Real.
+///
+/// A ray that misses a shape with sharp corners by no more than `tolerance` (m, the rounding of the corners)
+/// hits the edge beside which it passes: no ray slips through the seam of two shapes that were placed side by
+/// side.
 template <class Real>
-RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation);
+RayHit<Real> ray_cast(const Convex<Real>& shape, Vec2<Real> origin, Vec2<Real> translation,
+                      double tolerance = 0);
 
 /// Does the same for a chain segment, which is hit only from its front: the right side of the direction from
 /// its first corner to its second.
 template <class Real>
-RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation);
+RayHit<Real> ray_cast_one_sided(const Convex<Real>& segment, Vec2<Real> origin, Vec2<Real> translation,
+                                double tolerance = 0);
 
 /// Returns true if `point` (m, in the shape's frame) is in the shape or on its surface.
 template <class Real>

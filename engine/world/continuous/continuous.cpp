@@ -133,15 +133,21 @@ void for_each_jointed(WorldData<Real>& w, int index, double dt, const Visit& vis
 }
 
 // Stops a body and all bodies connected to it by joints, so that the joints stay closed. Bodies that must be
-// corrected for that move until the step's end, where other impacts may stop them.
+// corrected for that move until the step's end, where other impacts may stop them. In the next step the
+// contact hands on to a dynamic `obstacle` what forces add to them in the rest of this one; any other takes
+// it up.
 template <class Real>
-void stop_island(WorldData<Real>& w, int index, double fraction, ImpactSearch& search) {
+void stop_island(WorldData<Real>& w, int index, int obstacle, double fraction, ImpactSearch& search) {
   std::vector<int>& stopped = w.scratch.stopped;
   stopped.clear();
   for_each_jointed(w, index, search.dt, [&](int jointed) {
     if (!w.scratch.swept_bodies[jointed].stopped) append(stopped, jointed);
   });
-  remove_remaining_work(w, stopped, fraction, search.dt);
+  const bool hands_on =
+      w.is_dynamic(obstacle) && std::none_of(stopped.begin(), stopped.end(), [&](int jointed) {
+        return w.scratch.swept_bodies[jointed].body == obstacle;
+      });
+  if (!hands_on) remove_remaining_work(w, stopped, fraction, search.dt);
   find_joint_corrections(w, stopped, fraction);
   for_each_jointed(w, index, search.dt, [&](int jointed) {
     SweptBody& swept = w.scratch.swept_bodies[jointed];
@@ -310,8 +316,8 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
     return;
   }
   // The other body stops too, otherwise it would push this one further.
-  if (over_limit) stop_island(w, other_index, next.fraction, search);
-  stop_island(w, next.swept_body, next.fraction, search);
+  if (over_limit) stop_island(w, other_index, w.shapes[next.shape].body, next.fraction, search);
+  stop_island(w, next.swept_body, other_body, next.fraction, search);
 }
 
 // Processes impacts in the order of time until the step ends.

@@ -175,13 +175,26 @@ void overlap_at_pose(const WorldData<Real>& w, const QueryShape& shape, Vec2d po
   });
 }
 
+// Returns an upper bound of the distance, m, by which rounding displaces a body's corners and a ray: corners
+// are stored in Real, rotated by a rotation in Real, and added to a position in double. Seams of shapes that
+// are placed side by side gape by up to the sum of both bounds.
+template <class Real>
+double ray_rounding(const WorldData<Real>& w, int body, Vec2d origin, Vec2d translation) {
+  constexpr double kReal = std::numeric_limits<Real>::epsilon(),
+                   kDouble = std::numeric_limits<double>::epsilon();
+  return 4 * kReal * static_cast<double>(w.extents[body]) +
+         4 * kDouble * (l1_norm(w.position[body]) + l1_norm(origin) + l1_norm(translation));
+}
+
 // Casts a ray at one shape, up to a fraction.
 template <class Real>
 std::optional<RayResult> ray_cast_shape(const WorldData<Real>& w, int shape, Vec2d origin, Vec2d translation,
                                         double limit) {
   const TransformedShape target(w, shape, origin);
-  const RayHit<double> hit = w.forms[shape].chain ? ray_cast_one_sided(target.convex(), Vec2d{}, translation)
-                                                  : ray_cast(target.convex(), Vec2d{}, translation);
+  const double tolerance = ray_rounding(w, w.shapes[shape].body, origin, translation);
+  const RayHit<double> hit = w.forms[shape].chain
+                                 ? ray_cast_one_sided(target.convex(), Vec2d{}, translation, tolerance)
+                                 : ray_cast(target.convex(), Vec2d{}, translation, tolerance);
   if (!hit.hit || hit.fraction > limit) return std::nullopt;
   return RayResult{shape_id(w, shape), body_id(w, shape), hit.fraction, origin + hit.point, hit.normal};
 }

@@ -10,6 +10,7 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/step/pushers.h"
 
 namespace plumb {
 namespace {
@@ -122,18 +123,6 @@ void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
   w.scratch.impact_bodies.clear();
 }
 
-// Returns true if another dynamic body than `partner` presses on a body.
-template <class Real>
-bool is_pressed_by_third(const WorldData<Real>& w, int body, int partner) {
-  if (!w.is_dynamic(body) || w.scratch.has_contact_load[body] == 0) return false;
-  return any_edge(w.contacts, w.bodies[body].first_contact, [&](const ContactRecord& contact) {
-    const int other = contact.body_a == body ? contact.body_b : contact.body_a;
-    if (other == partner || contact.home != ContactHome::Graph || !w.is_dynamic(other)) return false;
-    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    return c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0;
-  });
-}
-
 }  // namespace
 
 template <class Real>
@@ -159,7 +148,7 @@ bool are_alone(const WorldData<Real>& w, int body_a, int body_b, Real dt) {
 }
 
 template <class Real>
-bool turns_in_step(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
+bool turns_in_step(WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
   if (!w.is_dynamic(c.body_a) || !w.is_dynamic(c.body_b)) return false;
   const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
   const Real along = dot(c.normal, b.velocity - a.velocity);
@@ -167,9 +156,15 @@ bool turns_in_step(const WorldData<Real>& w, const ContactConstraint<Real>& c, R
   for (int i = 0; i < c.count; ++i)
     closing = std::max(closing, -(along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity));
   const Real smaller = c.depenetration_speed * Real(1 / tuning::kDepenetrationSpeed);
-  const Real travel = dt * (closing + std::abs(a.angular_velocity) * w.extents[c.body_a] +
-                            std::abs(b.angular_velocity) * w.extents[c.body_b]);
-  if (!(travel * travel > Real(2 * tuning::kRecycleDistance) * (smaller * smaller))) return false;
+  // Deviation of a turning point from its tangent, and of a normal about a corner that is passed.
+  const auto deviation = [&](const SolverBody<Real>& body, int index) {
+    const Real turn = dt * body.angular_velocity;
+    return turn * turn * w.extents[index];
+  };
+  const Real passed = dt * closing;
+  if (!(deviation(a, c.body_a) + deviation(b, c.body_b) + passed * passed / smaller >
+        Real(2 * tuning::kRecycleDistance) * smaller))
+    return false;
   if (is_pressed_by_third(w, c.body_a, c.body_b) || is_pressed_by_third(w, c.body_b, c.body_a)) return false;
   const auto has_joint = [&](int body) { return w.bodies[body].first_joint != kNone; };
   return has_joint(c.body_a) || has_joint(c.body_b) || are_alone(w, c.body_a, c.body_b, dt);
@@ -205,8 +200,8 @@ void clear_expected_impacts(WorldData<Real>& w) {
 }
 
 template <class Real>
-bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
-                         const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
+bool is_impact_in_flight(WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
+                         const ContactConstraint<Real>& c, Real dt) {
   const bool solves_in_flight = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
   if (!solves_in_flight || contact.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
   if (!(c.restitution > 0)) {
@@ -270,15 +265,15 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                     \
-  template bool are_alone(const WorldData<Real>&, int, int, Real);                                          \
-  template bool turns_in_step(const WorldData<Real>&, const ContactConstraint<Real>&, Real);                \
-  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
-  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);             \
-  template void clear_expected_impacts(WorldData<Real>&);                                                   \
-  template bool is_impact_in_flight(const WorldData<Real>&, const ContactRecord&,                           \
-                                    const SpeculativeContact<Real>&, const ContactConstraint<Real>&, Real); \
-  template void mark_loaded(WorldData<Real>&, int, int);                                                    \
+#define PLUMB_FOR(Real)                                                                                      \
+  template bool are_alone(const WorldData<Real>&, int, int, Real);                                           \
+  template bool turns_in_step(WorldData<Real>&, const ContactConstraint<Real>&, Real);                       \
+  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);               \
+  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
+  template void clear_expected_impacts(WorldData<Real>&);                                                    \
+  template bool is_impact_in_flight(WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
+                                    const ContactConstraint<Real>&, Real);                                   \
+  template void mark_loaded(WorldData<Real>&, int, int);                                                     \
   template void decide_expected_impacts(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -8,6 +8,7 @@
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/contact_update.h"
 #include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/pushers.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
@@ -80,6 +81,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
   scratch.has_contact_load.assign(w.bodies.size(), 0);
+  scratch.pushers.assign(w.bodies.size(), kUnknownPusher);
   const auto recycle = [&](int block) {
     const ContactRun<Real> run = runs[block];
     for (int i = 0; i < run.count; ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/collision/distance/time_of_impact.h"
 #include "engine/world/integration/free_motion.h"
@@ -10,6 +11,7 @@
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/internal_edges.h"
 #include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/pushers.h"
 
 namespace plumb {
 namespace {
@@ -41,22 +43,23 @@ bool is_unsupported(const WorldData<Real>& w, int body) {
   return w.scratch.has_contact_load[body] == 0;
 }
 
-// Returns by how much dynamic bodies that press on a body may still push it off its predicted path, m: by no
-// more than they move relative to it. Returns -1 if none does, apart from `partner`. Reads only what does not
-// change while contacts are updated.
+// Returns by how much dynamic bodies that press on one of two bodies may still push it off its predicted
+// path, m: by no more than they move relative to it. Returns infinity if such bodies press on both: in a
+// crowd, what drives two bodies together hands on more pushes in the step than their velocities show.
 template <class Real>
-Real push_of_neighbours(const WorldData<Real>& w, int body, int partner, Real dt) {
-  if (w.scratch.has_contact_load[body] == 0) return -1;
-  Real fastest = -1;
-  for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int edge, const ContactRecord& contact) {
-    const int other = (edge & 1) == 0 ? contact.body_b : contact.body_a;
-    if (other == partner || contact.home != ContactHome::Graph || !w.is_dynamic(other)) return;
-    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    if (!(c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0)) return;
+Real push_of_neighbours(WorldData<Real>& w, int a, int b, Real dt) {
+  const bool pushed_a = is_pressed_by_third(w, a, b), pushed_b = is_pressed_by_third(w, b, a);
+  if (pushed_a && pushed_b) return std::numeric_limits<Real>::infinity();
+  if (!pushed_a && !pushed_b) return 0;
+  const int body = pushed_a ? a : b, partner = pushed_a ? b : a;
+  Real fastest = 0;
+  any_pusher(w, body, [&](int other) {
+    if (other == partner) return false;
     fastest = std::max(fastest, max_point_speed(w.motion[other].velocity - w.motion[body].velocity,
                                                 rotation_speed(w, other) + rotation_speed(w, body)));
+    return false;
   });
-  return fastest < 0 ? fastest : dt * fastest;
+  return dt * fastest;
 }
 
 // Returns the body's motion in the step, relative to `origin`.
@@ -157,7 +160,7 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
 }  // namespace
 
 template <class Real>
-SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
+SpeculativeContact<Real> find_speculative_contact(WorldData<Real>& w, const ContactRecord& contact,
                                                   const ContactManifold<Real>& closest, bool pressed, Real dt,
                                                   Real substep) {
   const int a = contact.body_a, b = contact.body_b;
@@ -185,11 +188,7 @@ SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, cons
   }
   Real may_be_pushed = 0;
   if (held) {
-    // Keep the manifold of two bodies of a crowd: what drives both hands on more pushes in the step than
-    // their velocities show.
-    const Real push_a = push_of_neighbours(w, a, b, dt), push_b = push_of_neighbours(w, b, a, dt);
-    if (push_a >= 0 && push_b >= 0) return {};
-    may_be_pushed = std::max({push_a, push_b, Real(0)});
+    may_be_pushed = push_of_neighbours(w, a, b, dt);
     for (int i = 0; i < closest.count; ++i)
       if (closest.points[i].separation < may_be_pushed) return {};
   }
@@ -222,7 +221,7 @@ void prepare_impact_contact(const WorldData<Real>& w, const ContactRecord& conta
 
 #define PLUMB_FOR(Real)                                                                                \
   template SpeculativeContact<Real> find_speculative_contact(                                          \
-      const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, bool, Real, Real);   \
+      WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, bool, Real, Real);         \
   template void prepare_speculative_contact(const WorldData<Real>&, const ContactRecord&,              \
                                             const SpeculativeContact<Real>&, ContactConstraint<Real>&, \
                                             Real(&)[2]);                                               \

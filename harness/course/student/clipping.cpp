@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "harness/course/student/world.h"
@@ -82,11 +83,14 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   const double half =
       extent(owner, is("face_of_the_other_side") ? outward : along) * times("width of a face");
   const double s = dot(from, along), e = dot(to, along);
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  const double low = is("clipped_at_the_upper_end_only") ? -kNowhere : -half,
+               high = is("clipped_at_the_lower_end_only") ? kNowhere : half;
   const auto clipped = [&](double at) {
     if (e == s || is("face_not_clipped")) return at == s ? from : to;
-    return from + (std::clamp(at, -half, half) - s) / (e - s) * (to - from);
+    return from + (std::clamp(at, low, high) - s) / (e - s) * (to - from);
   };
-  if (!manner_.extends && !is("face_not_clipped") && (s > half || e < -half)) return;
+  if (!manner_.extends && !is("face_not_clipped") && (s > high || e < low)) return;
   std::array<Vec2d, 2> ends{clipped(s), clipped(e)};
   if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
   const auto before = static_cast<std::ptrdiff_t>(out.size());

@@ -113,7 +113,11 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
       const double share = is("spring_velocity_flipped") ? -1 : times("w x r");
       return body.velocity + share * mixed("w x r", cross(body.spin, arm));
     };
-    const Vec2d along = mixed("direction of a spring", 1 / length(way) * way), v_a = point_velocity(a, arm_a),
+    double over = length(way);  // divides the way to give the spring's direction
+    if (is("spring_way_for_direction")) over = 1;
+    if (is("spring_over_rest_length")) over = rest != 0 ? rest : 1;
+    if (is("spring_over_square")) over = dot(way, way);
+    const Vec2d along = mixed("direction of a spring", 1 / over * way), v_a = point_velocity(a, arm_a),
                 v_b = point_velocity(end, arm_b);
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;

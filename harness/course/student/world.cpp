@@ -247,7 +247,9 @@ void StudentWorld::answer_touches(bool with_joints) {
     prepare(touch);
     bodies_[touch.a].touched = bodies_[touch.b].touched = true;
   }
+  start_with_last_sums(found);
   const bool any_joints = with_joints && !scene_.joints.empty();
+  if (found.empty()) last_found_.clear();
   if (found.empty() && !any_joints) return;
   std::vector<double> before, after;
   write_sweep_state(found, before);
@@ -260,6 +262,7 @@ void StudentWorld::answer_touches(bool with_joints) {
     before.swap(after);
   }
   touched_ = touched_ || !found.empty();
+  last_found_ = std::move(found);
 }
 
 // Iterates over joints alone.

@@ -31,7 +31,7 @@ const Law kLaws[] = {
      [](plumb_world* w, plumb_body, plumb_body) {
        return plumb_world_apply_law(
            w, [](const plumb_law_body*, void* context) { return *static_cast<const plumb_wrench*>(context); },
-           const_cast<plumb_wrench*>(&kLift), false);
+           const_cast<plumb_wrench*>(&kLift), 0, false);
      },
      [](plumb::World& w, plumb::BodyId, plumb::BodyId) {
        plumb::apply_law(w, [](const plumb::LawBody&) {
@@ -148,6 +148,22 @@ TEST_F(C, ForceLawsGiveTheBitsOfCpp) {
   }
 }
 
+TEST_F(C, ALawOfOnesOwnSeesTheMiddleOfTheStep) {
+  plumb_world_set_gravity(world, {0, 0});
+  const plumb_body body = box(PLUMB_DYNAMIC, {3, 0}, 1, 2);
+  const plumb_law_function spring = [](const plumb_law_body* at, void*) {
+    return plumb_wrench{{-8 * at->centre.x, -8 * at->centre.y}, 0};
+  };
+  for (int i = 0; i < 300; ++i) {
+    ASSERT_EQ(plumb_world_apply_law(world, spring, nullptr, kDt, false), PLUMB_OK);
+    plumb_world_step(world, kDt, 4);
+  }
+  // x_i = 3 cos(i a) solves x_(i+1) - 2 x_i + x_(i-1) = -(w dt)^2 x_i, the force at the middle of each step.
+  const double a = std::acos(1 - 0.5 * 4 * kDt * kDt);
+  EXPECT_NEAR(plumb_body_position(world, body).x, 3 * std::cos(300 * a), 2e-4);
+  EXPECT_EQ(plumb_world_apply_law(world, spring, nullptr, -1, false), PLUMB_VALUE);
+}
+
 TEST_F(C, ALawOfOnesOwnSeesEachBody) {
   const plumb_body lifted = box(PLUMB_DYNAMIC, {0, 4}, 1, 2);
   plumb_body_set_user_data(world, lifted, 9);
@@ -158,7 +174,7 @@ TEST_F(C, ALawOfOnesOwnSeesEachBody) {
     return plumb_wrench{{0, 9.81 * body->mass}, 0};
   };
   for (int i = 0; i < 60; ++i) {
-    ASSERT_EQ(plumb_world_apply_law(world, weightless, &seen, false), PLUMB_OK);
+    ASSERT_EQ(plumb_world_apply_law(world, weightless, &seen, 0, false), PLUMB_OK);
     plumb_world_step(world, kDt, 4);
   }
   EXPECT_EQ(seen.body.index, lifted.index);
@@ -179,7 +195,7 @@ TEST_F(C, ALawMayReadTheWorldAndNotChangeIt) {
     EXPECT_EQ(plumb_body_destroy(w, body->body), PLUMB_UNSUPPORTED);
     return plumb_wrench{};
   };
-  EXPECT_EQ(plumb_world_apply_law(world, changes, world, false), PLUMB_OK);
+  EXPECT_EQ(plumb_world_apply_law(world, changes, world, 0, false), PLUMB_OK);
   EXPECT_EQ(plumb_world_counts(world).bodies, 1);
 }
 
@@ -188,7 +204,7 @@ TEST_F(C, QuarantinedBodiesAreListedWithTheirFaults) {
   const plumb_law_function broken = [](const plumb_law_body*, void*) {
     return plumb_wrench{{std::numeric_limits<double>::quiet_NaN(), 0}, 0};
   };
-  ASSERT_EQ(plumb_world_apply_law(world, broken, nullptr, false), PLUMB_OK);
+  ASSERT_EQ(plumb_world_apply_law(world, broken, nullptr, 0, false), PLUMB_OK);
   plumb_quarantine_event fault;
   ASSERT_EQ(plumb_world_quarantined(world, &fault, 1), 1u);
   EXPECT_EQ(fault.body.index, bad.index);
@@ -217,7 +233,7 @@ TEST_F(C, LawsRefuseWhatTheyCannotUse) {
   EXPECT_EQ(plumb_world_apply_wind(world, nullptr, kDt, false), PLUMB_VALUE);
   EXPECT_STREQ(plumb_last_error().subject, "wind");
   EXPECT_EQ(plumb_world_apply_water(world, nullptr, kDt, false), PLUMB_VALUE);
-  EXPECT_EQ(plumb_world_apply_law(world, nullptr, nullptr, false), PLUMB_VALUE);
+  EXPECT_EQ(plumb_world_apply_law(world, nullptr, nullptr, 0, false), PLUMB_VALUE);
   plumb_blast blast = plumb_default_blast();
   blast.radius = 0;
   EXPECT_EQ(plumb_world_explode(world, &blast), PLUMB_VALUE);

@@ -343,8 +343,13 @@ test("force laws act as their formulas say", () => {
   run(60, () => world.applyQuadraticDrag(0.5, 1 / 60));  // v = v0 / (1 + c v0 t / m)
   near(one.velocity.x, 2 / 1.5, 1e-4);
   one.destroy(), one = ball();
-  run(60, () => world.applyLaw(({mass, velocity}) => ({force: {x: 0, y: mass * velocity.x}})));
+  run(60, () => world.applyLaw(({mass, velocity}) => ({force: {x: 0, y: mass * velocity.x}}), 1 / 60));
   near(one.velocity.y, 2, 1e-12);
+  one.destroy(), one = ball();
+  // From x = 0: v / w cos(a / 2) sin(i a), cos a = 1 - (w dt)^2 / 2, with a spring's force at the middle of each step.
+  run(60, () => world.applyLaw(({mass, centre}) => ({force: {x: -4 * mass * centre.x, y: 0}}), 1 / 60));
+  const a = Math.acos(1 - 0.5 * 4 / 60 ** 2);
+  near(one.position.x, Math.cos(a / 2) * Math.sin(60 * a), 1e-12);
   one.destroy(), one = ball();
   run(60, () => world.applyAttraction({x: 0, y: 0}, {strength: Math.PI ** 2, falloff: "linear"}, 1 / 60));
   near(one.velocity.x, -2, 1e-2);  // half a period of sqrt(strength)
@@ -375,14 +380,15 @@ test("a law that fails leaves the world as it was; one that is not finite is qua
   const ball = world.createBody({position: {x: 0, y: 5}, shapes: [{circle: {radius: 0.5}}]});
   world.step();
   const before = world.hash();
-  assert.throws(() => world.applyLaw(() => { throw new RangeError("mine"); }), /mine/);
-  assert.throws(() => world.applyLaw(() => ({forc: {x: 0, y: 0}})), {field: "forc"});
+  assert.throws(() => world.applyLaw(() => { throw new RangeError("mine"); }, 1 / 60), /mine/);
+  assert.throws(() => world.applyLaw(() => ({forc: {x: 0, y: 0}}), 1 / 60), {field: "forc"});
   assert.throws(() => world.applyWind({density: -1}, 1 / 60), {kind: "InvalidValue", value: "-1"});
   assert.throws(() => world.applyWater({depth: 1}, 1 / 60), {field: "depth"});
   assert.throws(() => world.applyAttraction({x: 0, y: 0}, {falloff: "cubic"}, 1 / 60), {field: "falloff"});
   assert.throws(() => world.explode({radius: 0}), {field: "radius"});
+  assert.throws(() => world.applyLaw(() => {}, -1), {kind: "InvalidValue", field: "dt"});
   assert.equal(world.hash(), before);
-  world.applyLaw(() => ({torque: NaN}));
+  world.applyLaw(() => ({torque: NaN}), 1 / 60);
   assert.deepEqual(world.quarantined.map(({body, field, step}) => [body.equals(ball), field, step]), [[true, "torque", 2]]);
   ball.release();
   assert.deepEqual(world.quarantined, []);

@@ -10,7 +10,7 @@ const stiffness: number = joint.stiffness().angular;
 joint.change(joint.kind, joint.definition);
 
 const thrust = (body: LawBody): Wrench => ({force: {x: 0, y: body.mass * 9.81}});
-world.applyLaw(thrust, {wakes: true});
+world.applyLaw(thrust, 1 / 60, {wakes: true});
 world.applyWind({velocity: {x: 5, y: 0}}, 1 / 60);
 world.applyAttraction(ball, {falloff: "linear"}, 1 / 60);
 const rollback = new Rollback(world, 60);

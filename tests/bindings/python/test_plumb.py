@@ -444,6 +444,31 @@ def test_force_laws_act_as_their_formulas_say():
     assert a.velocity[0] < 0 < b.velocity[0]
 
 
+def test_a_law_of_ones_own_sees_the_middle_of_the_step():
+    world = plumb.World(precision="double", gravity=(0, 0))
+    body = world.create_body(mass=(2, 1, (0, 0)), position=(3, 0), user_data=7)
+    seen = []
+
+    def spring(state):
+        seen.append((state.body, state.user_data, state.inertia, state.angle, state.angular_velocity))
+        return -8 * state.centre[0], -8 * state.centre[1], 0
+
+    for _ in range(300):
+        world.apply_law(spring)
+        world.step()
+    # x_i = 3 cos(i a) solves x_(i+1) - 2 x_i + x_(i-1) = -(w dt)^2 x_i, the force at the middle of each step.
+    a = math.acos(1 - 0.5 * 4 / 60**2)
+    assert body.position == pytest.approx((3 * math.cos(300 * a), 0), abs=1e-11)
+    assert seen[0] == (body, 7, 1, 0, 0)
+    centres = []
+    body.velocity = (1, 0)
+    for dt in (0, 1 / 30):
+        world.apply_law(lambda state: (centres.append(state.centre[0]), 0, 0)[1:] + (0,), dt=dt)
+    assert centres == pytest.approx([body.position[0], body.position[0] + 1 / 60], rel=1e-12)
+    with pytest.raises(plumb.InvalidValue, match="-1"):
+        world.apply_law(spring, dt=-1)
+
+
 def test_a_raft_floats_with_half_of_it_under_water():
     world = plumb.World()
     ground(world)

@@ -696,10 +696,11 @@ typedef struct plumb_wrench {
 } plumb_wrench;
 /* Returns the force on a body. It may read the world and not change it; it must return, and not jump out. */
 typedef plumb_wrench (*plumb_law_function)(const plumb_law_body* body, void* context);
-/* Applies a law of your own. A body for which it returns a number that is not finite, or beyond 1e12, is
- * quarantined. */
+/* Applies a law of your own. It sees bodies as at the middle of the step, of `dt` s, that follows (slightly
+ * earlier for bodies with contacts), which keeps the energy of springs and orbits; with dt = 0 as they are. A
+ * body for which it returns a number that is not finite, or beyond 1e12, is quarantined. */
 PLUMB_API plumb_status plumb_world_apply_law(plumb_world* world, plumb_law_function law, void* context,
-                                             bool wakes);
+                                             double dt, bool wakes);
 
 /* Applies F = -linear v and torque -angular w, in N s/m and N m s, >= 0. */
 PLUMB_API plumb_status plumb_world_apply_linear_drag(plumb_world* world, double linear, double angular,
