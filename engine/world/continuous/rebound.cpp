@@ -147,6 +147,21 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   return fast ? ImpactResponse::Bounce : ImpactResponse::Slide;
 }
 
+// Takes from two bodies in contact (null: does not move) the accelerations that press them together along the
+// normal, from `a` to `b`: a surface supports its body, and of two dynamic bodies each gets its part of the
+// push.
+template <class Real>
+void share_push(const WorldData<Real>& w, SweptBody* a, SweptBody* b, Vec2d normal) {
+  const auto inverse_mass = [&](const SweptBody* swept) {
+    return swept == nullptr ? 0.0 : static_cast<double>(w.motion[swept->body].inverse_mass);
+  };
+  const auto gain = [](const SweptBody* swept) { return swept == nullptr ? Vec2d{} : swept->delta_velocity; };
+  const double pressing = dot(gain(a) - gain(b), normal), sum = inverse_mass(a) + inverse_mass(b);
+  if (!(pressing > 0) || !(sum > 0)) return;
+  if (a != nullptr) a->delta_velocity -= (inverse_mass(a) / sum * pressing) * normal;
+  if (b != nullptr) b->delta_velocity += (inverse_mass(b) / sum * pressing) * normal;
+}
+
 // Reduces a contact to the shapes' nearest points, along its normal. The manifold of nearly parallel edges
 // has the outer corners, and may omit a corner between them that collides first.
 template <class Real>
@@ -270,15 +285,14 @@ ToiResponse resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, Swep
   if (response != ImpactResponse::None)
     report_touch(w, contact, c, response == ImpactResponse::Bounce && c.restitution > 0);
   const Vec2d normal = c.normal.template as<double>();
+  if (response == ImpactResponse::Slide) {
+    const bool in_order = a.body == contact.body_a;
+    share_push(w, in_order ? &a : b, in_order ? b : &a, normal);
+  }
   const auto continue_from = [&](SweptBody* swept, SavedBodyState<Real>& saved) {
     if (swept == nullptr || response == ImpactResponse::None || !w.is_dynamic(swept->body))
       return saved.restore();
     const SolverBody<Real>& motion = w.motion[swept->body];
-    // The surface supports the body against the acceleration that presses it.
-    if (response == ImpactResponse::Slide) {
-      const double side = swept->body == contact.body_a ? 1 : -1;
-      swept->delta_velocity -= (side * std::max(side * dot(swept->delta_velocity, normal), 0.0)) * normal;
-    }
     swept->continue_from(fraction, motion.velocity.template as<double>(),
                          static_cast<double>(motion.angular_velocity), dt);
     if (overlap > 0) {
