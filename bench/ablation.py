@@ -88,6 +88,7 @@ CODE = {
     "disc_normals": {"solvers/restitution.cpp": ["is_centred_circle", "predict_circle_normal"],
                      "contact_solver/restitution_contacts.cpp": ["update_masses", "update_circle_normal"]},
     "kept_closed": {"solvers/restitution.cpp": ["any_without_restitution", "keep_closed"]},
+    "turning_contacts": {"solvers/turning_contacts.cpp": [], "solvers/turning_contacts.h": []},
     "riding_contacts": {"step/common_rotation.h": [], "step/lasting_contact.cpp": ["rebuild_rotating_contact"]},
     "lasting_contacts": {"step/lasting_contact.cpp": ["contact_at_middle", "lasting_contact", "may_arrive",
                                                       "rebuild_lasting_contact", "arriving_contact"]},

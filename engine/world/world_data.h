@@ -354,7 +354,7 @@ struct Scratch {
   std::vector<ContactConstraint<Real>> solver_impacts;  ///< of contacts without points, left to the solver
   std::vector<ContactRun<Real>> contact_runs;
   std::vector<char> has_contact_load;         ///< by body: a contact presses on it
-  std::vector<int> pushers;                   ///< by body: its pusher (speculative_contact.cpp), once known
+  std::vector<int> pushers;                   ///< by body: its pusher (step/pushers.h), once known
   std::vector<std::uint8_t> contact_changes;  ///< by updated contact: nontouching ones, then the graph's
   std::vector<std::uint8_t>
       separating_faces;  ///< by contact without points: the face that separates its shapes
@@ -386,6 +386,8 @@ struct Scratch {
   std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set
   std::vector<int> bounce_candidates;  ///< contacts with restitution, or possibly of discs that approach fast
   std::vector<int> woken_contacts;     ///< contacts of bodies that woke in the step
+  BlockLists<int> found_turning;       ///< see next; by block
+  std::vector<int> turning_contacts;   ///< contacts whose points change within the step
   std::vector<RestitutionContact<Real>> restitution_contacts;
   std::vector<BodyMotion<Real>> motion_before_step;  ///< of the awake bodies: step_rollback.h
   std::vector<Real> earlier_impulses;                ///< N s, of contacts and joints: state/impulse_memory.h

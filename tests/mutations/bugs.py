@@ -100,7 +100,7 @@ MUTATIONS = [
              "const bool locked = own_type(*data_, index) == BodyType::Dynamic && data_", "const bool locked = data_->is_dynamic(index) && data_",
              "world", ("world/locked_axes",)),
     Mutation("an impact at one corner does not press on the one that touches", "engine/world/continuous/rebound.cpp",
-             "closed[i] = c.separation[i] <= nearest + rounding;", "closed[i] = c.approach[i] < 0 && c.separation[i] <= nearest + rounding;",
+             "closed[i] = c.separation[i] <= std::max(nearest + rounding, Real(0));", "closed[i] = c.approach[i] < 0 && c.separation[i] <= nearest + rounding;",
              "world", ("world/sliding_landing",)),
     Mutation("a landing stops in place of sliding on", "engine/world/continuous/continuous.cpp",
              "const bool is_last = swept.impacts + 1 == max_impacts;", "const bool is_last = false;", "world", ("world/sliding_landing",)),

@@ -37,6 +37,7 @@ enum class Switch {
   KinematicRamps,
   DiscNormals,
   KeptClosed,
+  TurningContacts,
   // step/, state/
   RidingContacts,
   LastingContacts,

@@ -239,6 +239,19 @@ bool continue_together(WorldData<Real>& w, const ToiEvent& next, int other_index
   return true;
 }
 
+// Fraction of a step between the impacts of two bodies that stay together after one. Between them, a corner
+// that turns by w enters the other body by up to arm (w dt / 16)^2 / 2: 1.7 mm for 1 m at 60 rad/s. It is
+// moved out at the next impact.
+constexpr double kLastingInterval = 1.0 / 16;
+
+// Returns true if an impact is so slow that the bodies would overlap by no more than the tolerance of impacts
+// if it waited for the next one.
+template <class Real>
+bool is_slow_impact(const WorldData<Real>& w, const ToiEvent& at, double approach, double dt) {
+  const double smaller = static_cast<double>(std::min(w.forms[at.shape].extent, w.forms[at.other].extent));
+  return approach * dt * kLastingInterval < tuning::kImpactTolerance * smaller;
+}
+
 // Processes the next event. A stale one, of a body whose motion has changed since it was found, is dropped or
 // searched again; so is one that the pre-solve hook disables.
 template <class Real>
@@ -255,14 +268,24 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
   }
   const int other_index = other == nullptr ? kNone : w.scratch.swept_index_of[other_body];
   const Real restitution = restitution_between(w, next.shape, next.other);
-  const int max_impacts = restitution == 1  ? tuning::kMaxImpactsPerStep
-                          : restitution > 0 ? tuning::kMaxBouncesPerStep + tuning::kMaxLandingsPerStep
-                                            : tuning::kMaxLandingsPerStep;
+  const bool stay = stay_together(w, next.shape, next.other);
+  const int max_impacts = restitution == 1          ? tuning::kMaxImpactsPerStep
+                          : restitution > 0 || stay ? tuning::kMaxBouncesPerStep + tuning::kMaxLandingsPerStep
+                                                    : tuning::kMaxLandingsPerStep;
   if (swept.resolves_impacts && swept.impacts < max_impacts &&
       may_resolve_toi_impact(w, next.shape, next.other, search.dt)) {
     const bool is_last = swept.impacts + 1 == max_impacts;
-    const bool resolved =
+    const auto [resolved, approach] =
         resolve_toi_impact(w, swept, next.shape, other, next.other, next.fraction, search.dt, is_last);
+    // Bodies that stay together would have endlessly many impacts at once, each at the speed of rounding.
+    if (stay && (resolved ? next.lasts || is_slow_impact(w, next, approach, search.dt) : !next.lasts)) {
+      ToiEvent later = next;
+      later.fraction += kLastingInterval, later.lasts = true;
+      later.version = swept.version, later.other_version = other->version;
+      insert_swept_aabb(w, swept), insert_swept_aabb(w, *other);
+      push_toi_event(w, later);
+      return;
+    }
     if (!resolved || is_last) swept.resolves_impacts = false;  // the bodies do not approach, or they slide on
     if (resolved) insert_swept_aabb(w, swept);
     const bool other_bounced = resolved && other != nullptr && w.is_dynamic(other->body);

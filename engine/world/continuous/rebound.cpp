@@ -118,7 +118,7 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   for (int i = 0; i < c.count; ++i) {
     c.normal_impulse[i] = c.max_normal_impulse[i] = 0;
     c.approach[i] = pair.normal_velocity(i);
-    closed[i] = c.separation[i] <= nearest + rounding;
+    closed[i] = c.separation[i] <= std::max(nearest + rounding, Real(0));
     approaches = approaches || (closed[i] && c.approach[i] < 0);
     fast = fast || (closed[i] && c.approach[i] < -threshold);
   }
@@ -150,6 +150,21 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   c.tracking = ImpactTracking::Motion;
   pair.record_max_impulse();
   return fast ? ImpactResponse::Bounce : ImpactResponse::Slide;
+}
+
+// Takes from two bodies in contact (null: does not move) the accelerations that press them together along the
+// normal, from `a` to `b`: a surface supports its body, and of two dynamic bodies each gets its part of the
+// push.
+template <class Real>
+void share_push(const WorldData<Real>& w, SweptBody* a, SweptBody* b, Vec2d normal) {
+  const auto inverse_mass = [&](const SweptBody* swept) {
+    return swept == nullptr ? 0.0 : static_cast<double>(w.motion[swept->body].inverse_mass);
+  };
+  const auto gain = [](const SweptBody* swept) { return swept == nullptr ? Vec2d{} : swept->delta_velocity; };
+  const double pressing = dot(gain(a) - gain(b), normal), sum = inverse_mass(a) + inverse_mass(b);
+  if (!(pressing > 0) || !(sum > 0)) return;
+  if (a != nullptr) a->delta_velocity -= (inverse_mass(a) / sum * pressing) * normal;
+  if (b != nullptr) b->delta_velocity += (inverse_mass(b) / sum * pressing) * normal;
 }
 
 // Reduces a contact to the shapes' nearest points, along its normal. The manifold of nearly parallel edges
@@ -228,15 +243,19 @@ bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, doub
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
   if (a.pre_solve || b.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
   if (!enabled(Switch::Landings) && !(restitution_between(w, shape, other) > 0)) return false;
-  // Without restitution two dynamic bodies move on together, which their contact handles at less cost.
-  const bool both = w.is_dynamic(a.body) && w.is_dynamic(b.body);
-  if (both && !(restitution_between(w, shape, other) > 0)) return false;
+  if (stay_together(w, shape, other) && !are_alone(w, a.body, b.body, static_cast<Real>(dt))) return false;
   return is_free(w, a.body, dt) && is_free(w, b.body, dt);
 }
 
 template <class Real>
-bool resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
-                        double dt, bool is_last) {
+bool stay_together(const WorldData<Real>& w, int shape, int other) {
+  return w.is_dynamic(w.shapes[shape].body) && w.is_dynamic(w.shapes[other].body) &&
+         !(restitution_between(w, shape, other) > 0);
+}
+
+template <class Real>
+ToiResponse resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other,
+                               double fraction, double dt, bool is_last) {
   SavedBodyState<Real> saved_a(w, &a), saved_b(w, b);
   set_pose(w, a, fraction), set_velocity(w, a, fraction);
   if (b) set_pose(w, *b, fraction), set_velocity(w, *b, fraction);
@@ -252,6 +271,18 @@ bool resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* 
     reduce_to_nearest_points(w, contact, c);
     response = resolve_impact(w, c, may_bounce, static_cast<Real>(dt), remaining_time);
   }
+  // Between the impacts of bodies that stay together they may overlap a little.
+  Real overlap = 0;
+  if (c.count > 0 && stay_together(w, shape, other)) {
+    overlap = std::max(-c.separation[0], Real(0));
+    if (c.count == 2) overlap = std::max(overlap, -c.separation[1]);
+    if (overlap > 0) overlap += rounding_overlap(w, contact.body_a, contact.body_b);
+  }
+  Real approach = 0;
+  for (int i = 0; i < c.count; ++i)
+    if (response != ImpactResponse::None && c.max_normal_impulse[i] > 0)
+      approach = std::max(approach, -c.approach[i]);
+  if (response == ImpactResponse::None && overlap > 0) response = ImpactResponse::Slide;
   // Velocities beyond the range of numbers: the bodies stop here, and the next step's solver and quarantine
   // handle them.
   for (const int body : {contact.body_a, contact.body_b})
@@ -259,21 +290,28 @@ bool resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* 
   if (response != ImpactResponse::None)
     report_touch(w, contact, c, response == ImpactResponse::Bounce && c.restitution > 0);
   const Vec2d normal = c.normal.template as<double>();
+  if (response == ImpactResponse::Slide) {
+    const bool in_order = a.body == contact.body_a;
+    share_push(w, in_order ? &a : b, in_order ? b : &a, normal);
+  }
   const auto continue_from = [&](SweptBody* swept, SavedBodyState<Real>& saved) {
     if (swept == nullptr || response == ImpactResponse::None || !w.is_dynamic(swept->body))
       return saved.restore();
     const SolverBody<Real>& motion = w.motion[swept->body];
-    // The surface supports the body against the acceleration that presses it.
-    if (response == ImpactResponse::Slide) {
-      const double side = swept->body == contact.body_a ? 1 : -1;
-      swept->delta_velocity -= (side * std::max(side * dot(swept->delta_velocity, normal), 0.0)) * normal;
-    }
     swept->continue_from(fraction, motion.velocity.template as<double>(),
                          static_cast<double>(motion.angular_velocity), dt);
+    if (overlap > 0) {
+      const Real inverse = w.motion[contact.body_a].inverse_mass + w.motion[contact.body_b].inverse_mass;
+      const double side = swept->body == contact.body_a ? -1 : 1;
+      const Vec2d out = (side * static_cast<double>(overlap * motion.inverse_mass / inverse)) * normal;
+      const BodyLocks locks = w.bodies[swept->body].locks();
+      if (!locks.x) swept->start.x += out.x;
+      if (!locks.y) swept->start.y += out.y;
+    }
   };
   continue_from(&a, saved_a);
   continue_from(b, saved_b);
-  return response != ImpactResponse::None;
+  return {response != ImpactResponse::None, static_cast<double>(approach)};
 }
 
 template <class Real>
@@ -292,11 +330,12 @@ void commit_sweep(WorldData<Real>& w, const SweptBody& swept) {
   if (!is_still(w, record, motion, w.extents[swept.body], Real(0))) record.sleep_time = 0;
 }
 
-#define PLUMB_FOR(Real)                                                                                \
-  template SweptBody swept_body_of(const WorldData<Real>&, int, double);                               \
-  template bool may_resolve_toi_impact(const WorldData<Real>&, int, int, double);                      \
-  template bool resolve_toi_impact(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, double, \
-                                   bool);                                                              \
+#define PLUMB_FOR(Real)                                                                               \
+  template SweptBody swept_body_of(const WorldData<Real>&, int, double);                              \
+  template bool may_resolve_toi_impact(const WorldData<Real>&, int, int, double);                     \
+  template bool stay_together(const WorldData<Real>&, int, int);                                      \
+  template ToiResponse resolve_toi_impact(WorldData<Real>&, SweptBody&, int, SweptBody*, int, double, \
+                                          double, bool);                                              \
   template void commit_sweep(WorldData<Real>&, const SweptBody&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

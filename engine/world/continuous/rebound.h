@@ -25,14 +25,24 @@ const SweptBody* find_swept_body(const WorldData<Real>& w, int body) {
 template <class Real>
 bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, double dt);
 
+/// Returns true if two bodies stay together after an impact: both are dynamic, without restitution.
+template <class Real>
+bool stay_together(const WorldData<Real>& w, int shape, int other);
+
+/// Says how an impact in flight was resolved.
+struct ToiResponse {
+  bool resolved = false;  ///< it set the velocities of the bodies
+  double approach = 0;    ///< m/s, velocity along the normal that it removed
+};
+
 /// Resolves the impact of `a` with its `shape` and `b` with its `other` (null: does not move), which then
 /// continue from a fraction of the step. Their velocities follow from Newton's and Coulomb's laws; after an
 /// approach too slow to bounce, the body slides along the surface. After the last impact of the step
 /// (`is_last`) no contact point approaches any more. Returns false and changes nothing if the bodies do not
 /// approach.
 template <class Real>
-bool resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other, double fraction,
-                        double dt, bool is_last);
+ToiResponse resolve_toi_impact(WorldData<Real>& w, SweptBody& a, int shape, SweptBody* b, int other,
+                               double fraction, double dt, bool is_last);
 
 /// Writes the end of the swept motion to the body.
 template <class Real>

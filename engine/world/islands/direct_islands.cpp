@@ -332,6 +332,17 @@ void prepare_direct_islands(WorldData<Real>& w) {
 }
 
 template <class Real>
+void assemble_again(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  Scratch<Real>& s = w.scratch;
+  if (c.hardness != ContactHardness::Rigid) return;
+  const int index = s.island_index[s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b]];
+  DirectIsland<Real>& island = s.direct_islands[index];
+  add_rows(island);
+  if (island.system.order(w.motion.data()) > tuning::kMaxDirectCost) return solve_by_iterations(w, island);
+  island.system.assemble(w.motion.data());
+}
+
+template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool use_bias) {
   if (w.scratch.direct_count == 0) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
@@ -375,6 +386,7 @@ void finish_direct_islands(WorldData<Real>& w) {
 
 #define PLUMB_FOR(Real)                                                                 \
   template void prepare_direct_islands(WorldData<Real>&);                               \
+  template void assemble_again(WorldData<Real>&, const ContactConstraint<Real>&);       \
   template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
   template void hand_over_all(WorldData<Real>&);                                        \
   template void finish_direct_islands(WorldData<Real>&);

@@ -12,6 +12,11 @@ namespace plumb {
 template <class Real>
 void prepare_direct_islands(WorldData<Real>& w);
 
+/// Assembles the system of a contact's island again, after its points have changed within the step. Does
+/// nothing unless the contact is solved directly.
+template <class Real>
+void assemble_again(WorldData<Real>& w, const ContactConstraint<Real>& c);
+
 /// Finds impulses that satisfy all rows of each island: with depenetration before bodies move (`push`),
 /// without it afterwards.
 template <class Real>

@@ -12,7 +12,9 @@
 #include "engine/world/islands/jointed_islands.h"
 #include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
+#include "engine/world/solvers/turning_contacts.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
 #include "engine/world/state/impulse_memory.h"
 
 namespace plumb {
@@ -64,6 +66,7 @@ const std::vector<char>& scalar_contacts(WorldData<Real>& w) {
     if (!(bounce.contact->restitution > 0)) mark(*bounce.contact);
   for (int i = 0; i < w.scratch.jointed_count; ++i)
     for (const ContactConstraint<Real>* c : w.scratch.jointed_islands[i].contacts) mark(*c);
+  for (const int id : w.scratch.turning_contacts) mark(constraint_of(w, w.contacts[id]));
   return marks;
 }
 
@@ -152,6 +155,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   if (jointed) w.joint_set.prepare(bodies, joints, joints_in_islands(w), &w.scheduler);
   const bool iterated = jointed && any_joint_iterated(w);
   collect_restitution_contacts(w);
+  collect_turning_contacts(w);
   SoftContacts<Real>& soft_contacts = w.scratch.soft_contacts;
   soft_contacts.prepare(w.graph, bodies.motion, scalar_contacts(w), w.scheduler);
   using Bounce = RestitutionContact<Real>;
@@ -169,7 +173,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     const bool separated = any_bounce(
         w, [&](std::span<Bounce> some) { return record_approaches(bodies.motion, some, contacts); });
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
-    const bool fuse_warm_start = substep > 0 && !jointed && !has_impacts && !separated;
+    const bool renewed = substep > 0 && renew_turning_contacts(w, static_cast<Real>(h));
+    const bool fuse_warm_start = substep > 0 && !jointed && !has_impacts && !separated && !renewed;
     begin_jointed_substep(w);
     fuse_warm_start ? integrate_and_warm_start(w) : integrate_velocities(w);
     // Find impacts before warm starting. Warm-start impulses cancel only in the solve; before that, they
@@ -187,6 +192,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (iterated) w.joint_set.solve(bodies, joints, &w.scheduler);
     solve_direct_islands(w, contacts, true);
     soft_contacts.solve(bodies.motion, contacts);
+    solve_turning_contacts(w, contacts);
     solve_jointed_islands(w, contacts);
     integrate_positions(w, static_cast<Real>(h), integrator);
     if (jointed) project_angular_limits(w);

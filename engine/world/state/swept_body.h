@@ -137,6 +137,7 @@ struct ToiEvent {
   int version = 0;      ///< version of the swept body when the event was found
   int shape = -1, other = -1;
   int other_version = 0;  ///< version of the other swept body then; 0 for the solver's motion
+  bool lasts = false;     ///< not searched for: the bodies stay together after an impact
 };
 
 }  // namespace plumb

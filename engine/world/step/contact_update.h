@@ -137,6 +137,7 @@ void begin_contact_with(WorldData<Real>& w, int block, int id, Real dt, bool loa
   mix_materials(w, contact, c);
   build(c);
   if (!begun.needs_pre_solve) begun.bounces = begin_contact_step(w, c, dt);
+  if (turns_in_step(w, c, dt)) w.scratch.found_turning.add(block, id);
   w.scratch.begun_contacts.add(block, begun);
 }
 
@@ -328,6 +329,7 @@ template <class Real>
   const int known = change & ~(kLeftFatAabb | kStale);
   if ((change & kStale) == 0) return known;
   const bool has_points = rebuild_manifold(w, block, contact, dt, h, c);
+  if (has_points && turns_in_step(w, c, dt)) w.scratch.found_turning.add(block, c.contact);
   return known | kRebuilt | (!has_points ? kEnded : needs_pre_solve_call(w, contact) ? kNeedsPreSolve : 0);
 }
 

@@ -10,6 +10,7 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/step/pushers.h"
 
 namespace plumb {
 namespace {
@@ -84,7 +85,8 @@ Real time_of_contact(const WorldData<Real>& w, const ContactConstraint<Real>& c)
 // simultaneous impacts together: a bar that falls flat on two posts leaves both at the same speed. Impacts
 // one after the other take place in flight, at their own times, because those after a body's first one may
 // change or not happen. Without restitution, dynamic bodies stay together and press on others within the
-// step, which only contacts can pass on: such impacts with several bodies are left to the solver.
+// step, which only contacts can pass on: such impacts with several bodies are left to the solver, as are
+// those of bodies that may reach a third one (`are_alone`).
 template <class Real>
 void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
   if (!enabled(Switch::SimultaneousImpacts)) return;
@@ -124,6 +126,51 @@ void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
 }  // namespace
 
 template <class Real>
+bool are_alone(const WorldData<Real>& w, int body_a, int body_b, Real dt) {
+  const SolverBody<Real>&a = w.motion[body_a], &b = w.motion[body_b];
+  const auto speed = [&](Vec2<Real> v, Real spin_speed) {
+    return std::abs(v.x) + std::abs(v.y) + spin_speed;
+  };
+  const Real spin_a = std::abs(a.angular_velocity) * w.extents[body_a],
+             spin_b = std::abs(b.angular_velocity) * w.extents[body_b];
+  const Real relative = speed(b.velocity - a.velocity, spin_a + spin_b);
+  const auto reaches_third = [&](int body, Real own_speed) {
+    const Real reach = dt * (own_speed + relative);
+    return any_edge(w.contacts, w.bodies[body].first_contact, [&](const ContactRecord& contact) {
+      if ((contact.body_a == body_a && contact.body_b == body_b) ||
+          (contact.body_a == body_b && contact.body_b == body_a))
+        return false;
+      return w.tight_aabbs[contact.shape_a].grown(reach).overlaps(w.tight_aabbs[contact.shape_b]);
+    });
+  };
+  return !reaches_third(body_a, speed(a.velocity, spin_a)) &&
+         !reaches_third(body_b, speed(b.velocity, spin_b));
+}
+
+template <class Real>
+bool turns_in_step(WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
+  if (!w.is_dynamic(c.body_a) || !w.is_dynamic(c.body_b)) return false;
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Real along = dot(c.normal, b.velocity - a.velocity);
+  Real closing = 0;
+  for (int i = 0; i < c.count; ++i)
+    closing = std::max(closing, -(along + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity));
+  const Real smaller = c.depenetration_speed * Real(1 / tuning::kDepenetrationSpeed);
+  // Deviation of a turning point from its tangent, and of a normal about a corner that is passed.
+  const auto deviation = [&](const SolverBody<Real>& body, int index) {
+    const Real turn = dt * body.angular_velocity;
+    return turn * turn * w.extents[index];
+  };
+  const Real passed = dt * closing;
+  if (!(deviation(a, c.body_a) + deviation(b, c.body_b) + passed * passed / smaller >
+        Real(2 * tuning::kRecycleDistance) * smaller))
+    return false;
+  if (is_pressed_by_third(w, c.body_a, c.body_b) || is_pressed_by_third(w, c.body_b, c.body_a)) return false;
+  const auto has_joint = [&](int body) { return w.bodies[body].first_joint != kNone; };
+  return has_joint(c.body_a) || has_joint(c.body_b) || are_alone(w, c.body_a, c.body_b, dt);
+}
+
+template <class Real>
 bool is_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt) {
   const Real tolerance = c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
   const Real rounding = rounding_overlap(w, c.body_a, c.body_b);
@@ -153,16 +200,19 @@ void clear_expected_impacts(WorldData<Real>& w) {
 }
 
 template <class Real>
-bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
-                         const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt) {
+bool is_impact_in_flight(WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
+                         const ContactConstraint<Real>& c, Real dt) {
   const bool solves_in_flight = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
   if (!solves_in_flight || contact.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
   if (!(c.restitution > 0)) {
     if (!enabled(Switch::Landings)) return false;
-    // Slower bodies strike with one corner after the other in different substeps, and two dynamic bodies move
-    // on together: contacts handle both at less cost.
-    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) return false;
-    if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) return false;
+    // Slower bodies strike with one corner after the other in different substeps: contacts handle them at
+    // less cost.
+    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) {
+      if (!turns_in_step(w, c, dt)) return false;
+    } else if (!moves_far(w, c.body_a, dt) && !moves_far(w, c.body_b, dt)) {
+      return false;
+    }
   }
   const Real min_separation =
       c.count == 2 ? std::min(at.manifold.points[0].separation, at.manifold.points[1].separation)
@@ -199,7 +249,10 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
     more = false;
     for (ExpectedImpact<Real>& impact : impacts) {
       const ContactConstraint<Real>& c = impact.constraint;
-      if (impact.left_to_solver || (is_in_free_flight(w, c.body_a, dt) && is_in_free_flight(w, c.body_b, dt)))
+      if (impact.left_to_solver) continue;
+      const bool sticks = !(c.restitution > 0) && w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
+      if (is_in_free_flight(w, c.body_a, dt) && is_in_free_flight(w, c.body_b, dt) &&
+          !(sticks && !are_alone(w, c.body_a, c.body_b, dt)))
         continue;
       impact.left_to_solver = more = true;
       mark_loaded(w, c.body_a, c.body_b);
@@ -212,13 +265,15 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                     \
-  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
-  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);             \
-  template void clear_expected_impacts(WorldData<Real>&);                                                   \
-  template bool is_impact_in_flight(const WorldData<Real>&, const ContactRecord&,                           \
-                                    const SpeculativeContact<Real>&, const ContactConstraint<Real>&, Real); \
-  template void mark_loaded(WorldData<Real>&, int, int);                                                    \
+#define PLUMB_FOR(Real)                                                                                      \
+  template bool are_alone(const WorldData<Real>&, int, int, Real);                                           \
+  template bool turns_in_step(WorldData<Real>&, const ContactConstraint<Real>&, Real);                       \
+  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);               \
+  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
+  template void clear_expected_impacts(WorldData<Real>&);                                                    \
+  template bool is_impact_in_flight(WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
+                                    const ContactConstraint<Real>&, Real);                                   \
+  template void mark_loaded(WorldData<Real>&, int, int);                                                     \
   template void decide_expected_impacts(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

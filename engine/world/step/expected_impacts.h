@@ -5,6 +5,17 @@
 
 namespace plumb {
 
+/// Returns true if two dynamic bodies approach or turn so fast that the points and normal of their contact
+/// change within the step: the deviation of a turning point from its tangent exceeds what a recycled manifold
+/// tolerates. Only for bodies that no other dynamic body presses on, and that have joints or reach no third
+/// one: in a crowd it would cost more than the crowd itself.
+template <class Real>
+bool turns_in_step(WorldData<Real>& w, const ContactConstraint<Real>& c, Real dt);
+
+/// Returns true if two bodies reach no third one in the step, whatever their impact does to their velocities.
+template <class Real>
+bool are_alone(const WorldData<Real>& w, int body_a, int body_b, Real dt);
+
 /// Returns true if a contact with points carries load at the start of a step of `dt`: it has an impulse, or
 /// touches and will neither separate nor bounce.
 template <class Real>
@@ -25,8 +36,8 @@ void clear_expected_impacts(WorldData<Real>& w);
 /// corners of a body strike one after the other also without restitution; solved together, they would remove
 /// all of its spin.
 template <class Real>
-bool is_impact_in_flight(const WorldData<Real>& w, const ContactRecord& contact,
-                         const SpeculativeContact<Real>& at, const ContactConstraint<Real>& c, Real dt);
+bool is_impact_in_flight(WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
+                         const ContactConstraint<Real>& c, Real dt);
 
 /// Marks the two bodies of a contact that will carry load in this step: they are not in free flight.
 template <class Real>

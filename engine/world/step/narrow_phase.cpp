@@ -8,6 +8,7 @@
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/contact_update.h"
 #include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/pushers.h"
 #include "engine/world/step/step.h"
 
 namespace plumb {
@@ -74,7 +75,7 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   const std::vector<ContactRun<Real>>& runs = scratch.contact_runs;
   const int blocks = nontouching_blocks + static_cast<int>(runs.size());
   scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
-  scratch.found_loaded.begin(blocks);
+  scratch.found_loaded.begin(blocks), scratch.found_turning.begin(blocks);
   std::uint8_t* const changes = scratch.contact_changes.data();
   // By run: the union of its contacts' changes.
   std::vector<int>& any = scratch.block_firsts;
@@ -183,6 +184,7 @@ void collect_changes(WorldData<Real>& w) {
   });
   scratch.found_loaded.for_each(
       [&](const std::pair<int, int>& bodies) { mark_loaded(w, bodies.first, bodies.second); });
+  scratch.found_turning.for_each([&](int id) { append(scratch.turning_contacts, id); });
   scratch.found_impacts.for_each(
       [&](const ExpectedImpact<Real>& impact) { append(scratch.expected_impacts, impact); });
   const std::vector<std::uint8_t>& changes = scratch.contact_changes;
@@ -219,6 +221,7 @@ void resolve_expected_impacts(WorldData<Real>& w, Real dt) {
     } else if (impact.left_to_solver) {
       if (begin_contact_step(w, c, dt)) append(w.scratch.bounce_candidates, c.contact);
       append(w.scratch.solver_impacts, c);
+      if (turns_in_step(w, c, dt)) append(w.scratch.turning_contacts, c.contact);
     } else {
       wake_body(w, c.body_a), wake_body(w, c.body_b);
     }
@@ -252,6 +255,7 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
   scratch.separated_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
   scratch.bounce_candidates.clear(), scratch.bounced_contacts.clear(), scratch.woken_contacts.clear();
+  scratch.turning_contacts.clear();
   clear_expected_impacts(w);
   if (w.disabled_pairs.size() > 0) w.disabled_pairs.clear();
   if (w.enabled_pairs.size() > 0) w.enabled_pairs.clear();

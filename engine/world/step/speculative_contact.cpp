@@ -10,6 +10,8 @@
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/internal_edges.h"
+#include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/pushers.h"
 
 namespace plumb {
 namespace {
@@ -41,42 +43,12 @@ bool is_unsupported(const WorldData<Real>& w, int body) {
   return w.scratch.has_contact_load[body] == 0;
 }
 
-// Returns true if `test` is true of any dynamic body that presses on a body. Reads only what does not change
-// while contacts are updated.
-template <class Real, class Test>
-bool any_pusher(const WorldData<Real>& w, int body, Test&& test) {
-  if (w.scratch.has_contact_load[body] == 0) return false;
-  return any_edge(w.contacts, w.bodies[body].first_contact, [&](const ContactRecord& contact) {
-    const int other = contact.body_a == body ? contact.body_b : contact.body_a;
-    if (contact.home != ContactHome::Graph || !w.is_dynamic(other)) return false;
-    const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});
-    return (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) && test(other);
-  });
-}
-
-// Returns the only dynamic body that presses on a body, kNone or kSeveralPushers, and keeps it for the step:
-// in a crowd many pairs ask. Several threads may find the same at once.
-template <class Real>
-int pusher_of(WorldData<Real>& w, int body) {
-  int& known = w.scratch.pushers[body];
-  if (const int pusher = __atomic_load_n(&known, __ATOMIC_RELAXED); pusher != kUnknownPusher) return pusher;
-  int first = kNone;
-  const bool several = any_pusher(w, body, [&](int other) {
-    if (first == kNone) first = other;
-    return other != first;
-  });
-  const int pusher = several ? kSeveralPushers : first;
-  __atomic_store_n(&known, pusher, __ATOMIC_RELAXED);
-  return pusher;
-}
-
 // Returns by how much dynamic bodies that press on one of two bodies may still push it off its predicted
 // path, m: by no more than they move relative to it. Returns infinity if such bodies press on both: in a
 // crowd, what drives two bodies together hands on more pushes in the step than their velocities show.
 template <class Real>
 Real push_of_neighbours(WorldData<Real>& w, int a, int b, Real dt) {
-  const int pusher_a = pusher_of(w, a), pusher_b = pusher_of(w, b);
-  const bool pushed_a = pusher_a != kNone && pusher_a != b, pushed_b = pusher_b != kNone && pusher_b != a;
+  const bool pushed_a = is_pressed_by_third(w, a, b), pushed_b = is_pressed_by_third(w, b, a);
   if (pushed_a && pushed_b) return std::numeric_limits<Real>::infinity();
   if (!pushed_a && !pushed_b) return 0;
   const int body = pushed_a ? a : b, partner = pushed_a ? b : a;
@@ -143,7 +115,8 @@ bool needs_impact_search(const WorldData<Real>& w, const ContactRecord& contact,
   if (!w.tight_aabbs[contact.shape_a].grown(approach).overlaps(w.tight_aabbs[contact.shape_b])) return false;
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
   // Two bodies of similar size, neither of them fast, approach by no more than twice `max_predicted`.
-  return approach > 2 * max_predicted || restitution_between(w, contact.shape_a, contact.shape_b) > 0;
+  return approach > 2 * max_predicted || restitution_between(w, contact.shape_a, contact.shape_b) > 0 ||
+         are_alone(w, a, b, dt);
 }
 
 // Returns the speculative contact at a fraction of the step.

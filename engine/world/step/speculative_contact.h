@@ -29,10 +29,6 @@ struct SpeculativeContact {
   Vec2<Real> velocity{};                      ///< m/s, of b's centre of mass relative to a's, at the impact
 };
 
-/// Entries of Scratch::pushers beside a body's index and kNone: no search has counted the pushers yet, or
-/// there are several.
-constexpr int kUnknownPusher = -2, kSeveralPushers = -3;
-
 /// Finds the speculative contact of two shapes with the current manifold `closest`. The plane through the
 /// closest points is only an estimate: it would deflect a shape that passes a corner closely, and a rotating
 /// shape hits elsewhere. So if a plane would be crossed, it counts only if the shapes really touch.
