@@ -8,9 +8,9 @@
 /// in engine/world/islands/jointed_islands.h. Larger islands are solved by iterations alone.
 namespace plumb {
 
-/// Finds the islands and factorises their systems, at the start of a step. Joints must be prepared.
+/// Finds the islands and factorises their systems, at the start of a step of `dt`. Joints must be prepared.
 template <class Real>
-void prepare_direct_islands(WorldData<Real>& w);
+void prepare_direct_islands(WorldData<Real>& w, Real dt);
 
 /// Finds impulses that satisfy all rows of each island: with depenetration before bodies move (`push`),
 /// without it afterwards.

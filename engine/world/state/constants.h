@@ -41,6 +41,9 @@ inline constexpr double kMaxDirectCost = 20000;
 inline constexpr int kMaxSlenderRows = 4096;
 inline constexpr int kMaxSlenderLoops = 8;
 inline constexpr int kMaxSlenderContacts = 8;
+/// Separation, as a fraction of the thinner body's thickness, up to which a point may press without a further
+/// approach. It must be below 1: the sheet after the next one is apart by the thickness of the next.
+inline constexpr double kNearThickness = 0.1;
 /// Mass ratio of the heaviest to the lightest body above which an island with joints is solved directly; with
 /// Solver::Direct any ratio suffices. Iterations are accurate for chains of equal links, and cost less.
 inline constexpr double kDirectMassRatio = 8;
