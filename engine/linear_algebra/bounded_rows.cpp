@@ -177,6 +177,7 @@ void BoundedRows::factorise() {
   free_.clear();
   for (const int position : free_positions_) free_.push_back(rows_in_order_[position]);
   free_matrix_.shape(first_columns_);
+  effort += EnvelopeMatrix::cost(first_columns_, unchanged) + static_cast<double>(free_matrix_.entries());
   if (!regularised_) {
     copy_free_rows(unchanged);
     regularised_ = !(free_matrix_.factorise(unchanged) > kMinPivot);
@@ -222,6 +223,13 @@ bool BoundedRows::is_significant(int i, double speed, double fraction) const {
   return speed * speed > fraction * fraction * energy_scale_ * mobility_[i];
 }
 
+// Adds the effort of passes over all rows, or of a solution with the factors, to that of all solutions.
+void BoundedRows::count_passes(int passes) {
+  constexpr double kPassEffort = 8;  // of one row, in multiplications of a factorisation
+  effort += kPassEffort * passes * static_cast<double>(rows.size());
+}
+void BoundedRows::count_solution() { effort += 2 * static_cast<double>(free_matrix_.entries()); }
+
 // Sets the bodies' velocities from all present impulses.
 void BoundedRows::apply_all() {
   std::copy(start_.begin(), start_.end(), bodies.begin());
@@ -247,6 +255,7 @@ void BoundedRows::solve_free() {
 // Makes one step of iterative refinement of the free rows. Returns false if their residuals are small
 // already.
 bool BoundedRows::refine() {
+  count_passes(1);
   bool exact = true;
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -254,6 +263,7 @@ bool BoundedRows::refine() {
     exact = exact && !is_significant(free_[k], x_[k], kResidualTolerance);
   }
   if (exact) return false;
+  count_solution();
   free_matrix_.solve(x_.data());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     rows[free_[k]].impulse += x_[k];

@@ -83,6 +83,12 @@ class BoundedRows {
   /// Solves again for the velocities that `solve` was given, after bounds have changed and nothing else.
   void solve_again();
 
+  /// Effort of all solutions and corrections so far, in multiplications (estimated for passes over the rows).
+  /// Once it has reached `effort_limit`, descents make a few steps only, and end with passes of projected
+  /// Gauss-Seidel: the impulses gain no energy, but are not the solution. The caller resets both.
+  double effort = 0, effort_limit = std::numeric_limits<double>::infinity();
+  bool is_exhausted() const { return effort >= effort_limit; }
+
   /// Returns true if a speed along a row is more than the fraction `fraction` of the speed of the row with
   /// the largest energy.
   bool is_significant(int row, double speed, double fraction) const;
@@ -132,6 +138,8 @@ class BoundedRows {
   // Steps of iterative refinement, which remove the error of the regularisation.
   static constexpr int kRefinements = 2;
 
+  void count_passes(int passes);
+  void count_solution();
   void compute_mobility();
   void compute_energy_scale();
   void index_blocks();

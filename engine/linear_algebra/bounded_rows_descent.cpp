@@ -8,6 +8,8 @@ namespace {
 
 // Number of rounds of descent; iterations in each; iterations at the end if the rounds do not converge.
 constexpr int kRounds = 10, kSmoothingIterations = 3, kFinalIterations = 10;
+// Number of steps to a bound that a descent may make when the effort has reached its limit.
+constexpr int kLeastFaces = 2;
 // Tolerated violation, relative to the row with the largest energy v^2 / mobility. In wedged bodies impulses
 // are a thousand times the load, and the regularisation of dependent rows leaves errors of 1e-7 of them. At
 // 1e-8 a third of the descents of two wedged ragdolls do not end, at 1e-6 one in twenty.
@@ -17,6 +19,7 @@ constexpr double kDescentTolerance = 1e-6;
 
 // Runs passes of projected Gauss-Seidel, each of which lowers the energy.
 void BoundedRows::gauss_seidel(int iterations) {
+  count_passes(2 * iterations);
   for (int pass = 0; pass < iterations; ++pass) {
     for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
       BoundedRow& row = rows[i];
@@ -61,6 +64,7 @@ bool BoundedRows::minimise_on_face() {
   x_.resize(free_.size());
   for (int refinement = 0; refinement <= kRefinements; ++refinement) {
     bool exact = true;
+    count_passes(2), count_solution();
     for (std::size_t k = 0; k < free_.size(); ++k) {
       x_[k] = residual(free_[k]);
       exact = exact && !is_significant(free_[k], x_[k], kResidualTolerance);
@@ -72,6 +76,7 @@ bool BoundedRows::minimise_on_face() {
       apply_step(1);
       continue;
     }
+    count_passes(5);
     // Try the whole step, clamped at the bounds; keep it if it is better than the step to the first bound.
     for (std::size_t i = 0; i < rows.size(); ++i) best_[i] = rows[i].impulse;
     apply_step(fraction);
@@ -90,17 +95,19 @@ bool BoundedRows::minimise_on_face() {
 // Finds the minimum over the rows that are between their bounds; fixes each row whose bound is reached on the
 // way.
 void BoundedRows::minimise_free() {
-  for (std::size_t faces = 0; faces <= rows.size() && !minimise_on_face(); ++faces) continue;
+  const int most = static_cast<int>(rows.size());
+  for (int face = 0; face <= (is_exhausted() ? kLeastFaces : most) && !minimise_on_face(); ++face) continue;
 }
 
 // Minimises the energy over the impulses within their bounds, starting from the present ones.
 void BoundedRows::descend() {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < (is_exhausted() ? 1 : kRounds); ++round) {
     if (round > 0) gauss_seidel(kSmoothingIterations);
     minimise_free();
     if (count_violations(kDescentTolerance) == 0) return;
   }
   gauss_seidel(kFinalIterations);
+  if (is_exhausted()) minimise_free();
 }
 
 }  // namespace plumb

@@ -89,9 +89,9 @@ void EnvelopeMatrix::solve(double* x) const {
   }
 }
 
-double EnvelopeMatrix::cost(std::span<const int> first) {
+double EnvelopeMatrix::cost(std::span<const int> first, int from) {
   double sum = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
+  for (std::size_t i = static_cast<std::size_t>(from); i < first.size(); ++i) {
     const double width = static_cast<double>(i) - first[i];
     sum += 0.5 * width * width;
   }

@@ -36,8 +36,11 @@ class EnvelopeMatrix {
   /// Solves: x <- A^-1 x.
   void solve(double* x) const;
 
-  /// Returns the number of multiplications of `factorise` for such an envelope.
-  static double cost(std::span<const int> first);
+  /// Returns the number of multiplications of `factorise(from)` for such an envelope.
+  static double cost(std::span<const int> first, int from = 0);
+
+  /// Returns the number of entries in the envelope.
+  std::size_t entries() const { return values_.size(); }
 
  private:
   std::pmr::vector<int> first_columns_, row_starts_;

@@ -362,7 +362,7 @@ struct Scratch {
   std::vector<BodyVelocity<Real>> start_velocities;          ///< their velocities at the start of the step
   std::vector<int> block_firsts;                             ///< by block of a loop: where its results begin
   std::vector<int> nonfinite_bodies;                         ///< bodies with an invalid motion in this step
-  std::vector<int> island_of, island_size, island_index, max_island_rows;
+  std::vector<int> island_of, island_size, island_index, max_island_rows, near_rows, near_contacts;
   std::vector<int> link_of;  ///< by body: index among the links of its island
   std::vector<Real> lightest, heaviest;
   std::vector<int> island_joints, island_bounded_rows;
@@ -380,7 +380,7 @@ struct Scratch {
   std::vector<char> open_joints;                ///< by slot of the joint: joint_gaps.cpp
   JointedIsland<Real> open_mechanism{&memory};  ///< a mechanism whose gaps are being closed
   bool islands_known = false;                   ///< `island_of` and `island_size` are up to date
-  bool has_direct_islands = false;              ///< at least one island is solved directly
+  bool has_direct_islands = false, has_crowded_islands = false;  ///< direct_islands.cpp
   HingeTrees<Real> trees;
   std::vector<int> tree_root_of, link_index;    ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set

@@ -44,6 +44,49 @@ constexpr int kIterated = tuning::kMaxSlenderRows + 1, kJointed = -1, kJointedIf
 
 constexpr bool is_jointed(int size) { return size == kJointed || size == kJointedIfCheap; }
 
+// Returns true for islands of contacts that have too many of them to be solved directly, if all have rows.
+// (A contact counts two rows, so kIterated is none of these.)
+constexpr bool is_crowded(int size) { return size > tuning::kMaxDirectRows && size != kIterated; }
+
+// Returns the separation, m, up to which a contact's points may press without a further approach. The margin
+// of contacts is a fraction of the shapes' extents, so a thin sheet has contacts with several others above
+// and below it. It can press only on the next ones.
+template <class Real>
+Real near_margin(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  Real margin = std::numeric_limits<Real>::max();
+  for (const int body : {c.body_a, c.body_b})
+    if (w.is_dynamic(body))
+      margin = std::min({margin, Real(tuning::kSpeculativeMargin) * w.extents[body],
+                         Real(2 * tuning::kNearThickness) * w.bodies[body].half_width});
+  return margin;
+}
+
+// Returns true if a body has passed through a half of another. Rows that push it out of those beyond as well
+// contradict each other.
+template <class Real>
+bool is_deep_in(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  Real half_width = std::numeric_limits<Real>::max();
+  for (const int body : {c.body_a, c.body_b})
+    if (w.is_dynamic(body)) half_width = std::min(half_width, w.bodies[body].half_width);
+  return -std::min(c.separation[0], c.separation[c.count - 1]) > half_width;
+}
+
+// Returns how far the bodies approach at a point in the time dt, m, at their present velocities.
+template <class Real>
+Real approach_of(const WorldData<Real>& w, const ContactConstraint<Real>& c, int point, Real dt) {
+  const SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
+  const Real speed = dot(c.normal, b.velocity - a.velocity) + c.arm_b[point] * b.angular_velocity -
+                     c.arm_a[point] * a.angular_velocity;
+  return std::max(-dt * speed, Real(0));
+}
+
+// Returns true if a point of a contact presses, or is near enough to press in this step.
+template <class Real>
+bool is_near(const WorldData<Real>& w, const ContactConstraint<Real>& c, int point, Real dt) {
+  if (c.normal_impulse[point] > 0 || c.separation[point] <= 0) return true;
+  return c.separation[point] <= near_margin(w, c) + approach_of(w, c, point, dt);
+}
+
 // Returns true for trees of a few similar hinges without contacts. Iterations are accurate enough for these,
 // and cost less.
 template <class Real>
@@ -132,19 +175,20 @@ void choose_jointed(WorldData<Real>& w) {
 }
 
 // Includes towers and other slender heaps of any height: if there are few loops, and few contacts on any
-// body, the factorisation has linear cost.
-template <class Real>
-void choose_slender(WorldData<Real>& w) {
+// body, the factorisation has linear cost. `contacts_of(body)` returns the number of a body's contacts, and
+// `size_of(root)` the rows of an island, which it sets to what counts as small if the island is slender.
+template <class Real, class ContactsOf, class SizeOf>
+void choose_slender(WorldData<Real>& w, const ContactsOf& contacts_of, const SizeOf& size_of) {
   if (!enabled(Switch::SlenderIslands)) return;
   std::vector<int>& limits = w.scratch.max_island_rows;
   limits.assign(w.bodies.size(), 2 * tuning::kMaxSlenderLoops);
   for (const int body : w.awake) {
     if (!w.is_dynamic(body)) continue;
     int& limit = limits[w.scratch.island_of[body]];
-    limit = w.bodies[body].constraints > tuning::kMaxSlenderContacts ? -tuning::kMaxSlenderRows : limit + 2;
+    limit = contacts_of(body) > tuning::kMaxSlenderContacts ? -tuning::kMaxSlenderRows : limit + 2;
   }
   for (const int body : w.awake) {
-    int& size = w.scratch.island_size[body];
+    int& size = size_of(body);
     if (size > tuning::kMaxDirectRows && size <= tuning::kMaxSlenderRows && size <= limits[body])
       size = tuning::kMaxDirectRows;
   }
@@ -169,11 +213,38 @@ void find_islands(WorldData<Real>& w) {
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
   for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
-  choose_slender(w);
+  choose_slender(
+      w, [&](int body) { return w.bodies[body].constraints; },
+      [&](int body) -> int& { return w.scratch.island_size[body]; });
   if (joints_outside_trees(w) > 0) choose_jointed(w);
-  w.scratch.has_direct_islands = std::any_of(w.awake.begin(), w.awake.end(), [&](int body) {
-    return is_direct(w.scratch.island_size[body]) || is_jointed(w.scratch.island_size[body]);
+  const auto any = [&](const auto& test) {
+    return std::any_of(w.awake.begin(), w.awake.end(),
+                       [&](int body) { return test(w.scratch.island_size[body]); });
+  };
+  w.scratch.has_direct_islands = any([](int size) { return is_direct(size) || is_jointed(size); });
+  w.scratch.has_crowded_islands = enabled(Switch::DirectIslands) && any(is_crowded);
+}
+
+// Counts the rows of the points that are near enough to press, of the islands that have too many contacts.
+// This is done in each step, since it depends on the motion. Returns true if some have few enough.
+template <class Real>
+bool choose_crowded(WorldData<Real>& w, Real dt) {
+  Scratch<Real>& s = w.scratch;
+  if (!s.has_crowded_islands) return false;
+  s.near_rows.assign(w.bodies.size(), 0), s.near_contacts.assign(w.bodies.size(), 0);
+  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+    const int root = s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b];
+    if (!is_crowded(s.island_size[root])) return;
+    if (!is_near(w, c, 0, dt) && !(c.count == 2 && is_near(w, c, 1, dt))) return;
+    // Those with the ground close no loops of bodies.
+    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b))
+      s.near_rows[root] += is_deep_in(w, c) ? kIterated : 2;
+    ++s.near_contacts[c.body_a], ++s.near_contacts[c.body_b];
   });
+  choose_slender(
+      w, [&](int body) { return s.near_contacts[body]; },
+      [&](int body) -> int& { return s.near_rows[body]; });
+  return std::any_of(w.awake.begin(), w.awake.end(), [&](int body) { return is_direct(s.near_rows[body]); });
 }
 
 template <class Island, class Real>
@@ -196,8 +267,21 @@ bool flies(const DirectIsland<Real>& island) {
   });
 }
 
+// Returns true if points meet in this step that were apart before: the island lands, or bodies on it do.
 template <class Real>
-void add_rows(DirectIsland<Real>& island) {
+bool lands(const WorldData<Real>& w, const DirectIsland<Real>& island, Real dt) {
+  return std::any_of(island.contacts.begin(), island.contacts.end(), [&](const ContactConstraint<Real>* c) {
+    const Real margin = near_margin(w, *c);
+    for (int i = 0; i < c->count; ++i)
+      if (c->separation[i] > margin && c->separation[i] <= margin + approach_of(w, *c, i, dt)) return true;
+    return false;
+  });
+}
+
+// Adds the rows of an island, and orders them. Of points where nothing presses yet, those have rows that are
+// near, or all with `any_distance`. Returns true if the rows cost little enough.
+template <class Real>
+bool add_rows(const WorldData<Real>& w, DirectIsland<Real>& island, Real dt, bool any_distance) {
   std::pmr::vector<DirectRow<Real>>& rows = island.system.rows;
   rows.clear();
   const bool all_open = enabled(Switch::FlyingStacks) && flies(island);
@@ -206,9 +290,9 @@ void add_rows(DirectIsland<Real>& island) {
     const int before = static_cast<int>(rows.size());
     for (int i = 0; i < c->count; ++i) {
       // Points that are separated and have no impulse are left to the iterations. Where nothing presses yet,
-      // they have rows: a stack that lands in this step would have no floor in the system, and hop. Points
-      // that will bounce are left to their impact.
-      const bool has_row = all_open && !(c->restitution > 0);
+      // the near ones have rows: a stack that lands in this step would have no floor in the system, and
+      // hop. Points that will bounce are left to their impact.
+      const bool has_row = all_open && !(c->restitution > 0) && (any_distance || is_near(w, *c, i, dt));
       if (!(c->mass[i] > 0)) continue;  // locked axes block it
       if (c->normal_impulse[i] == 0 && c->separation[i] > 0 && !has_row) continue;
       DirectRow<Real> row;
@@ -222,6 +306,7 @@ void add_rows(DirectIsland<Real>& island) {
     }
     if (static_cast<int>(rows.size()) > before) ++block;
   }
+  return island.system.order(w.motion.data()) <= tuning::kMaxDirectCost;
 }
 
 // Collects the contacts and joints of the chosen islands.
@@ -238,7 +323,8 @@ void fill_islands(WorldData<Real>& w) {
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
     if (is_jointed(rows)) jointed_at(root).contacts.push_back(&c);
-    if (is_direct(rows)) island_at(w, s.direct_islands, s.direct_count, root).contacts.push_back(&c);
+    if (is_direct(is_crowded(rows) && s.has_crowded_islands ? s.near_rows[root] : rows))
+      island_at(w, s.direct_islands, s.direct_count, root).contacts.push_back(&c);
   });
   if (joints_outside_trees(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
@@ -308,7 +394,7 @@ void for_each_direct(WorldData<Real>& w, const Act& act) {
 }  // namespace
 
 template <class Real>
-void prepare_direct_islands(WorldData<Real>& w) {
+void prepare_direct_islands(WorldData<Real>& w, Real dt) {
   w.scratch.direct_count = w.scratch.jointed_count = 0;
   const bool articulated = w.settings.solver == Solver::Direct;
   if (!articulated && !w.settings.direct_islands) return;
@@ -316,15 +402,20 @@ void prepare_direct_islands(WorldData<Real>& w) {
   const bool are_new = !w.scratch.islands_known;
   if (are_new) find_islands(w);
   w.scratch.islands_known = true;
-  if (w.scratch.has_direct_islands) {
+  const bool has_crowded = choose_crowded(w, dt);
+  if (w.scratch.has_direct_islands || has_crowded) {
     fill_islands(w);
     if (are_new) order_jointed(w);
   }
   if (are_new && joints_outside_trees(w) > 0) hand_over_unselected(w);
-  if (!w.scratch.has_direct_islands) return;
+  if (!w.scratch.has_direct_islands && !has_crowded) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
-    add_rows(island);
-    if (island.system.order(w.motion.data()) > tuning::kMaxDirectCost) return solve_by_iterations(w, island);
+    // Gives all points rows if something lands, because it may close any gap above it. If those are too many,
+    // the iterations find the impact: they would repeat impulses of a solution of the near ones.
+    const bool any_distance = lands(w, island, dt);
+    if (any_distance && is_crowded(w.scratch.island_size[island.root])) return solve_by_iterations(w, island);
+    if (!add_rows(w, island, dt, any_distance) && !(any_distance && add_rows(w, island, dt, false)))
+      return solve_by_iterations(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
     island.system.assemble(w.motion.data());
   });
@@ -337,8 +428,7 @@ void assemble_again(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   if (c.hardness != ContactHardness::Rigid) return;
   const int index = s.island_index[s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b]];
   DirectIsland<Real>& island = s.direct_islands[index];
-  add_rows(island);
-  if (island.system.order(w.motion.data()) > tuning::kMaxDirectCost) return solve_by_iterations(w, island);
+  if (!add_rows(w, island, Real(0), true)) return solve_by_iterations(w, island);
   island.system.assemble(w.motion.data());
 }
 
@@ -385,7 +475,7 @@ void finish_direct_islands(WorldData<Real>& w) {
 }
 
 #define PLUMB_FOR(Real)                                                                 \
-  template void prepare_direct_islands(WorldData<Real>&);                               \
+  template void prepare_direct_islands(WorldData<Real>&, Real);                         \
   template void assemble_again(WorldData<Real>&, const ContactConstraint<Real>&);       \
   template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
   template void hand_over_all(WorldData<Real>&);                                        \

@@ -8,9 +8,9 @@
 /// in engine/world/islands/jointed_islands.h. Larger islands are solved by iterations alone.
 namespace plumb {
 
-/// Finds the islands and factorises their systems, at the start of a step. Joints must be prepared.
+/// Finds the islands and factorises their systems, at the start of a step of `dt`. Joints must be prepared.
 template <class Real>
-void prepare_direct_islands(WorldData<Real>& w);
+void prepare_direct_islands(WorldData<Real>& w, Real dt);
 
 /// Assembles the system of a contact's island again, after its points have changed within the step. Does
 /// nothing unless the contact is solved directly.

@@ -66,7 +66,7 @@ void solve_rows(JointedIsland<Real>& island, bool midpoint) {
   // At rest, the remaining velocities are rounding, so errors are relative to the energy of the first solve.
   island.system.solve(midpoint ? 0 : island.energy);
   if (midpoint) island.energy = island.system.energy_scale();
-  for (int i = 0; i < kMaxUpdates; ++i) {
+  for (int i = 0; i < (island.system.is_exhausted() ? 1 : kMaxUpdates); ++i) {
     const bool slips = update_slips(island, midpoint), bounds = update_bounds(island, midpoint);
     if (!slips && !bounds) break;
     island.system.solve_again();
@@ -224,6 +224,9 @@ void relax(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Re
 constexpr double kDrift = 5e-4;
 // Largest number of parts into which a substep is divided.
 constexpr int kMaxParts = 64;
+// Effort of a part of a substep, in that of finding the impulses of the middle: those, closing joints,
+// relaxing.
+constexpr double kSolutionsOfPart = 3;
 
 // Calls `look(gap)` with the gap of each rigid row and each limit at the present poses, in units of kDrift.
 template <class Real, class Visit>
@@ -303,18 +306,25 @@ void step_in_parts(WorldData<Real>& w, JointedIsland<Real>& island, const Contac
 
 // Moves an island through a substep, divided into enough parts to keep the drift small. `drift` is that of
 // the undivided substep. The bodies are at its start, before and after. Ends if more parts do not halve the
-// drift, which is then due to constraints that contradict the joints instead of the motion.
+// drift, which is then due to constraints that contradict the joints instead of the motion. Ends as well
+// where the parts would take more effort than the step has left.
 template <class Real>
 void subdivide_substep(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step,
-                       double drift) {
+                       double drift, double effort) {
   std::pmr::vector<JointedLink>& starts = island.saved_links;
   starts.assign(island.links.begin(), island.links.end());
   double before = std::numeric_limits<double>::infinity();
-  for (int parts = 1; drift > 1 && drift < 0.5 * before && parts < kMaxParts;) {
+  BoundedRows& system = island.system;
+  const auto max_parts = [&] {
+    const double left = (system.effort_limit - system.effort) / (kSolutionsOfPart * effort);
+    return left < kMaxParts ? static_cast<int>(left) : kMaxParts;
+  };
+  for (int parts = 1; drift > 1 && drift < 0.5 * before && 2 * parts <= max_parts();) {
     // The drift should decrease with the square of the number of parts. Try two parts first to see whether it
     // does.
     const bool first = parts == 1;
-    for (double left = drift; left > 1 && parts < (first ? 2 : kMaxParts); left /= 4) parts *= 2;
+    const int most = first ? 2 : max_parts();
+    for (double left = drift; left > 1 && 2 * parts <= most; left /= 4) parts *= 2;
     step_in_parts(w, island, step, parts);
     for (std::size_t k = 0; k < starts.size(); ++k) {
       starts[k].velocity = island.links[k].velocity, starts[k].spin = island.links[k].spin;
@@ -407,10 +417,15 @@ void solve_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
       link.velocity_increment = link.velocity - link.start_velocity,
       link.spin_increment = link.spin - link.start_spin;
     double budget = budget_of(w, island);
+    // Loads that drivers pull are solved until they yield: inexact impulses would throw them.
+    const double before = island.system.effort;
+    island.system.effort_limit =
+        budget > 0 ? std::numeric_limits<double>::infinity() : before + tuning::kJointedEffort;
     solve_midpoint(w, island, step, budget);
+    const double effort = island.system.effort - before;
     advance_links(w, island, step.h);
     if (const double drift = drift_of(w, island); drift > 1 && enabled(Switch::DividedSubsteps))
-      subdivide_substep(w, island, step, drift);
+      subdivide_substep(w, island, step, drift, effort);
     if (!island.contacts.empty()) update_warm_start_fraction(w, island);
     for (const JointedLink& link : island.links)
       store_velocity(w.motion[link.body], link.mean_velocity, link.mean_spin);

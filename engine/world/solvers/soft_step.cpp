@@ -151,7 +151,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                          .stiff_rate = rigid.bias_rate,
                          .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
-  prepare_direct_islands(w);
+  prepare_direct_islands(w, static_cast<Real>(h * substeps));
   if (jointed) w.joint_set.prepare(bodies, joints, joints_in_islands(w), &w.scheduler);
   const bool iterated = jointed && any_joint_iterated(w);
   collect_restitution_contacts(w);

@@ -41,6 +41,9 @@ inline constexpr double kMaxDirectCost = 20000;
 inline constexpr int kMaxSlenderRows = 4096;
 inline constexpr int kMaxSlenderLoops = 8;
 inline constexpr int kMaxSlenderContacts = 8;
+/// Separation, as a fraction of the thinner body's thickness, up to which a point may press without a further
+/// approach. It must be below 1: the sheet after the next one is apart by the thickness of the next.
+inline constexpr double kNearThickness = 0.1;
 /// Mass ratio of the heaviest to the lightest body above which an island with joints is solved directly; with
 /// Solver::Direct any ratio suffices. Iterations are accurate for chains of equal links, and cost less.
 inline constexpr double kDirectMassRatio = 8;
@@ -64,6 +67,8 @@ inline constexpr double kFewCost = 1000;
 inline constexpr int kMaxJointedJoints = 4096;
 inline constexpr int kMaxJointedContacts = 512;
 inline constexpr double kMaxJointedCost = 2e5;
+/// Multiplications in a substep from which such an island is solved less exactly (some 0.4 ms).
+inline constexpr double kJointedEffort = 4e5;
 /// Fraction of a joint's gap that a step closes by moving the bodies, and relative compliance of the rows for
 /// this correction. No body moves by more than 1 / (2 sqrt(kCorrectionSoftness)) = 5 times the gaps. With a
 /// softness of 1e-4 (50 times), links of a taut bridge rotate so far for a gap of 0.4 mm that the bridge
