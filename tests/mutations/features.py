@@ -179,7 +179,7 @@ FEATURES = [
     feature("Soft steps", WORLD + "solvers/soft_step.cpp", "soft_contacts.relax(bodies.motion, contacts);", "",
             "world/resting", "world/restitution"),
     feature("Direct solution of small islands (heavy on light)", WORLD + "solvers/soft_step.cpp",
-            "prepare_direct_islands(w);", "", "world/resting", "world/world"),
+            "prepare_direct_islands(w, static_cast<Real>(h * substeps));", "", "world/resting", "world/world"),
     feature("Sequential impulses", WORLD + "solvers/sequential_impulses.cpp",
             "iteration < w.settings.iterations", "iteration < 1", "world/solvers",
             "world/sequential_impulses"),
