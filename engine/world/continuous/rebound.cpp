@@ -124,10 +124,12 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   }
   if (!approaches) return ImpactResponse::None;
   fast = fast && may_bounce;
+  // Bodies that stay together may approach by rounding: their next impact is a kLastingInterval later.
+  const bool stays = !(c.restitution > 0) && w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
   double target_rate[2] = {};
   for (int i = 0; i < c.count; ++i) {
-    target_rate[i] = std::max(fast ? -double(effective_restitution(c)) * double(c.approach[i]) : 0,
-                              speed_above_rounding(w, c, i));
+    target_rate[i] = fast ? -double(effective_restitution(c)) * double(c.approach[i]) : 0;
+    if (!stays) target_rate[i] = std::max(target_rate[i], speed_above_rounding(w, c, i));
     if (closed[i] || !(remaining_time > 0)) continue;
     // The point may close its gap in the time left, but no more.
     target_rate[i] = -double(c.separation[i]) / double(remaining_time);

@@ -116,7 +116,7 @@ bool needs_impact_search(const WorldData<Real>& w, const ContactRecord& contact,
   if (is_fast(w, a, dt) || is_fast(w, b, dt)) return false;
   // Two bodies of similar size, neither of them fast, approach by no more than twice `max_predicted`.
   return approach > 2 * max_predicted || restitution_between(w, contact.shape_a, contact.shape_b) > 0 ||
-         are_alone(w, a, b, dt);
+         (is_unsupported(w, a) && is_unsupported(w, b) && are_alone(w, a, b, dt));
 }
 
 // Returns the speculative contact at a fraction of the step.
