@@ -95,7 +95,7 @@ double speed_above_rounding(const WorldData<Real>& w, const ContactConstraint<Re
     return std::abs(c.normal.x * velocity.x) + std::abs(c.normal.y * velocity.y) +
            std::abs(spin) * w.extents[body];
   };
-  const Real speed = of(c.body_a, c.arm_a[point], -impulse) + of(c.body_b, c.arm_b[point], impulse);
+  const Real speed = std::max(of(c.body_a, c.arm_a[point], -impulse), of(c.body_b, c.arm_b[point], impulse));
   return static_cast<double>(8 * std::numeric_limits<Real>::epsilon() * speed);
 }
 
@@ -124,12 +124,10 @@ ImpactResponse resolve_impact(WorldData<Real>& w, ContactConstraint<Real>& c, bo
   }
   if (!approaches) return ImpactResponse::None;
   fast = fast && may_bounce;
-  // Bodies that stay together may approach by rounding: their next impact is a kLastingInterval later.
-  const bool stays = !(c.restitution > 0) && w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b);
   double target_rate[2] = {};
   for (int i = 0; i < c.count; ++i) {
-    target_rate[i] = fast ? -double(effective_restitution(c)) * double(c.approach[i]) : 0;
-    if (!stays) target_rate[i] = std::max(target_rate[i], speed_above_rounding(w, c, i));
+    target_rate[i] = std::max(fast ? -double(effective_restitution(c)) * double(c.approach[i]) : 0,
+                              speed_above_rounding(w, c, i));
     if (closed[i] || !(remaining_time > 0)) continue;
     // The point may close its gap in the time left, but no more.
     target_rate[i] = -double(c.separation[i]) / double(remaining_time);
