@@ -324,6 +324,7 @@ struct FeedbackRow {
   JointRow<Real> row{};
   Real target_speed = 0;  ///< m/s or rad/s, target along the row
   Real mass = 0, impulse = 0;
+  Real compliance = 0;                                                        ///< 1/kg or 1/(kg m^2)
   Real min_impulse = 0, max_impulse = std::numeric_limits<Real>::infinity();  ///< bounds of the impulse
 };
 

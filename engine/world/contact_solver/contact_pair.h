@@ -76,8 +76,10 @@ template <class Pair, class Contact, class Number>
   using std::min;
   const Number v = pair.linear_normal_velocity();
   const Number p = c.normal_impulse[0], q = c.normal_impulse[1];
-  const Number rate_p = v + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + bias_p.bias);
-  const Number rate_q = v + (c.arm_b[1] * pair.wb - c.arm_a[1] * pair.wa + bias_q.bias);
+  const Number rate_p =
+      pair.free.along_normal(v + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + bias_p.bias), p);
+  const Number rate_q =
+      pair.free.along_normal(v + (c.arm_b[1] * pair.wb - c.arm_a[1] * pair.wa + bias_q.bias), q);
   Number new_p = (p - bias_p.impulse_scale * (p - c.load_estimate[0])) -
                  bias_p.mass_scale * (c.inverse_pp * rate_p + c.inverse_pq * rate_q);
   Number new_q = (q - bias_q.impulse_scale * (q - c.load_estimate[1])) -
@@ -113,8 +115,8 @@ template <class Pair, class Contact, class Number>
 template <class Pair, class Contact, class Number>
 [[gnu::always_inline]] inline void solve_normal(Pair& pair, Contact& c, const NormalBias<Number>& bias) {
   const Number p = c.normal_impulse[0];
-  const Number rate =
-      pair.linear_normal_velocity() + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + bias.bias);
+  const Number rate = pair.free.along_normal(
+      pair.linear_normal_velocity() + (c.arm_b[0] * pair.wb - c.arm_a[0] * pair.wa + bias.bias), p);
   const Number new_p = solve_point(bias, c.mass[0], c.load_estimate[0], rate, p);
   c.normal_impulse[0] = new_p;
   const Number d = new_p - p;

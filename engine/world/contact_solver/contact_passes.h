@@ -82,7 +82,9 @@ template <class Number, class Pair, class Contact>
 [[gnu::always_inline]] inline void solve_friction(Pair& pair, Contact& c, const Number& tangent_mass) {
   using std::max, std::min;
   const Number old_friction = c.tangent_impulse, max_friction = c.friction * normal_sum(c);
-  const Number unclamped = old_friction - tangent_mass * (pair.tangent_velocity(c) - c.surface_speed);
+  const Number unclamped =
+      old_friction -
+      tangent_mass * pair.free.along_tangent(pair.tangent_velocity(c) - c.surface_speed, old_friction);
   c.tangent_impulse = max(Number(-max_friction), min(unclamped, max_friction));
   pair.apply_friction(c, c.tangent_impulse - old_friction);
 }

@@ -41,9 +41,11 @@ struct ContactPair {
   /// would have to pull gets no impulse, and the other one is solved alone.
   void solve_normal_block(const Real (&target)[2], bool first, bool second) {
     const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
+    const Real compliance = driver_compliance(a, b, c, ContactRow::Normal);
+    const Real rate_p = normal_velocity(0) + compliance * p - target[0],
+               rate_q = normal_velocity(1) + compliance * q - target[1];
     Real dp = 0, dq = 0;
     if (first && second) {
-      const Real rate_p = normal_velocity(0) - target[0], rate_q = normal_velocity(1) - target[1];
       dp = -(c.inverse_pp * rate_p + c.inverse_pq * rate_q);
       dq = -(c.inverse_pq * rate_p + c.inverse_qq * rate_q);
       if (p + dp < 0 || q + dq < 0) {
@@ -56,9 +58,9 @@ struct ContactPair {
         }
       }
     } else if (first) {
-      dp = std::max(-c.mass[0] * (normal_velocity(0) - target[0]), -p);
+      dp = std::max(-c.mass[0] * rate_p, -p);
     } else if (second) {
-      dq = std::max(-c.mass[1] * (normal_velocity(1) - target[1]), -q);
+      dq = std::max(-c.mass[1] * rate_q, -q);
     }
     apply_normal(dp, dq);
   }
@@ -85,7 +87,10 @@ struct ContactPair {
     change(b, free_of_b(impulse, c.locks), c.arm_b, double(c.arm_tangent_b), 1);
   }
   /// Returns the total friction impulse with which the contact would stick.
-  Real sticking_impulse() const { return c.tangent_impulse - c.tangent_mass * slip_velocity(); }
+  Real sticking_impulse() const {
+    const Real yielding = driver_compliance(a, b, c, ContactRow::Friction) * c.tangent_impulse;
+    return c.tangent_impulse - c.tangent_mass * (slip_velocity() + yielding);
+  }
   Real sticking_torque() const {
     return c.rolling_impulse - rolling_mass() * (b.angular_velocity - a.angular_velocity);
   }

@@ -40,7 +40,7 @@ void update_masses(const SolverBody<Real>& a, const SolverBody<Real>& b, Contact
   };
   const Real k_n = mobility(c.normal, c.arm_a[0], c.arm_b[0]),
              k_t = mobility({c.normal.y, -c.normal.x}, c.arm_tangent_a, c.arm_tangent_b);
-  c.mass[0] = c.inverse_pp = k_n > 0 ? 1 / k_n : Real(0);
+  c.mass[0] = c.inverse_pp = k_n > 0 ? 1 / (k_n + driver_compliance(a, b, c, ContactRow::Normal)) : Real(0);
   update_friction_row(a, b, k_n, k_t, c);
 }
 

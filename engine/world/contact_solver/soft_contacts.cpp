@@ -72,7 +72,7 @@ template <class Pass, class Axes, class Real>
 template <class Pass, class Real>
 [[gnu::noinline]] void run_locked(SolverBody<Real>* motion, ContactConstraint<Real>& c,
                                   const ContactStep<Real>& step) {
-  run_single<Pass>(motion, c, step, FreeAxes{c.locks});
+  run_single<Pass>(motion, c, step, FreeAxes<Real>(motion[c.body_a], motion[c.body_b], c));
 }
 
 template <class Pass, class Real>

@@ -5,14 +5,18 @@
 namespace plumb {
 
 template <class Real>
+bool is_held_by_joint(const WorldData<Real>& w, int body) {
+  return any_edge(w.joints, w.bodies[body].first_joint, [&](const JointRecord& joint) {
+    return joint.active && !(w.is_dynamic(joint.body_a) && w.is_dynamic(joint.body_b));
+  });
+}
+
+template <class Real>
 bool may_move_together(const WorldData<Real>& w, const std::vector<int>& indices) {
   for (const int index : indices) {
     const SweptBody& swept = w.scratch.swept_bodies[index];
     if (!w.is_dynamic(swept.body) || (swept.changed && swept.group == kNone)) return false;
-    const bool held = any_edge(w.joints, w.bodies[swept.body].first_joint, [&](const JointRecord& joint) {
-      return joint.active && !(w.is_dynamic(joint.body_a) && w.is_dynamic(joint.body_b));
-    });
-    if (held) return false;
+    if (is_held_by_joint(w, swept.body)) return false;
   }
   return true;
 }
@@ -57,6 +61,7 @@ void move_together(WorldData<Real>& w, const std::vector<int>& indices, double f
 }
 
 #define PLUMB_FOR(Real)                                                             \
+  template bool is_held_by_joint(const WorldData<Real>&, int);                      \
   template bool may_move_together(const WorldData<Real>&, const std::vector<int>&); \
   template void move_together(WorldData<Real>&, const std::vector<int>&, double);
 PLUMB_FOR(float)

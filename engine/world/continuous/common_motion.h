@@ -8,6 +8,10 @@
 /// one rigid body, because stopping them would take away their common motion. Only for continuous.cpp.
 namespace plumb {
 
+/// Returns true if a joint holds a body to one that is not dynamic.
+template <class Real>
+bool is_held_by_joint(const WorldData<Real>& w, int body);
+
 /// Returns true if swept bodies may move together: all are dynamic, on the solver's path or together with
 /// others already, and no joint holds one to a body that is not dynamic.
 template <class Real>

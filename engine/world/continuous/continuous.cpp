@@ -110,18 +110,17 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
   }
 }
 
-// Calls visit(place) for the swept bodies of a body and of all dynamic bodies connected to it by joints.
+// Calls visit(body) for a body and all dynamic bodies connected to it by joints.
 template <class Real, class Visit>
-void for_each_jointed(WorldData<Real>& w, int index, double dt, const Visit& visit) {
+void for_each_in_mechanism(WorldData<Real>& w, int body, const Visit& visit) {
   std::vector<int>& queue = w.scratch.queue;
   std::vector<char>& seen = w.scratch.cannot_sleep;
-  const int body = w.scratch.swept_bodies[index].body;
-  if (w.bodies[body].first_joint == kNone) return visit(index);
+  if (w.bodies[body].first_joint == kNone) return visit(body);
   queue.assign(1, body);
   seen.assign(w.bodies.size(), 0);
   seen[body] = 1;
   for (std::size_t next = 0; next < queue.size(); ++next) {
-    visit(swept_body_index(w, queue[next], dt));
+    visit(queue[next]);
     for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
       const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
       if (!joint.active || !w.is_dynamic(other) || seen[other]) return;
@@ -130,6 +129,21 @@ void for_each_jointed(WorldData<Real>& w, int index, double dt, const Visit& vis
     });
   }
   queue.clear();
+}
+
+// Calls visit(place) for the swept bodies of a body and of all dynamic bodies connected to it by joints.
+template <class Real, class Visit>
+void for_each_jointed(WorldData<Real>& w, int index, double dt, const Visit& visit) {
+  for_each_in_mechanism(w, w.scratch.swept_bodies[index].body,
+                        [&](int body) { visit(swept_body_index(w, body, dt)); });
+}
+
+// Returns true if joints hold a body, or others that joints connect to it, to a body that is not dynamic.
+template <class Real>
+bool is_mechanism_held(WorldData<Real>& w, int body) {
+  bool held = false;
+  for_each_in_mechanism(w, body, [&](int link) { held = held || is_held_by_joint(w, link); });
+  return held;
 }
 
 // Stops a body and all bodies connected to it by joints, so that the joints stay closed. Bodies that must be
@@ -298,6 +312,13 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
   }
   const bool by_kinematic = other != nullptr && !w.is_dynamic(other_body);
   if (by_kinematic && swept.pushed_by == kNone) {
+    // Leave what joints hold in place to the solver, which pushes it as far as they let it: moved along, it
+    // would open its joints farther in each step.
+    if (constraint_between(w, next.shape, next.other) != nullptr && is_mechanism_held(w, swept.body)) {
+      swept.is_held = true;
+      schedule_toi_event(w, next.swept_body, next.fraction, search);
+      return;
+    }
     push_along(w, next.swept_body, other_index, next.fraction, search);
     return;
   }

@@ -85,6 +85,9 @@ template <class Real>
 void update_earliest_impact(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
                             ToiEvent& first) {
   if (is_disabled_pair(w, pair.shape, pair.other)) return;
+  if (path.swept.is_held && pair.contact != nullptr &&
+      w.bodies[w.shapes[pair.other].body].type == BodyType::Kinematic)
+    return;
   const double fraction = fraction_of_impact(w, path, pair);
   if (fraction < first.fraction)
     first.fraction = fraction, first.shape = pair.shape, first.other = pair.other;

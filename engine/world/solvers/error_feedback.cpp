@@ -21,7 +21,7 @@ void add_row(WorldData<Real>& w, FeedbackRow<Real> row) {
       a.inverse_mass * length_squared(j.linear_a) + a.inverse_inertia * j.angular_a * j.angular_a +
       b.inverse_mass * length_squared(j.linear_b) + b.inverse_inertia * j.angular_b * j.angular_b;
   if (!(mobility > 0)) return;
-  row.mass = 1 / mobility;
+  row.mass = 1 / (mobility + row.compliance);
   w.scratch.feedback_rows.push_back(row);
 }
 
@@ -49,7 +49,7 @@ void add_joints(WorldData<Real>& w, Real rate) {
 }
 
 // Adds the points that overlap by more than the slop, unless locked axes block them: their push would act
-// along what is free, by as much as the rounding of the normal lets it.
+// along what is free, by as much as the rounding of the normal lets it. Nearly blocked ones yield.
 template <class Real>
 void add_contacts(WorldData<Real>& w, Real rate) {
   constexpr Real kSlop = Real(tuning::kSlop / tuning::kDepenetrationSpeed);
@@ -62,6 +62,7 @@ void add_contacts(WorldData<Real>& w, Real rate) {
                   .body_b = c.body_b,
                   .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
                   .target_speed = std::min(rate * overlap, c.depenetration_speed),
+                  .compliance = lock_compliance(pair.a, pair.b, c, ContactRow::Normal),
                   .min_impulse = 0});
     }
   });
@@ -85,8 +86,8 @@ void feed_back_errors(WorldData<Real>& w, Real rate) {
       const Real along = dot(j.linear_a, a.velocity) + j.angular_a * a.angular_velocity +
                          dot(j.linear_b, b.velocity) + j.angular_b * b.angular_velocity;
       const Real before = row.impulse;
-      row.impulse =
-          std::clamp(before + row.mass * (row.target_speed - along), row.min_impulse, row.max_impulse);
+      row.impulse = std::clamp(before + row.mass * (row.target_speed - along - row.compliance * before),
+                               row.min_impulse, row.max_impulse);
       const Real d = row.impulse - before;
       const SolverBody<Real>&of_a = w.motion[row.body_a], &of_b = w.motion[row.body_b];
       a.velocity += (d * of_a.inverse_mass) * j.linear_a, b.velocity += (d * of_b.inverse_mass) * j.linear_b;

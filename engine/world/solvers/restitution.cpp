@@ -47,7 +47,8 @@ void predict_circle_normal(const WorldData<Real>& w, const ContactRecord& contac
   const Real inverse = linear_response(a, b, c.locks, t, t, true) + a.inverse_inertia * radius_a * radius_a +
                        b.inverse_inertia * radius_b * radius_b;
   const bool blocked = !(inverse > least_mobility(a, b, radius_a * radius_a, radius_b * radius_b));
-  update_friction_row(a, b, c.mass[0] > 0 ? 1 / c.mass[0] : Real(0), blocked ? Real(0) : inverse, c);
+  const Real k_n = c.mass[0] > 0 ? 1 / c.mass[0] - driver_compliance(a, b, c, ContactRow::Normal) : Real(0);
+  update_friction_row(a, b, k_n, blocked ? Real(0) : inverse, c);
 }
 
 // Collects the joints and the groups of bodies that they connect.

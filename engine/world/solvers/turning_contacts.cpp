@@ -152,7 +152,7 @@ void disable(ContactConstraint<Real>& c) {
 template <class Real, class Act>
 void with_pair(WorldData<Real>& w, const ContactConstraint<Real>& c, const Act& act) {
   SolverBody<Real>&a = w.motion[c.body_a], &b = w.motion[c.body_b];
-  BodyPair<Real, SolverBody<Real>&, FreeAxes> pair{a, b, c.normal, FreeAxes{c.locks}};
+  BodyPair<Real, SolverBody<Real>&, FreeAxes<Real>> pair{a, b, c.normal, FreeAxes<Real>(a, b, c)};
   act(pair);
   if (is_dynamic(a)) a.velocity = pair.va, a.angular_velocity = pair.wa;
   if (is_dynamic(b)) b.velocity = pair.vb, b.angular_velocity = pair.wb;

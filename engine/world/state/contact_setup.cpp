@@ -26,10 +26,15 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
     const Real k = coupling(linear, la, lb, la, lb);
     return k > least_mobility(a, b, length_squared(arm_a), length_squared(arm_a - a_to_b)) ? k : Real(0);
   };
+  const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
+  c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - a_to_b, n);
+  for (int i = 0; i < c.count; ++i)
+    c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - a_to_b, n);
+  const Real compliance = driver_compliance(a, b, c, ContactRow::Normal);
   Real k[2] = {};
   for (int i = 0; i < c.count; ++i) {
-    c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - a_to_b, n);
     k[i] = mobility(along_n, c.arm_a[i], c.arm_b[i], arms_a[i]);
+    if (k[i] > 0) k[i] += compliance;
     c.mass[i] = inverse(k[i]);
   }
   if (c.count == 2) {
@@ -45,9 +50,22 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
     c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.k_pq = c.inverse_pq = c.inverse_qq = 0;
     c.inverse_pp = c.mass[0];
   }
-  const Vec2<Real> deeper = arms_a[c.count == 2 && c.separation[1] < c.separation[0] ? 1 : 0];
-  c.arm_tangent_a = -dot(deeper, n), c.arm_tangent_b = -dot(deeper - a_to_b, n);
   update_friction_row(a, b, k[0], mobility(along_t, c.arm_tangent_a, c.arm_tangent_b, deeper), c);
+}
+
+// Returns kPinned if one body only rotates, as both its axes are locked, and the other may drive it.
+template <class Real>
+unsigned pin_of(const WorldData<Real>& w, const ContactRecord& contact, const ContactConstraint<Real>& c) {
+  const auto is_pinned = [&](int body) {
+    const BodyRecord<Real>& record = w.bodies[body];
+    return w.is_dynamic(body) && record.lock_x && record.lock_y && !record.lock_rotation;
+  };
+  const auto drives = [&](int body) {
+    return c.surface_speed != 0 || w.bodies[body].type == BodyType::Kinematic;
+  };
+  const bool driven = (is_pinned(contact.body_a) && drives(contact.body_b)) ||
+                      (is_pinned(contact.body_b) && drives(contact.body_a));
+  return driven ? kPinned : 0;
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
@@ -125,7 +143,7 @@ void prepare_contact(const WorldData<Real>& w, const ContactRecord& contact,
     c.features[i] = from.feature;
   }
   if (!kept) c.tangent_impulse = c.rolling_impulse = 0;
-  c.locks = static_cast<std::uint8_t>(locks_of(w, contact.body_a, contact.body_b));
+  c.locks = static_cast<std::uint8_t>(locks_of(w, contact.body_a, contact.body_b) | pin_of(w, contact, c));
   prepare_rows(w.motion[contact.body_a], w.motion[contact.body_b], arms_a, a_to_b, c);
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   // The masses of locked axes change as the normal turns.

@@ -17,6 +17,7 @@ struct SweptBody {
   bool has_swept_aabb = false;   ///< true while the whole swept AABB is in the tree
   bool stopped = false;          ///< stopped for the rest of the step
   bool squeezed = false;         ///< stopped between the body that pushes it and another one
+  bool is_held = false;          ///< by joints: kinematic bodies that press on it move through it
   int impacts = 0;               ///< resolved impacts in this step
   int lifts = 0;                 ///< times it was lifted off a surface that it rests on
   int version = 0;               ///< counts changes of the trajectory
