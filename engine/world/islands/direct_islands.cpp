@@ -232,14 +232,22 @@ bool choose_crowded(WorldData<Real>& w, Real dt) {
   Scratch<Real>& s = w.scratch;
   if (!s.has_crowded_islands) return false;
   s.near_rows.assign(w.bodies.size(), 0), s.near_contacts.assign(w.bodies.size(), 0);
-  w.graph.for_each([&](const ContactConstraint<Real>& c) {
+  // Number of islands that may still have few enough: a large heap is left after a part of its contacts.
+  auto undecided = std::count_if(w.awake.begin(), w.awake.end(), [&](int body) {
+    return s.island_of[body] == body && is_crowded(s.island_size[body]);
+  });
+  const auto add = [&](const ContactConstraint<Real>& c) {
     const int root = s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b];
-    if (!is_crowded(s.island_size[root])) return;
+    int& rows = s.near_rows[root];
+    if (!is_crowded(s.island_size[root]) || rows > tuning::kMaxSlenderRows) return;
     if (!is_near(w, c, 0, dt) && !(c.count == 2 && is_near(w, c, 1, dt))) return;
     // Those with the ground close no loops of bodies.
-    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b))
-      s.near_rows[root] += is_deep_in(w, c) ? kIterated : 2;
+    if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) rows += is_deep_in(w, c) ? kIterated : 2;
+    if (rows > tuning::kMaxSlenderRows) --undecided;
     ++s.near_contacts[c.body_a], ++s.near_contacts[c.body_b];
+  };
+  w.graph.for_each_colour([&](const std::vector<ContactConstraint<Real>>& colour, bool) {
+    for (std::size_t i = 0; i < colour.size() && undecided > 0; ++i) add(colour[i]);
   });
   choose_slender(
       w, [&](int body) { return s.near_contacts[body]; },
