@@ -65,7 +65,7 @@ unsigned pin_of(const WorldData<Real>& w, const ContactRecord& contact, const Co
   };
   const bool driven = (is_pinned(contact.body_a) && drives(contact.body_b)) ||
                       (is_pinned(contact.body_b) && drives(contact.body_a));
-  return driven ? kPinned : 0;
+  return driven ? kPinned : 0u;
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
