@@ -35,7 +35,9 @@ constexpr double kDriverSpeed = 2;  // m/s, faster than overlaps are pushed out
 template <class Real>
 double fastest(const Drive& drive, unsigned seed) {
   std::mt19937 dice(seed);
-  const auto between = [&](double low, double high) { return low + (high - low) * (dice() * 0x1p-32); };
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(dice()) * 0x1p-32);
+  };
   BasicWorld<Real> world({.gravity = {0, 0}, .sleeping = false, .solver = drive.solver});
   const Material material{.friction = drive.friction};
   const double direction = between(-kPi, kPi);
