@@ -18,6 +18,10 @@ constexpr int kMaxIterations = 40;
 // react to impacts only in the solver's next iterations, which lose energy.
 constexpr double kJointsCost = 2e5;
 
+// Effort of an iteration over one point, in multiplications of BoundedRows: a pass that reads the velocity,
+// and one that changes it. Limbs that an impact presses against their limits repeat a round some 1,000 times.
+constexpr double kEffortOfPoint = 16;
+
 template <class Real>
 void apply_normal(SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
   motion[c.body_a].apply(-impulse * free_of_a(c.normal, c.locks), -impulse * c.arm_a[i]);
@@ -95,12 +99,13 @@ Real work_after(const SolverBody<Real>* motion, std::span<const ImpactPoint<Real
   return work;
 }
 
-// Returns the largest factor, at most 1, by which a round's impulses can be scaled without gaining energy.
+// Returns the largest factor, from 0 to 1, by which a round's impulses can be scaled without gaining energy.
 // `before`, `after`: their work at the velocities before and after the round, J. Scaled by k they change the
-// energy by k (before + k (after - before) / 2).
+// energy by k (before + k (after - before) / 2): impulses along which the bodies part already can only gain.
 template <class Real>
 Real energy_scale(Real before, Real after) {
-  return before + after > 0 ? -2 * before / (after - before) : Real(1);
+  if (!(before + after > 0)) return 1;
+  return before < 0 ? -2 * before / (after - before) : Real(0);
 }
 
 // Solves lambda >= 0 with n.v >= target by sequential impulses, and Coulomb's friction with it, such that no
@@ -201,8 +206,7 @@ class JointedRound {
   // Collects the bodies and rows. Returns false if no joint takes part, or if there are too many rows.
   bool collect() {
     if (scratch_.joints.empty()) return false;
-    scratch_.links.clear(), scratch_.blocks.clear(), scratch_.sizes.clear(), scratch_.active_joints.clear();
-    system_.bodies.clear();
+    clear();
     for (const ImpactPoint<Real>& at : points_) add_joints(at);
     for (const ImpactPoint<Real>& at : points_) unmark(at);
     if (scratch_.active_joints.empty()) return false;
@@ -214,6 +218,21 @@ class JointedRound {
       last = &c;
     }
     return system_.order(scratch_.blocks, scratch_.sizes) <= kJointsCost;
+  }
+
+  // Collects the bodies and joints of a group alone. Returns false if there are none, or too many.
+  bool collect_group(int group) {
+    clear();
+    add_joints_of(group);
+    return !scratch_.active_joints.empty() && system_.order(scratch_.blocks, scratch_.sizes) <= kJointsCost;
+  }
+
+  // Removes from the velocities what the joints forbid.
+  void stop_rates() {
+    add_joint_rows();
+    for (BoundedRow& row : system_.rows) row.target = 0;
+    solve();
+    add_joint_impulses(1);
   }
 
   void resolve() {
@@ -237,14 +256,23 @@ class JointedRound {
       const int group = group_of(scratch_, body);
       if (!is_dynamic(motion_[body]) || scratch_.visited[group]) continue;
       scratch_.visited[group] = 1;
-      for (int i = scratch_.first_joint[group]; i != -1; i = scratch_.joints[i].next) {
-        ImpactJoint& joint = scratch_.joints[i];
-        if (!joint.rows_ready) scratch_.append_rows(scratch_.world, joint), joint.rows_ready = true;
-        if (joint.rows == 0) continue;
-        scratch_.active_joints.push_back(i);
-        add_block(joint.a, joint.b, joint.rows);
-      }
+      add_joints_of(group);
     }
+  }
+
+  void add_joints_of(int group) {
+    for (int i = scratch_.first_joint[group]; i != -1; i = scratch_.joints[i].next) {
+      ImpactJoint& joint = scratch_.joints[i];
+      if (!joint.rows_ready) scratch_.append_rows(scratch_.world, joint), joint.rows_ready = true;
+      if (joint.rows == 0) continue;
+      scratch_.active_joints.push_back(i);
+      add_block(joint.a, joint.b, joint.rows);
+    }
+  }
+
+  void clear() {
+    scratch_.links.clear(), scratch_.blocks.clear(), scratch_.sizes.clear(), scratch_.active_joints.clear();
+    system_.bodies.clear();
   }
 
   void unmark(const ImpactPoint<Real>& at) {
@@ -339,6 +367,26 @@ class JointedRound {
     }
   }
 
+  // Returns the work that the limits' impulses would do at the velocities before and after the round, J. A
+  // limit that opens does work if a contact presses it meanwhile, and two that contradict each other would do
+  // it with many times the impulses of the impact.
+  std::pair<Real, Real> work_of_limits() const {
+    double before = 0, after = 0;
+    std::size_t next = 0;
+    for (const int part : scratch_.active_joints) {
+      for (int i = 0; i < scratch_.joints[part].rows; ++i, ++next) {
+        const BoundedRow& row = system_.rows[next];
+        if (row.lower != 0) continue;
+        const auto &a = scratch_.links[row.a], &b = scratch_.links[row.b];
+        before +=
+            row.impulse * (dot(row.linear_a, a.velocity.template as<double>()) + row.angular_a * a.spin +
+                           dot(row.linear_b, b.velocity.template as<double>()) + row.angular_b * b.spin);
+        after += row.impulse * system_.row_velocity(row);
+      }
+    }
+    return {static_cast<Real>(before), static_cast<Real>(after)};
+  }
+
   // Solves the rows from the velocities before the round.
   void solve() {
     for (std::size_t i = 0; i < scratch_.links.size(); ++i) {
@@ -367,7 +415,9 @@ class JointedRound {
       solve();
       read_impulses(first);
     }
-    const Real scale = energy_scale(work_before<Real>(points_), work_after<Real>(motion_, points_));
+    const auto [joints_before, joints_after] = work_of_limits();
+    const Real scale = energy_scale(work_before<Real>(points_) + joints_before,
+                                    work_after<Real>(motion_, points_) + joints_after);
     add_joint_impulses(scale);
     if (scale == 1) return;
     for (ImpactPoint<Real>& at : points_) at.impulse *= scale, at.friction *= scale;
@@ -398,8 +448,10 @@ void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real max_
     while (end < all.size() && all[end].group == all[first].group) ++end;
     const std::span<ImpactPoint<Real>> points = all.subspan(first, end - first);
     if (JointedRound<Real> jointed(motion, rotation, points, scratch); jointed.collect()) {
+      const double effort = scratch.system.effort;
       jointed.resolve();
-      work_left -= static_cast<int>(points.size());
+      work_left -= static_cast<int>(points.size()) +
+                   static_cast<int>((scratch.system.effort - effort) / kEffortOfPoint);
     } else {
       solve_impacts(motion, points, max_approach, work_left);
       for (const ImpactPoint<Real>& at : points) finish_impact(motion, rotation, at, scratch);
@@ -407,8 +459,16 @@ void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real max_
   }
 }
 
-#define PLUMB_FOR(Real) \
-  template void resolve_round(SolverBody<Real>*, Rotation<Real>*, Real, int&, ImpactScratch<Real>&);
+template <class Real>
+void stop_joint_rates(SolverBody<Real>* motion, Rotation<Real>* rotation, int group,
+                      ImpactScratch<Real>& scratch) {
+  if (JointedRound<Real> joints(motion, rotation, {}, scratch); joints.collect_group(group))
+    joints.stop_rates();
+}
+
+#define PLUMB_FOR(Real)                                                                              \
+  template void resolve_round(SolverBody<Real>*, Rotation<Real>*, Real, int&, ImpactScratch<Real>&); \
+  template void stop_joint_rates(SolverBody<Real>*, Rotation<Real>*, int, ImpactScratch<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)
 #undef PLUMB_FOR

@@ -8,6 +8,7 @@
 #include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/contact_solver/impact_propagation.h"
+#include "engine/world/contact_solver/impact_round.h"
 #include "engine/world/contact_solver/locked_axes.h"
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/state/contact_setup.h"
@@ -148,19 +149,25 @@ void keep_closed(WorldData<Real>& w, Real h) {
     if (w.bodies[scratch.displaced[i]].first_joint == kNone) keep_closed(w, scratch.displaced[i], h);
 }
 
+// Has the joints' rows computed anew, at the present poses.
+template <class Real>
+void begin_joint_rows(WorldData<Real>& w) {
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  scratch.rows.clear();
+  for (ImpactJoint& joint : scratch.joints) joint.rows_ready = false;
+  scratch.append_rows = append_joint_rows<Real>, scratch.world = &w;
+}
+
 // Begins the impacts of a substep; reuses data of the last substep that have not changed.
 template <class Real>
 void prepare_impacts(WorldData<Real>& w) {
   ImpactScratch<Real>& scratch = w.scratch.impacts;
   if (!scratch.linked) {
-    collect_joints(w);
     link_contacts(w.motion.data(), w.scratch.restitution_contacts, scratch);
     scratch.has_other_contacts = any_without_restitution(w);
     scratch.linked = true;
   }
-  scratch.rows.clear();
-  for (ImpactJoint& joint : scratch.joints) joint.rows_ready = false;
-  scratch.append_rows = append_joint_rows<Real>, scratch.world = &w;
+  begin_joint_rows(w);
 }
 
 }  // namespace
@@ -178,7 +185,6 @@ bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
 
 template <class Real>
 void add_impact_loads(WorldData<Real>& w, const JointStep<Real>& step) {
-  if (!w.scratch.impacts.linked) return;  // no impacts in this step
   for (const ImpactJoint& joint : w.scratch.impacts.joints)
     if (joint.impulse != Vec2d{} || joint.moment != 0)
       w.joint_set.add_impulse(joint.slot, joint.impulse.template as<Real>(), static_cast<Real>(joint.moment),
@@ -202,8 +208,28 @@ void collect_restitution_contacts(WorldData<Real>& w) {
     if (bounce.contact->restitution > 0 || bounce.radius_sum > 0)
       w.scratch.restitution_contacts.push_back(bounce);
   }
+  w.scratch.impacts.group.clear(), w.scratch.impacts.joints.clear();
+  if (!w.scratch.restitution_contacts.empty()) collect_joints(w);
 }
 
+template <class Real>
+void stop_joint_rates(WorldData<Real>& w) {
+  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  if (scratch.joints.empty()) return;
+  begin_joint_rows(w);
+  scratch.visited.assign(scratch.group.size(), 0);
+  for (const RestitutionContact<Real>& bounce : w.scratch.restitution_contacts) {
+    for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
+      if (!w.is_dynamic(body) || scratch.visited[scratch.group[body]]) continue;
+      scratch.visited[scratch.group[body]] = 1;
+      stop_joint_rates(w.motion.data(), w.rotation.data(), scratch.group[body], scratch);
+    }
+  }
+  std::fill(scratch.visited.begin(), scratch.visited.end(), char(0));
+}
+
+template void stop_joint_rates(WorldData<float>&);
+template void stop_joint_rates(WorldData<double>&);
 template void collect_restitution_contacts(WorldData<float>&);
 template void collect_restitution_contacts(WorldData<double>&);
 

@@ -10,6 +10,12 @@ namespace plumb {
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w);
 
+/// Removes from the velocities of mechanisms that may bounce what their joints forbid, at the start of a
+/// step: what a game has set, an impulse or an explosion. The joints take up that part of the approach, so it
+/// does not rebound.
+template <class Real>
+void stop_joint_rates(WorldData<Real>& w);
+
 /// Propagates the impacts of a substep through contacts and joints. Returns false if the impacts are left to
 /// the constraints.
 template <class Real>

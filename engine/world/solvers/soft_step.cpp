@@ -160,6 +160,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   soft_contacts.prepare(w.graph, bodies.motion, scalar_contacts(w), w.scheduler);
   using Bounce = RestitutionContact<Real>;
   const bool bounces = !w.scratch.restitution_contacts.empty();
+  stop_joint_rates(w);
   bool has_impacts = false;
   const auto handle_impacts = [&] {
     has_impacts = any_bounce(
