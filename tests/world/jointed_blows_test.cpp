@@ -92,15 +92,14 @@ TYPED_TEST(JointedBlows, OnOverlappingJoinedPairsGainNoEnergy) {
         const Vec2d at = 0.5 * (world.position(box) + world.position(disc)),
                     apart = world.position(disc) - world.position(box);
         const Vec2d anchor_a = world.local_point(box, at), anchor_b = world.local_point(disc, at);
-        JointKind joint = DistanceDefinition{.length = std::max(length(apart), 0.05)};
-        if (kind == 1) joint = RevoluteDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b};
-        if (kind == 2)
-          joint = WeldDefinition{.anchor_a = anchor_a,
-                                 .anchor_b = anchor_b,
-                                 .reference_angle = world.angle(disc) - world.angle(box)};
-        if (kind == 3)
-          joint = PrismaticDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b, .axis = {1, 0}};
-        world.create_joint(box, disc, {.kind = joint, .collide = true});
+        const JointKind kinds[] = {
+            DistanceDefinition{.length = std::max(length(apart), 0.05)},
+            RevoluteDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b},
+            WeldDefinition{.anchor_a = anchor_a,
+                           .anchor_b = anchor_b,
+                           .reference_angle = world.angle(disc) - world.angle(box)},
+            PrismaticDefinition{.anchor_a = anchor_a, .anchor_b = anchor_b, .axis = {1, 0}}};
+        world.create_joint(box, disc, {.kind = kinds[kind], .collide = true});
         const double before = kinetic_energy(world);
         const double bound = before + 0.5 * (world.mass(box) + world.mass(disc)) * kPush * kPush;
         double most = 0;
