@@ -84,12 +84,17 @@ inline constexpr double kLockCompliance = 0.05;
 
 enum class ContactRow { Normal, Friction };
 
-/// Returns the compliance of a contact's row that locked axes nearly block, 1/kg: a fraction of the mobility
-/// that they take from it. Of a body that only rotates, that is the mobility across the row.
+/// Returns the compliance of a contact's row if one body has locked axes and the other moves as told, or its
+/// surface does, 1/kg: a fraction of the mobility that the locks take from the row. (Of a body that only
+/// rotates, that is the mobility across the row.) A rigid row moves the locked body along what is free at the
+/// speed of its driver over the sine of the angle between the row and what is locked, and where friction or a
+/// second point leaves no freedom, impulses grow from step to step and throw the body once they lose their
+/// balance.
 template <class Real>
-Real lock_compliance(const SolverBody<Real>& a, const SolverBody<Real>& b, const ContactConstraint<Real>& c,
-                     ContactRow which) {
+Real driver_compliance(const SolverBody<Real>& a, const SolverBody<Real>& b, const ContactConstraint<Real>& c,
+                       ContactRow which) {
   if (c.locks == 0) return 0;
+  if (moves_by_impulses_alone(a) && moves_by_impulses_alone(b) && c.surface_speed == 0) return 0;
   const bool normal = which == ContactRow::Normal;
   const Vec2<Real> row = normal ? c.normal : Vec2<Real>{c.normal.y, -c.normal.x};
   Real lost = a.inverse_mass + b.inverse_mass - linear_response(a, b, c.locks, row, row, true);
@@ -103,18 +108,6 @@ Real lock_compliance(const SolverBody<Real>& a, const SolverBody<Real>& b, const
     lost += across(a, c.arm_a, c.arm_tangent_a) + across(b, c.arm_b, c.arm_tangent_b);
   }
   return Real(kLockCompliance) * lost;
-}
-
-/// Returns the same where one body moves as told, or its surface does; 0 elsewhere. A rigid row moves the
-/// locked body along what is free at the speed of its driver over the sine of the angle between the row and
-/// what is locked, and where friction or a second point leaves no freedom, impulses grow from step to step
-/// and throw the body once they lose their balance.
-template <class Real>
-Real driver_compliance(const SolverBody<Real>& a, const SolverBody<Real>& b, const ContactConstraint<Real>& c,
-                       ContactRow which) {
-  if (c.locks == 0) return 0;
-  if (moves_by_impulses_alone(a) && moves_by_impulses_alone(b) && c.surface_speed == 0) return 0;
-  return lock_compliance(a, b, c, which);
 }
 
 /// Sets the friction row of a contact, or removes it if the bodies have only one freedom relative to each

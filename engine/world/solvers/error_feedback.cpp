@@ -49,7 +49,7 @@ void add_joints(WorldData<Real>& w, Real rate) {
 }
 
 // Adds the points that overlap by more than the slop, unless locked axes block them: their push would act
-// along what is free, by as much as the rounding of the normal lets it. Nearly blocked ones yield.
+// along what is free, by as much as the rounding of the normal lets it. Driven ones yield.
 template <class Real>
 void add_contacts(WorldData<Real>& w, Real rate) {
   constexpr Real kSlop = Real(tuning::kSlop / tuning::kDepenetrationSpeed);
@@ -62,7 +62,7 @@ void add_contacts(WorldData<Real>& w, Real rate) {
                   .body_b = c.body_b,
                   .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
                   .target_speed = std::min(rate * overlap, c.depenetration_speed),
-                  .compliance = lock_compliance(pair.a, pair.b, c, ContactRow::Normal),
+                  .compliance = driver_compliance(pair.a, pair.b, c, ContactRow::Normal),
                   .min_impulse = 0});
     }
   });
