@@ -48,6 +48,8 @@ BoundedRows::BoundedRows(std::pmr::memory_resource* memory)
       x_(memory),
       guess_(memory),
       best_(memory),
+      from_(memory),
+      stops_(memory),
       targets_(memory),
       next_state_(memory) {}
 
@@ -70,23 +72,6 @@ double BoundedRows::order(std::span<const std::pair<int, int>> blocks, std::span
     for (int i = 0; i < sizes[block]; ++i) first_columns_.push_back(first);
   }
   return EnvelopeMatrix::cost(first_columns_);
-}
-
-double BoundedRows::row_velocity(const BoundedRow& row) const {
-  const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
-  return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
-         row.angular_b * b.spin;
-}
-
-void BoundedRows::apply_impulse(const BoundedRow& row, double impulse) {
-  if (impulse == 0) return;
-  const auto add = [&](BoundedBody& body, Vec2d linear, double angular) {
-    body.velocity.x += body.inverse_mass.x * linear.x * impulse;
-    body.velocity.y += body.inverse_mass.y * linear.y * impulse;
-    body.spin += body.inverse_inertia * angular * impulse;
-  };
-  add(bodies[row.a], row.linear_a, row.angular_a);
-  add(bodies[row.b], row.linear_b, row.angular_b);
 }
 
 void BoundedRows::compute_mobility() {
@@ -160,22 +145,24 @@ void BoundedRows::assemble() {
 // Factorises the free rows, with regularisation if they depend on each other. Rows before the first one whose
 // state has changed keep their factors.
 void BoundedRows::factorise() {
-  free_positions_.clear(), first_columns_.clear();
+  if (remove_from_factors()) return;
   const int count = static_cast<int>(rows_in_order_.size());
-  free_before_.resize(count);
-  int unchanged = 0;
+  free_positions_.resize(count), first_columns_.resize(count), free_before_.resize(count);
+  int free_count = 0;
   for (int position = 0; position < count; ++position) {
-    const int row = rows_in_order_[position], k = static_cast<int>(free_positions_.size());
-    free_before_[position] = k;
-    if (rows[row].state != BoundedRow::kFree) continue;
-    if (factorised_ && unchanged == k && k < static_cast<int>(free_.size()) && free_[k] == row) ++unchanged;
-    free_positions_.push_back(position);
-    first_columns_.push_back(free_before_[full_matrix_.first(position)]);
+    free_before_[position] = free_count;
+    if (rows[rows_in_order_[position]].state != BoundedRow::kFree) continue;
+    free_positions_[free_count] = position;
+    first_columns_[free_count++] = free_before_[full_matrix_.first(position)];
   }
-  const int all = static_cast<int>(free_positions_.size());
-  if (factorised_ && unchanged == all && free_.size() == free_positions_.size()) return;
-  free_.clear();
-  for (const int position : free_positions_) free_.push_back(rows_in_order_[position]);
+  free_positions_.resize(free_count), first_columns_.resize(free_count);
+  int unchanged = 0;
+  const int known = factorised_ ? std::min(free_count, static_cast<int>(free_.size())) : 0;
+  while (unchanged < known && free_[unchanged] == rows_in_order_[free_positions_[unchanged]] &&
+         !free_matrix_.is_removed(unchanged))
+    ++unchanged;
+  free_.resize(free_count);
+  for (int k = unchanged; k < free_count; ++k) free_[k] = rows_in_order_[free_positions_[k]];
   free_matrix_.shape(first_columns_);
   effort += EnvelopeMatrix::cost(first_columns_, unchanged) + static_cast<double>(free_matrix_.entries());
   if (!regularised_) {
@@ -204,13 +191,6 @@ void BoundedRows::copy_free_rows(int from) {
       for (int j = first_columns_[k]; j <= k; ++j) *to++ = row[free_positions_[j]];
     }
   }
-}
-
-// Returns the residual of a row at the present velocities.
-double BoundedRows::residual(int i) const {
-  const BoundedRow& row = rows[i];
-  const double missing = row.target - row_velocity(row) - row.compliance * row.impulse;
-  return missing - row.softening * mobility_[i] * row.impulse;
 }
 
 double BoundedRows::unbounded_impulse(int i) const {
@@ -259,7 +239,7 @@ bool BoundedRows::refine() {
   bool exact = true;
   x_.resize(free_.size());
   for (std::size_t k = 0; k < free_.size(); ++k) {
-    x_[k] = residual(free_[k]);
+    x_[k] = rows[free_[k]].state == BoundedRow::kFree ? residual(free_[k]) : 0;
     exact = exact && !is_significant(free_[k], x_[k], kResidualTolerance);
   }
   if (exact) return false;
@@ -477,7 +457,7 @@ void BoundedRows::correct(double softening) {
 void BoundedRows::solve_displacements() {
   displacements.assign(bodies.size(), {});
   x_.resize(free_.size());
-  for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;
+  for (std::size_t k = 0; k < free_.size(); ++k) x_[k] = -rows[free_[k]].gap;  // `correct` removes none
   free_matrix_.solve(x_.data());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const BoundedRow& row = rows[free_[k]];

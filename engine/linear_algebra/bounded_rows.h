@@ -145,6 +145,7 @@ class BoundedRows {
   void index_blocks();
   void assemble();
   void factorise();
+  bool remove_from_factors();
   void copy_free_rows(int from);
   void solve_free();
   void solve_displacements();
@@ -164,8 +165,9 @@ class BoundedRows {
   void descend();
   void gauss_seidel(int iterations);
   void minimise_free();
-  void apply_step(double fraction);
-  double max_step_fraction() const;
+  void step_from(double fraction);
+  double free_coupling(int place, int other) const;
+  double best_step_fraction();
   bool minimise_on_face();
   struct Work {
     double linear = 0, quadratic = 0;  // J
@@ -180,13 +182,27 @@ class BoundedRows {
   std::pmr::vector<BoundedBody> start_;       // the bodies as given
   std::pmr::vector<double> mobility_;         // J M^-1 J^T + compliance, by row
   std::pmr::vector<int> block_first_;         // by block: index of its first row
-  std::pmr::vector<int> free_;                // free rows in elimination order, which free_matrix_ has
-  std::pmr::vector<int> free_positions_;      // the same as places in `rows_in_order_`, used by `factorise`
-  std::pmr::vector<int> block_positions_;     // by block: its first row's place in the elimination order
-  std::pmr::vector<int> rows_in_order_;       // rows in elimination order
-  std::pmr::vector<int> free_before_;         // by place in that order: number of free rows before it
+  // Free rows in elimination order, which free_matrix_ has. Some may have been removed from its factors.
+  std::pmr::vector<int> free_;
+  std::pmr::vector<int> free_positions_;   // the same as places in `rows_in_order_`, used by `factorise`
+  std::pmr::vector<int> block_positions_;  // by block: its first row's place in the elimination order
+  std::pmr::vector<int> rows_in_order_;    // rows in elimination order
+  std::pmr::vector<int> free_before_;      // by place in that order: number of free rows before it
   std::pmr::vector<int> first_columns_;
   std::pmr::vector<double> x_, guess_, best_;
+  // Of a free row: where a step on a face began, and at which fraction of the step it reaches a bound.
+  struct FaceStart {
+    double impulse = 0, residual = 0;  // N s, m/s
+    double reach = 0;
+  };
+  // A free row that reaches its bound within a step: its place in free_, the fraction of the step, its share
+  // of the step, N s, and by how much a step of the rows that still move lowers its residual, m/s.
+  struct Stop {
+    int place = 0;
+    double reach = 0, step = 0, change = 0;
+  };
+  std::pmr::vector<FaceStart> from_;
+  std::pmr::vector<Stop> stops_;
   std::pmr::vector<double> targets_;          // by row, while infeasible rows are relaxed
   std::pmr::vector<std::int8_t> next_state_;  // 0, or 1 + the state to change to
   double energy_scale_ = 0;      // J, the largest v^2 / mobility of a row, or what the caller gave:
@@ -197,5 +213,29 @@ class BoundedRows {
   bool guess_set_ = false;       // guess_ is set (`prepare_guess`)
   bool descended_ = false;       // the last solution was found by descent
 };
+
+inline double BoundedRows::row_velocity(const BoundedRow& row) const {
+  const BoundedBody &a = bodies[row.a], &b = bodies[row.b];
+  return dot(row.linear_a, a.velocity) + row.angular_a * a.spin + dot(row.linear_b, b.velocity) +
+         row.angular_b * b.spin;
+}
+
+inline void BoundedRows::apply_impulse(const BoundedRow& row, double impulse) {
+  if (impulse == 0) return;
+  const auto add = [&](BoundedBody& body, Vec2d linear, double angular) {
+    body.velocity.x += body.inverse_mass.x * linear.x * impulse;
+    body.velocity.y += body.inverse_mass.y * linear.y * impulse;
+    body.spin += body.inverse_inertia * angular * impulse;
+  };
+  add(bodies[row.a], row.linear_a, row.angular_a);
+  add(bodies[row.b], row.linear_b, row.angular_b);
+}
+
+// Returns the residual of a row at the present velocities.
+inline double BoundedRows::residual(int i) const {
+  const BoundedRow& row = rows[i];
+  const double missing = row.target - row_velocity(row) - row.compliance * row.impulse;
+  return missing - row.softening * mobility_[i] * row.impulse;
+}
 
 }  // namespace plumb

@@ -49,6 +49,7 @@ double EnvelopeMatrix::factorise(int from) {
   // Pivots below this fraction of the diagonal count as zero: the row depends on others, up to rounding.
   constexpr double kDependentPivot = 1e-12;
   double min_ratio = 1;
+  if (from == 0) has_dependent_rows_ = false;
   for (int i = from; i < size(); ++i) {
     double* row = &values_[row_starts_[i]] - first_columns_[i];
     const double diagonal = row[i];
@@ -68,12 +69,43 @@ double EnvelopeMatrix::factorise(int from) {
     const bool independent = pivot > kDependentPivot * diagonal;
     inverse_pivots_[i] = independent ? 1 / pivot : 0;
     if (!independent) {
-      min_ratio = 0;
+      min_ratio = 0, has_dependent_rows_ = true;
     } else if (pivot < min_ratio * diagonal) {
       min_ratio = pivot / diagonal;
     }
   }
   return min_ratio;
+}
+
+// Adds the removed row's part d l l^T, with l its column of L, back to the factors of the rows behind it
+// (Gill, Golub, Murray and Saunders, Mathematics of Computation 28, 1974, method C1). It is positive, so
+// pivots only grow.
+void EnvelopeMatrix::remove(int removed) {
+  assert(!has_dependent_rows_ && !is_removed(removed));
+  steps_.resize(first_columns_.size());
+  double added = 1 / inverse_pivots_[removed];
+  inverse_pivots_[removed] = 0;
+  double* const own = &values_[row_starts_[removed]] - first_columns_[removed];
+  std::fill(own + first_columns_[removed], own + removed, 0.0);
+  for (int i = removed + 1; i < size(); ++i) {
+    double* row = &values_[row_starts_[i]] - first_columns_[i];
+    double entry = 0;
+    if (first_columns_[i] <= removed) entry = row[removed], row[removed] = 0;
+    for (int j = std::max(first_columns_[i], removed + 1); j < i; ++j) {
+      entry -= steps_[j].entry * row[j];
+      row[j] += steps_[j].gain * entry;
+    }
+    steps_[i] = {entry, 0};
+    if (entry == 0 || is_removed(i)) {
+      steps_[i].entry = 0;
+      continue;
+    }
+    // d <- d + a e^2, and of what is added to later rows, a, remains a d / (d + a e^2).
+    const double inverse = inverse_pivots_[i], grown = 1 + added * entry * entry * inverse;
+    inverse_pivots_[i] = inverse / grown;
+    steps_[i].gain = added * entry * inverse_pivots_[i];
+    added /= grown;
+  }
 }
 
 void EnvelopeMatrix::solve(double* x) const {

@@ -194,7 +194,7 @@ void add_contacts(Draw& of, int count, Problem& out) {
 }
 
 // Rows that depend on each other share their load by a compliance of 1e-7. It leaves errors of 1e-7 of the
-// impulses, which where bodies are wedged are many times what the velocities need. Of 20,000 such heaps 2 are
+// impulses, which where bodies are wedged are many times what the velocities need. Of 20,000 such heaps 4 are
 // not solved to 1e-5.
 TEST(BoundedRows, SolvesHeapsOfJointedBodiesWithFriction) {
   int many = 0, unsolved = 0;

@@ -127,7 +127,7 @@ MUTATIONS = [
              "const Vec2<Real> origin = near_b ? a.corners[0].point : a.corners[0].point;", "collision",
              ("collision/contact_manifold_pairs",)),
     Mutation("rows are solved again with the factors of others", "engine/linear_algebra/bounded_rows.cpp",
-             "free_[k] == row) ++unchanged;", "free_[k] >= 0) ++unchanged;", "linear_algebra", ("linear_algebra/bounded_rows",)),
+             "free_[unchanged] == rows_in_order_[free_positions_[unchanged]] &&", "free_[unchanged] >= 0 &&", "linear_algebra", ("linear_algebra/bounded_rows",)),
     Mutation("what parts by rounding flies freely", "engine/world/step/expected_impacts.cpp",
              "return !(dt * rate > rounding_overlap(w, c.body_a, c.body_b)) &&", "return !(rate > 0) &&", "world", ("world/impacts",)),
     Mutation("a hinge lets go of its load after its spring is solved", "engine/world/joint_solver/joint_constraint.h",
