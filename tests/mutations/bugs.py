@@ -310,7 +310,7 @@ MUTATIONS = [
              ("world/continuous",)),
     Mutation("world: what a hinge holds is swept along a straight line", "engine/world/continuous/swept_bodies.cpp",
              "if (hinge != nullptr)", "if (hinge == nullptr)", "world", ("world/continuous",)),
-    Mutation("world: what is stopped leaves its joints behind", "engine/world/continuous/continuous.cpp",
+    Mutation("world: what is stopped leaves its joints behind", "engine/world/continuous/mechanism.h",
              "if (!joint.active || !w.is_dynamic(other) || seen[other]) return;", "if (other != body) return;", "world",
              ("world/continuous",)),
     Mutation("world: what moves as told passes over what stands", "engine/world/continuous/continuous.cpp",

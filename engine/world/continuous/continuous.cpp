@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <optional>
 #include <utility>
@@ -8,8 +7,11 @@
 #include "engine/geometry/convex_bounds.h"
 #include "engine/world/ablation/ablation.h"
 #include "engine/world/continuous/common_motion.h"
+#include "engine/world/continuous/deep_contacts.h"
 #include "engine/world/continuous/impact_hook.h"
 #include "engine/world/continuous/joined_stops.h"
+#include "engine/world/continuous/mechanism.h"
+#include "engine/world/continuous/prefetch_contacts.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bodies.h"
 #include "engine/world/continuous/swept_pair.h"
@@ -24,31 +26,8 @@
 namespace plumb {
 namespace {
 
-// Contacts, and swept bodies, per block of a shared loop: at least 10 us of work for a thread.
-constexpr int kContactsOfBlock = 512, kSweptOfBlock = 16;
-
-// Prefetches the contacts of the next 8 swept bodies, one of each at a time, because contact
-// records are scattered in memory.
-class PrefetchContacts {
- public:
-  PrefetchContacts() { edges_.fill(kNone); }
-
-  template <class Real>
-  void advance(const WorldData<Real>& w, std::size_t index) {
-    const auto prefetch = [&](int edge) {
-      if (edge != kNone) __builtin_prefetch(&w.contacts[edge / 2]);
-      return edge;
-    };
-    for (int& edge : edges_)
-      if (edge != kNone) edge = prefetch(w.contacts[edge / 2].next[edge & 1]);
-    const std::size_t ahead = index + edges_.size();
-    if (ahead < w.scratch.swept_bodies.size())
-      edges_[index % edges_.size()] = prefetch(w.bodies[w.scratch.swept_bodies[ahead].body].first_contact);
-  }
-
- private:
-  std::array<int, 8> edges_;
-};
+// Swept bodies per block of a shared loop: at least 10 us of work for a thread.
+constexpr int kSweptOfBlock = 16;
 
 // Orders a heap with the earliest time of impact on top. No two entries are equal.
 bool is_later(const ToiEvent& a, const ToiEvent& b) {
@@ -108,42 +87,6 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
     update_earliest_impact(w, path, {moving, obstacle, nullptr, !pushes}, found);
     push_toi_event(w, with_other_version(w, found));
   }
-}
-
-// Calls visit(body) for a body and all dynamic bodies connected to it by joints.
-template <class Real, class Visit>
-void for_each_in_mechanism(WorldData<Real>& w, int body, const Visit& visit) {
-  std::vector<int>& queue = w.scratch.queue;
-  std::vector<char>& seen = w.scratch.cannot_sleep;
-  if (w.bodies[body].first_joint == kNone) return visit(body);
-  queue.assign(1, body);
-  seen.assign(w.bodies.size(), 0);
-  seen[body] = 1;
-  for (std::size_t next = 0; next < queue.size(); ++next) {
-    visit(queue[next]);
-    for_each_edge(w.joints, w.bodies[queue[next]].first_joint, [&](int edge, const JointRecord& joint) {
-      const int other = (edge & 1) == 0 ? joint.body_b : joint.body_a;
-      if (!joint.active || !w.is_dynamic(other) || seen[other]) return;
-      seen[other] = 1;
-      queue.push_back(other);
-    });
-  }
-  queue.clear();
-}
-
-// Calls visit(place) for the swept bodies of a body and of all dynamic bodies connected to it by joints.
-template <class Real, class Visit>
-void for_each_jointed(WorldData<Real>& w, int index, double dt, const Visit& visit) {
-  for_each_in_mechanism(w, w.scratch.swept_bodies[index].body,
-                        [&](int body) { visit(swept_body_index(w, body, dt)); });
-}
-
-// Returns true if joints hold a body, or others that joints connect to it, to a body that is not dynamic.
-template <class Real>
-bool is_mechanism_held(WorldData<Real>& w, int body) {
-  bool held = false;
-  for_each_in_mechanism(w, body, [&](int link) { held = held || is_held_by_joint(w, link); });
-  return held;
 }
 
 // Stops a body and all bodies connected to it by joints, so that the joints stay closed. Bodies that must be
@@ -390,55 +333,6 @@ void schedule_pusher_impacts(WorldData<Real>& w, int index, ImpactSearch& search
     });
   }
   for (const auto& [shape, other] : pairs) add_impact(shape, other, constraint_between(w, shape, other));
-}
-
-// Marks the bodies with a loaded contact in this step, and those that a contact may support.
-template <class Real>
-void find_loaded_bodies(WorldData<Real>& w) {
-  w.scratch.has_contact_load.assign(w.bodies.size(), 0);
-  w.graph.for_each([&](const ContactConstraint<Real>& c) {
-    if (has_pressed(c)) return mark_contact_load(w, c);
-    const Real near_gap =
-        c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
-    if (c.separation[0] > near_gap && (c.count < 2 || c.separation[1] > near_gap)) return;
-    for (const int body : {c.body_a, c.body_b})
-      if (w.scratch.has_contact_load[body] == 0) w.scratch.has_contact_load[body] = kMayHold;
-  });
-}
-
-// Collects contacts almost as deep as a core, which are checked even if their depth grows slowly.
-template <class Real>
-void find_deep_contacts(WorldData<Real>& w) {
-  const auto is_deep = [&](const ContactConstraint<Real>& c) {
-    const Real depth = -std::min(c.current_separation[0], c.current_separation[1]);
-    if (!(depth > Real(tuning::kCoreCheckOverlap / tuning::kDepenetrationSpeed) * c.depenetration_speed))
-      return false;
-    const auto half_width = [&](int body) { return w.bodies[body].half_width; };
-    const bool a_dynamic = w.is_dynamic(c.body_a), b_dynamic = w.is_dynamic(c.body_b);
-    const Real limit =
-        (a_dynamic ? half_width(c.body_a) : Real(0)) + (b_dynamic ? half_width(c.body_b) : Real(0));
-    return depth > Real(0.5 * tuning::kCoreDepth) * limit;
-  };
-  if (!w.scheduler.shares()) {
-    w.graph.for_each([&](const ContactConstraint<Real>& c) {
-      if (is_deep(c)) w.scratch.deep_contacts.push_back(c.contact);
-    });
-    return;
-  }
-  std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
-  runs.clear();
-  w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
-    const int count = static_cast<int>(colour.size());
-    for (int first = 0; first < count; first += kContactsOfBlock)
-      append(runs, ContactRun<Real>{colour.data() + first, std::min(kContactsOfBlock, count - first), 0});
-  });
-  w.scratch.found_deep.begin(static_cast<int>(runs.size()));
-  w.scheduler.blocks(static_cast<int>(runs.size()), [&](int block) {
-    const ContactRun<Real>& run = runs[block];
-    for (int i = 0; i < run.count; ++i)
-      if (is_deep(run.first[i])) w.scratch.found_deep.add(block, run.first[i].contact);
-  });
-  w.scratch.found_deep.for_each([&](int contact) { append(w.scratch.deep_contacts, contact); });
 }
 
 // Finds the first impacts of the dynamic bodies among the first `count` swept ones. Each block may use the
