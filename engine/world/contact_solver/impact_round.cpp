@@ -20,7 +20,8 @@ constexpr double kJointsCost = 2e5;
 
 // Effort of an iteration over one point, in multiplications of BoundedRows: a pass that reads the velocity,
 // and one that changes it. Limbs that an impact presses against their limits repeat a round some 1,000 times.
-constexpr double kEffortOfPoint = 16;
+// Besides its solution, a round with joints collects, orders and assembles its rows: some 32 iterations each.
+constexpr double kEffortOfPoint = 16, kEffortOfRow = 512;
 
 template <class Real>
 void apply_normal(SolverBody<Real>* motion, const ContactConstraint<Real>& c, int i, Real impulse) {
@@ -448,10 +449,11 @@ void resolve_round(SolverBody<Real>* motion, Rotation<Real>* rotation, Real max_
     while (end < all.size() && all[end].group == all[first].group) ++end;
     const std::span<ImpactPoint<Real>> points = all.subspan(first, end - first);
     if (JointedRound<Real> jointed(motion, rotation, points, scratch); jointed.collect()) {
-      const double effort = scratch.system.effort;
+      const double before = scratch.system.effort;
       jointed.resolve();
-      work_left -= static_cast<int>(points.size()) +
-                   static_cast<int>((scratch.system.effort - effort) / kEffortOfPoint);
+      const double effort =
+          scratch.system.effort - before + kEffortOfRow * static_cast<double>(scratch.system.rows.size());
+      work_left -= static_cast<int>(points.size()) + static_cast<int>(effort / kEffortOfPoint);
     } else {
       solve_impacts(motion, points, max_approach, work_left);
       for (const ImpactPoint<Real>& at : points) finish_impact(motion, rotation, at, scratch);
