@@ -31,9 +31,10 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
   for (int i = 0; i < c.count; ++i)
     c.arm_a[i] = cross(arms_a[i], n), c.arm_b[i] = cross(arms_a[i] - a_to_b, n);
   const Real compliance = driver_compliance(a, b, c, ContactRow::Normal);
-  Real k[2] = {};
+  Real k[2] = {}, rigid_k_n = 0;  // the latter of the first point, without compliance
   for (int i = 0; i < c.count; ++i) {
     k[i] = mobility(along_n, c.arm_a[i], c.arm_b[i], arms_a[i]);
+    if (i == 0) rigid_k_n = k[0];
     if (k[i] > 0) k[i] += compliance;
     c.mass[i] = inverse(k[i]);
   }
@@ -50,7 +51,7 @@ void prepare_rows(const SolverBody<Real>& a, const SolverBody<Real>& b, const Ve
     c.arm_a[1] = c.arm_b[1] = c.mass[1] = c.k_pq = c.inverse_pq = c.inverse_qq = 0;
     c.inverse_pp = c.mass[0];
   }
-  update_friction_row(a, b, k[0], mobility(along_t, c.arm_tangent_a, c.arm_tangent_b, deeper), c);
+  update_friction_row(a, b, rigid_k_n, mobility(along_t, c.arm_tangent_a, c.arm_tangent_b, deeper), c);
 }
 
 // Returns kPinned if one body only rotates, as both its axes are locked, and the other may drive it.
