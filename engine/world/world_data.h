@@ -355,7 +355,7 @@ struct Scratch {
   std::vector<ContactConstraint<Real>> solver_impacts;  ///< of contacts without points, left to the solver
   std::vector<ContactRun<Real>> contact_runs;
   std::vector<char> has_contact_load;         ///< by body: a contact presses on it
-  std::vector<int> pushers;                   ///< by body: its pusher (step/pushers.h), once known
+  std::vector<int> pushers;                   ///< by body: its pusher (step/pushers.h)
   std::vector<std::uint8_t> contact_changes;  ///< by updated contact: nontouching ones, then the graph's
   std::vector<std::uint8_t>
       separating_faces;  ///< by contact without points: the face that separates its shapes

@@ -309,8 +309,9 @@ template <class Real>
 /// Recycles a contact with points, using only its constraint and its bodies' motion. Returns kStale if they
 /// have moved too far for that, and kLeftFatAabb if its shapes may have separated.
 template <class Real>
-[[gnu::always_inline]] inline int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt) {
-  if (c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0) mark_contact_load(w, c);
+[[gnu::always_inline]] inline int recycle_contact(WorldData<Real>& w, ContactConstraint<Real>& c, Real dt,
+                                                  bool shared) {
+  mark_pushers(w, c, shared);
   // Includes contacts that end in this update. Applied after the loop or, if a hook throws, in the next step.
   const int touch = has_touched(c) != c.touching ? kTouchChange : 0;
   const int left = (w.enlarged[c.body_a] | w.enlarged[c.body_b]) != 0 ? kLeftFatAabb : 0;

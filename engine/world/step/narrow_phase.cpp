@@ -81,11 +81,13 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
   scratch.has_contact_load.assign(w.bodies.size(), 0);
-  scratch.pushers.assign(w.bodies.size(), kUnknownPusher);
+  scratch.pushers.assign(w.bodies.size(), kNone);
+  const LoopScheduler::SerialGuard serial(w.scheduler, w.has_rules());
+  const bool shared = w.scheduler.shares();
   const auto recycle = [&](int block) {
     const ContactRun<Real> run = runs[block];
     for (int i = 0; i < run.count; ++i) {
-      const int change = recycle_contact(w, run.first[i], dt);
+      const int change = recycle_contact(w, run.first[i], dt, shared);
       if (change == 0) continue;
       changes[run.first_index + i] = static_cast<std::uint8_t>(change);
       any[block] |= change;
@@ -119,7 +121,6 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
     if ((any[block] & kRebuilt) != 0) store_rebuilt_impulses(w, runs[block], dt);
   };
   const int run_count = static_cast<int>(runs.size());
-  const LoopScheduler::SerialGuard serial(w.scheduler, w.has_rules());
   w.scheduler.session([&] {
     w.scheduler.blocks(run_count, recycle);
     w.scheduler.blocks(blocks, update);

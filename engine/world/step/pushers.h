@@ -6,8 +6,34 @@
 /// Dynamic bodies that press on others at the start of a step.
 namespace plumb {
 
-/// Entries of Scratch::pushers beside a body's index and kNone: nobody has asked yet, or there are several.
-constexpr int kUnknownPusher = -2, kSeveralPushers = -3;
+/// Entry of Scratch::pushers beside a body's index and kNone.
+constexpr int kSeveralPushers = -2;
+
+/// Adds a dynamic body that presses on `body`. Several threads may do so at once: the result depends on which
+/// bodies press, not on their order.
+template <class Real>
+void add_pusher(WorldData<Real>& w, int body, int pusher, bool shared) {
+  int& entry = w.scratch.pushers[body];
+  int known = __atomic_load_n(&entry, __ATOMIC_RELAXED);
+  while (known != pusher && known != kSeveralPushers) {
+    const int both = known == kNone ? pusher : kSeveralPushers;
+    if (!shared) {
+      entry = both;
+      return;
+    }
+    if (__atomic_compare_exchange_n(&entry, &known, both, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) return;
+  }
+}
+
+/// Marks the bodies of a contact that presses, at the start of a step. `shared` tells if other threads do the
+/// same.
+template <class Real>
+void mark_pushers(WorldData<Real>& w, const ContactConstraint<Real>& c, bool shared) {
+  if (!(c.normal_impulse[0] > 0 || c.normal_impulse[1] > 0)) return;
+  mark_contact_load(w, c);
+  if (is_dynamic(w.motion[c.body_a])) add_pusher(w, c.body_b, c.body_a, shared);
+  if (is_dynamic(w.motion[c.body_b])) add_pusher(w, c.body_a, c.body_b, shared);
+}
 
 /// Returns true if `test` is true of any dynamic body that presses on a body. Reads only what does not change
 /// while contacts are updated.
@@ -22,27 +48,11 @@ bool any_pusher(const WorldData<Real>& w, int body, Test&& test) {
   });
 }
 
-/// Returns the only dynamic body that presses on a body, kNone or kSeveralPushers, and keeps it for the step:
-/// in a crowd many pairs ask. Several threads may find the same at once.
-template <class Real>
-int pusher_of(WorldData<Real>& w, int body) {
-  int& known = w.scratch.pushers[body];
-  if (const int pusher = __atomic_load_n(&known, __ATOMIC_RELAXED); pusher != kUnknownPusher) return pusher;
-  int first = kNone;
-  const bool several = any_pusher(w, body, [&](int other) {
-    if (first == kNone) first = other;
-    return other != first;
-  });
-  const int pusher = several ? kSeveralPushers : first;
-  __atomic_store_n(&known, pusher, __ATOMIC_RELAXED);
-  return pusher;
-}
-
 /// Returns true if another dynamic body than `partner` presses on a dynamic body.
 template <class Real>
-bool is_pressed_by_third(WorldData<Real>& w, int body, int partner) {
+bool is_pressed_by_third(const WorldData<Real>& w, int body, int partner) {
   if (!w.is_dynamic(body)) return false;
-  const int pusher = pusher_of(w, body);
+  const int pusher = w.scratch.pushers[body];
   return pusher != kNone && pusher != partner;
 }
 

@@ -47,16 +47,19 @@ bool is_unsupported(const WorldData<Real>& w, int body) {
 // path, m: by no more than they move relative to it. Returns infinity if such bodies press on both: in a
 // crowd, what drives two bodies together hands on more pushes in the step than their velocities show.
 template <class Real>
-Real push_of_neighbours(WorldData<Real>& w, int a, int b, Real dt) {
+Real push_of_neighbours(const WorldData<Real>& w, int a, int b, Real dt) {
   const bool pushed_a = is_pressed_by_third(w, a, b), pushed_b = is_pressed_by_third(w, b, a);
   if (pushed_a && pushed_b) return std::numeric_limits<Real>::infinity();
   if (!pushed_a && !pushed_b) return 0;
   const int body = pushed_a ? a : b, partner = pushed_a ? b : a;
+  const auto speed_of = [&](int pusher) {
+    return max_point_speed(w.motion[pusher].velocity - w.motion[body].velocity,
+                           rotation_speed(w, pusher) + rotation_speed(w, body));
+  };
+  if (const int only = w.scratch.pushers[body]; only != kSeveralPushers) return dt * speed_of(only);
   Real fastest = 0;
   any_pusher(w, body, [&](int other) {
-    if (other == partner) return false;
-    fastest = std::max(fastest, max_point_speed(w.motion[other].velocity - w.motion[body].velocity,
-                                                rotation_speed(w, other) + rotation_speed(w, body)));
+    if (other != partner) fastest = std::max(fastest, speed_of(other));
     return false;
   });
   return dt * fastest;
@@ -160,7 +163,7 @@ SpeculativeContact<Real> speculative_contact_at(const WorldData<Real>& w, const 
 }  // namespace
 
 template <class Real>
-SpeculativeContact<Real> find_speculative_contact(WorldData<Real>& w, const ContactRecord& contact,
+SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                                   const ContactManifold<Real>& closest, bool pressed, Real dt,
                                                   Real substep) {
   const int a = contact.body_a, b = contact.body_b;
@@ -221,7 +224,7 @@ void prepare_impact_contact(const WorldData<Real>& w, const ContactRecord& conta
 
 #define PLUMB_FOR(Real)                                                                                \
   template SpeculativeContact<Real> find_speculative_contact(                                          \
-      WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, bool, Real, Real);         \
+      const WorldData<Real>&, const ContactRecord&, const ContactManifold<Real>&, bool, Real, Real);   \
   template void prepare_speculative_contact(const WorldData<Real>&, const ContactRecord&,              \
                                             const SpeculativeContact<Real>&, ContactConstraint<Real>&, \
                                             Real(&)[2]);                                               \

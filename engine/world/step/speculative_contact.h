@@ -43,9 +43,8 @@ struct SpeculativeContact {
 /// a pressing contact holds one of two dynamic bodies, shapes that pass each other get no contact, and those
 /// that meet keep the plane of `closest`. They also keep it if they press on each other (`pressed`: they had
 /// an impulse in the last substep), or if other dynamic bodies press on them and may push them together.
-/// Changes nothing but the entries of `Scratch::pushers` that it had to find.
 template <class Real>
-SpeculativeContact<Real> find_speculative_contact(WorldData<Real>& w, const ContactRecord& contact,
+SpeculativeContact<Real> find_speculative_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                                   const ContactManifold<Real>& closest, bool pressed, Real dt,
                                                   Real substep);
 
