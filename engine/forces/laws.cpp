@@ -34,9 +34,10 @@ double active_fraction(double start, double duration, double t0, double t1) {
   return overlap > 0 ? overlap / (t1 - t0) : 0;
 }
 
-Forces::Forces(const Scene& scene) : acts_on_(scene.bodies.size(), 0) {
+Forces::Forces(const Scene& scene, bool (*wanted)(const ForceLaw&)) : acts_on_(scene.bodies.size(), 0) {
   const LawCompiler compiler(scene);
   for (const ForceLaw& law : scene.forces) {
+    if (!wanted(law)) continue;
     for (const std::string_view name : ends_of(law)) {
       if (const int body = compiler.body_index(name); body != kFixedFrame) acts_on_[body] = 1;
     }

@@ -28,8 +28,9 @@ double active_fraction(double start, double duration, double t0, double t1);
 /// A scene's force laws by body index, one array per law. Each law's formula is in a file of its own.
 class Forces {
  public:
-  /// The scene is valid: every law's bodies exist.
-  explicit Forces(const Scene& scene);
+  /// Takes the laws of a valid scene for which `wanted` is true: every law's bodies exist.
+  explicit Forces(
+      const Scene& scene, bool (*wanted)(const ForceLaw&) = [](const ForceLaw&) { return true; });
 
   bool empty() const;
   /// Returns true if any law acts on `body`.

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/hash.h"
 #include "engine/math/trigonometry.h"
-#include "engine/scene/json.h"
 #include "engine/scene/prescribed_path.h"
 
 namespace plumb {
@@ -88,12 +86,6 @@ std::optional<std::size_t> find_body(const Scene& scene, std::string_view name) 
     if (scene.bodies[i].name == name) return i;
   }
   return std::nullopt;
-}
-
-std::uint64_t hash(const Scene& scene) {
-  Fnv1a hash;
-  for (const char c : to_json(scene, -1)) hash.add(std::uint64_t{static_cast<unsigned char>(c)});
-  return hash.value();
 }
 
 }  // namespace plumb

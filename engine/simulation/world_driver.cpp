@@ -24,15 +24,16 @@ WorldDefinition definition_of(const Scene& scene, const Realtime& accuracy) {
   return definition;
 }
 
-/// Returns the scene without shapes if it does not need them: masses do not depend on them.
-Scene without_unneeded_shapes(const Scene& scene, const Plan& plan) {
-  Scene out = scene;
-  if (needs_shapes(plan)) return out;
-  for (Body& body : out.bodies) {
+/// Adds the scene to the world, without shapes if it does not need them: masses do not depend on them.
+template <class Real>
+SceneParts add_planned(BasicWorld<Real>& world, const Scene& scene, const Plan& plan) {
+  if (needs_shapes(plan)) return add_scene(world, scene);
+  Scene shapeless = scene;
+  for (Body& body : shapeless.bodies) {
     if (const double inertia = inertia_of(body); inertia > 0) body.inertia = inertia;
     body.shapes.clear();
   }
-  return out;
+  return add_scene(world, shapeless);
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ WorldDriver<Real>::WorldDriver(const Scene& scene, const Realtime& accuracy, boo
     : accuracy_(accuracy),
       plan_(plan_world(scene, accuracy, every_stage)),
       world_(definition_of(scene, accuracy)),
-      parts_(add_scene(world_, without_unneeded_shapes(scene, plan_))),
+      parts_(add_planned(world_, scene, plan_)),
       forces_(scene, parts_),
       start_states_(scene.bodies.size()) {
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {

@@ -38,6 +38,10 @@ void Emitter::end(char bracket) {
   levels_.pop_back();
   if (level.block && !level.empty) new_line();
   out_ += bracket;
+  constexpr std::size_t kPiece = 1 << 16;
+  if (!sink_ || out_.size() < kPiece) return;
+  sink_(out_);
+  out_.clear();
 }
 
 void Emitter::key(std::string_view name) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/math/vec2.h"
@@ -15,7 +17,13 @@ class Emitter {
  public:
   enum class Layout { Block, Inline };
 
+  /// Takes the text piece by piece.
+  using Sink = std::function<void(std::string_view)>;
+
+  /// Keeps the text for `take`.
   explicit Emitter(int indent) : indent_(indent) {}
+  /// Hands the text to `sink`, so that a large one is never whole in memory; `take` returns the last piece.
+  Emitter(int indent, Sink sink) : indent_(indent), sink_(std::move(sink)) {}
 
   void begin(char bracket, Layout layout = Layout::Block);  ///< '{' or '['
   void end(char bracket);                                   ///< '}' or ']'
@@ -42,6 +50,7 @@ class Emitter {
   void new_line();
 
   int indent_;
+  Sink sink_;
   std::string out_;
   std::vector<Level> levels_;
   bool after_key_ = false;

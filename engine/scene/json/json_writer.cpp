@@ -4,8 +4,10 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/scene/error.h"
 #include "engine/scene/json.h"
 #include "engine/scene/json/json_emitter.h"
@@ -20,6 +22,7 @@ namespace {
 class Writer {
  public:
   explicit Writer(int indent) : out_(indent) {}
+  explicit Writer(json::Emitter::Sink sink) : out_(-1, std::move(sink)) {}
 
   void scene(const Scene& scene) {
     out_.begin('{');
@@ -111,16 +114,31 @@ class Writer {
   bool failed_ = false;
 };
 
-}  // namespace
-
-std::string to_json(const Scene& scene, int indent) {
-  Writer writer(indent);
+// Writes a scene, and returns what the writer has not handed on.
+std::string write(const Scene& scene, Writer& writer) {
   writer.scene(scene);
   if (writer.failed()) {
     validate(scene);  // throws with the name of the offending value
     throw Error(Error::Kind::Value, scene_subject(scene.name), "", "", "holds something that JSON cannot");
   }
   return writer.take();
+}
+
+}  // namespace
+
+std::string to_json(const Scene& scene, int indent) {
+  Writer writer(indent);
+  return write(scene, writer);
+}
+
+std::uint64_t hash(const Scene& scene) {
+  Fnv1a hash;
+  const auto add = [&](std::string_view text) {
+    for (const char c : text) hash.add(std::uint64_t{static_cast<unsigned char>(c)});
+  };
+  Writer writer(add);
+  add(write(scene, writer));
+  return hash.value();
 }
 
 }  // namespace plumb

@@ -12,13 +12,9 @@
 namespace plumb {
 namespace {
 
-Scene without_springs_and_drag(const Scene& scene) {
-  Scene out = scene;
-  std::erase_if(out.forces, [](const ForceLaw& law) {
-    return std::holds_alternative<SpringForce>(law) || std::holds_alternative<LinearDrag>(law) ||
-           std::holds_alternative<QuadraticDrag>(law);
-  });
-  return out;
+bool is_no_spring_or_drag(const ForceLaw& law) {
+  return !std::holds_alternative<SpringForce>(law) && !std::holds_alternative<LinearDrag>(law) &&
+         !std::holds_alternative<QuadraticDrag>(law);
 }
 
 // Returns the speed s at the middle of a step by the implicit midpoint method. It satisfies
@@ -43,13 +39,12 @@ Value drag_velocity(Value start, Value gain, double z) {
 
 template <class Real>
 SceneForces<Real>::SceneForces(const Scene& scene, const SceneParts& parts)
-    : laws_(without_springs_and_drag(scene)),
-      drags_(scene.bodies.size()),
-      spring_bodies_(scene.bodies.size()),
-      ids_(parts.bodies),
-      poses_(scene.bodies.size()),
-      twists_(scene.bodies.size()),
-      wrenches_(scene.bodies.size()) {
+    : laws_(scene, is_no_spring_or_drag) {
+  if (scene.forces.empty()) return;
+  const std::size_t bodies = scene.bodies.size();
+  drags_.resize(bodies), spring_bodies_.resize(bodies);
+  poses_.resize(bodies), twists_.resize(bodies), wrenches_.resize(bodies);
+  ids_ = parts.bodies;
   const LawCompiler compiler(scene);
   std::vector<char> has_force(scene.bodies.size(), 0);
   for (const ForceLaw& law : scene.forces) {
