@@ -17,6 +17,7 @@
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/step.h"
 #include "engine/world/world_bodies.h"
+#include "engine/world/world_body_lists.h"
 #include "engine/world/world_shapes.h"
 
 namespace plumb {

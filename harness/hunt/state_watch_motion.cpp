@@ -226,7 +226,7 @@ std::string StateWatch<Real>::impulses(double dt) const {
     // path of one that was let go from rest does not show it.
     const double speed = std::min(length(world_.velocity(body)), length(before->second.velocity));
     if (length(world_.centre(body) - before->second.position) < 0.9 * dt * speed) continue;
-    const auto& swept = world_.data().scratch.swept_bodies;
+    const auto& swept = world_.data().scratch.continuous.swept_bodies;
     if (std::any_of(swept.begin(), swept.end(), [&](const SweptBody& each) {
           return each.stopped && each.body == static_cast<int>(body.index);
         }))

@@ -130,7 +130,8 @@ TEST(StateWatch, JudgesNoBodyThatIsStoppedWhereItIsLetGo) {
     world.set_velocity(needle, {}), world.set_angular_velocity(needle, 0);
     watch.before_step();
     world.step(1.0 / 60, 4);
-    for (const SweptBody& swept : world.data().scratch.swept_bodies) stopped = stopped || swept.stopped;
+    for (const SweptBody& swept : world.data().scratch.continuous.swept_bodies)
+      stopped = stopped || swept.stopped;
     EXPECT_EQ(watch.after_step(1.0 / 60), "") << i;
   }
   EXPECT_TRUE(stopped);

@@ -316,7 +316,7 @@ MUTATIONS = [
     Mutation("world: what moves as told passes over what stands", "engine/world/continuous/continuous.cpp",
              "schedule_pusher_impacts(w, i, search);", ";", "world", ("world/continuous",)),
     Mutation("world: who may meet others is passed over where nothing stands", "engine/world/step/pairs.cpp",
-             "!has_static && w.scratch.has_overlap[record.proxy] == 0", "!has_static", "world"),
+             "!has_static && w.scratch.broad_phase.has_overlap[record.proxy] == 0", "!has_static", "world"),
     Mutation("world: other threads round in their own way", "engine/core/loop_scheduler.cpp", "std::fesetenv(&as);", "", "world",
              ("world/threads/threads",)),
     Mutation("world: what a block of a loop throws is lost", "engine/core/loop_scheduler.cpp",

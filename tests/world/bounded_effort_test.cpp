@@ -60,7 +60,7 @@ struct WreckingBall {
   // Multiplications of all islands so far.
   double effort() const {
     double sum = 0;
-    for (const auto& island : world.data().scratch.jointed_islands) sum += island.system.effort;
+    for (const auto& island : world.data().scratch.islands.jointed_islands) sum += island.system.effort;
     return sum;
   }
 

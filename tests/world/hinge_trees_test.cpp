@@ -85,7 +85,7 @@ TYPED_TEST(HingeTrees, AHookThatWasDisabledHoldsItsMechanism) {
   world.step(1.0 / 60, 4);
   world.set_enabled(hook, false);
   world.step(1.0 / 60, 4);
-  EXPECT_EQ(world.data().scratch.trees.hinge_count, 1);
+  EXPECT_EQ(world.data().scratch.islands.trees.hinge_count, 1);
   world.set_enabled(hook, true);
   for (int i = 0; i < 2; ++i) {
     world.set_position(chain.links[i], {i + 0.5, 0}, 0);
@@ -97,7 +97,7 @@ TYPED_TEST(HingeTrees, AHookThatWasDisabledHoldsItsMechanism) {
     world.step(1.0 / 60, 4);
     off = std::max(off, std::abs(energy_of(world, chain.links) - start));
   }
-  EXPECT_EQ(world.data().scratch.trees.hinge_count, 2);
+  EXPECT_EQ(world.data().scratch.islands.trees.hinge_count, 2);
   const double turn = 1.5 * std::sqrt(3 * kGravity) / 240;
   EXPECT_LT(off, turn * turn * 2 * kGravity);
   EXPECT_LT(test::worst_gap(world, chain.joints), sizeof(TypeParam) == 4 ? 3e-7 : 1e-11);
@@ -240,7 +240,7 @@ TYPED_TEST(HingeTrees, WhatTouchesIsLeftToTheSweeps) {
   double gap = 0;
   for (int i = 0; i < 120; ++i) {
     world.step(1.0 / 60, 4);
-    (world.data().scratch.trees.empty() ? swept : held)++;
+    (world.data().scratch.islands.trees.empty() ? swept : held)++;
     gap = std::max(gap, static_cast<double>(world.read(joint).linear_error));
   }
   EXPECT_GT(held, 20);
@@ -256,7 +256,7 @@ TEST(HingeTreeChoice, WhatIsAMechanism) {
     const test::Chain chain = add_chain(world, links, tip);
     change(world, chain);
     world.step();
-    return world.data().scratch.trees.hinge_count;
+    return world.data().scratch.islands.trees.hinge_count;
   };
   const auto nothing = [](World&, const test::Chain&) {};
   EXPECT_EQ(hinges(1, 1, Solver::SoftSteps, nothing), 1);

@@ -14,7 +14,7 @@ bool is_held_by_joint(const WorldData<Real>& w, int body) {
 template <class Real>
 bool may_move_together(const WorldData<Real>& w, const std::vector<int>& indices) {
   for (const int index : indices) {
-    const SweptBody& swept = w.scratch.swept_bodies[index];
+    const SweptBody& swept = w.scratch.continuous.swept_bodies[index];
     if (!w.is_dynamic(swept.body) || (swept.changed && swept.group == kNone)) return false;
     if (is_held_by_joint(w, swept.body)) return false;
   }
@@ -23,7 +23,7 @@ bool may_move_together(const WorldData<Real>& w, const std::vector<int>& indices
 
 template <class Real>
 void move_together(WorldData<Real>& w, const std::vector<int>& indices, double fraction) {
-  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  std::vector<SweptBody>& swept_bodies = w.scratch.continuous.swept_bodies;
   double mass = 0;
   Vec2d centre{}, displacement{};  // m, of the common centre of mass
   const Vec2d origin = swept_bodies[indices.front()].position_at(fraction);

@@ -39,8 +39,8 @@ bool is_later(const ToiEvent& a, const ToiEvent& b) {
 template <class Real>
 void push_toi_event(WorldData<Real>& w, const ToiEvent& meeting) {
   if (!(meeting.fraction < 1)) return;
-  w.scratch.toi_events.push_back(meeting);
-  std::push_heap(w.scratch.toi_events.begin(), w.scratch.toi_events.end(), is_later);
+  w.scratch.continuous.toi_events.push_back(meeting);
+  std::push_heap(w.scratch.continuous.toi_events.begin(), w.scratch.continuous.toi_events.end(), is_later);
 }
 
 template <class Real>
@@ -52,17 +52,17 @@ void schedule_toi_event(WorldData<Real>& w, int index, double from, ImpactSearch
 template <class Real>
 SweptBody* moving_swept_body(WorldData<Real>& w, int body, double dt) {
   if (w.bodies[body].type == BodyType::Static) return nullptr;
-  return &w.scratch.swept_bodies[swept_body_index(w, body, dt)];
+  return &w.scratch.continuous.swept_bodies[swept_body_index(w, body, dt)];
 }
 
 // Finds impacts of other swept bodies with this one, whose motion has changed from a fraction of the step on.
 template <class Real>
 void schedule_others_toi_events(WorldData<Real>& w, int index, double from, ImpactSearch& search) {
-  const SweptBody swept = w.scratch.swept_bodies[index];
+  const SweptBody swept = w.scratch.continuous.swept_bodies[index];
   const Rotation<double> q = swept.rotation_at(from);
   const Pose<Real> pose{swept.position_at(from).template as<Real>(),
                         {static_cast<Real>(q.c), static_cast<Real>(q.s)}};
-  std::vector<std::pair<int, int>>& pairs = w.scratch.found_pairs;
+  std::vector<std::pair<int, int>>& pairs = w.scratch.broad_phase.found_pairs;
   pairs.clear();
   for (int shape = w.bodies[swept.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
     const std::uint32_t mask = effective_mask(w.shapes[shape].filter);
@@ -74,14 +74,14 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
     });
   }
   for (const auto& [shape, other] : pairs) {
-    const int other_index = w.scratch.swept_index_of[w.shapes[other].body];
-    const SweptBody& other_swept = w.scratch.swept_bodies[other_index];
+    const int other_index = w.scratch.continuous.swept_index_of[w.shapes[other].body];
+    const SweptBody& other_swept = w.scratch.continuous.swept_bodies[other_index];
     if (other_swept.stopped || move_as_one(w, swept, other_swept.body) || other_swept.pushed_by == swept.body)
       continue;
     // A kinematic body is not stopped, but pushes this one along.
     const bool pushes = !w.is_dynamic(other_swept.body);
     if (pushes && (swept.pushed_by != kNone || !w.is_dynamic(swept.body))) continue;
-    const SweptPath path(pushes ? w.scratch.swept_bodies[index] : other_swept, from, search);
+    const SweptPath path(pushes ? w.scratch.continuous.swept_bodies[index] : other_swept, from, search);
     const int moving = pushes ? shape : other, obstacle = pushes ? other : shape;
     ToiEvent found{.swept_body = pushes ? index : other_index, .version = path.swept.version};
     update_earliest_impact(w, path, {moving, obstacle, nullptr, !pushes}, found);
@@ -95,19 +95,19 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
 // it up.
 template <class Real>
 void stop_island(WorldData<Real>& w, int index, int obstacle, double fraction, ImpactSearch& search) {
-  std::vector<int>& stopped = w.scratch.stopped;
+  std::vector<int>& stopped = w.scratch.continuous.stopped;
   stopped.clear();
   for_each_jointed(w, index, search.dt, [&](int jointed) {
-    if (!w.scratch.swept_bodies[jointed].stopped) append(stopped, jointed);
+    if (!w.scratch.continuous.swept_bodies[jointed].stopped) append(stopped, jointed);
   });
   const bool hands_on =
       w.is_dynamic(obstacle) && std::none_of(stopped.begin(), stopped.end(), [&](int jointed) {
-        return w.scratch.swept_bodies[jointed].body == obstacle;
+        return w.scratch.continuous.swept_bodies[jointed].body == obstacle;
       });
   if (!hands_on) remove_remaining_work(w, stopped, fraction, search.dt);
   find_joint_corrections(w, stopped, fraction);
   for_each_jointed(w, index, search.dt, [&](int jointed) {
-    SweptBody& swept = w.scratch.swept_bodies[jointed];
+    SweptBody& swept = w.scratch.continuous.swept_bodies[jointed];
     if (swept.stopped) return;
     swept.squeezed = swept.pushed_by != kNone;
     const Vec2d joint_correction = swept.joint_correction;
@@ -125,9 +125,9 @@ void stop_island(WorldData<Real>& w, int index, int obstacle, double fraction, I
 template <class Real>
 void push_along(WorldData<Real>& w, int index, int pusher, double fraction, ImpactSearch& search) {
   for_each_jointed(w, index, search.dt, [&](int jointed) {
-    SweptBody& swept = w.scratch.swept_bodies[jointed];
+    SweptBody& swept = w.scratch.continuous.swept_bodies[jointed];
     if (swept.pushed_by != kNone) return;
-    swept.continue_pushed(w.scratch.swept_bodies[pusher], fraction, w.bodies[swept.body].locks());
+    swept.continue_pushed(w.scratch.continuous.swept_bodies[pusher], fraction, w.bodies[swept.body].locks());
     insert_swept_aabb(w, swept);
     schedule_toi_event(w, jointed, fraction, search);
     schedule_others_toi_events(w, jointed, fraction, search);
@@ -146,7 +146,7 @@ void invalidate_points(WorldData<Real>& w, const ToiEvent& next) {
 // allowed.
 template <class Real>
 bool lift(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
-  SweptBody& swept = w.scratch.swept_bodies[next.swept_body];
+  SweptBody& swept = w.scratch.continuous.swept_bodies[next.swept_body];
   if (swept.impacts > 0 || (swept.changed && swept.lifts == 0)) return false;
   const SweptPair<Real> pair{next.shape, next.other, constraint_between(w, next.shape, next.other)};
   const SweptPath path(swept, next.fraction, search);
@@ -170,25 +170,25 @@ template <class Real>
 bool continue_together(WorldData<Real>& w, const ToiEvent& next, int other_index, ImpactSearch& search) {
   if (!enabled(Switch::CommonMotion)) return false;
   if (other_index == kNone || constraint_between(w, next.shape, next.other) == nullptr) return false;
-  std::vector<int>& members = w.scratch.stopped;
+  std::vector<int>& members = w.scratch.continuous.stopped;
   members.clear();
   const auto add = [&](int index) {
     if (members.size() <= kMaxGroup && std::find(members.begin(), members.end(), index) == members.end())
       append(members, index);
   };
   for (const int index : {next.swept_body, other_index}) {
-    const int group = w.scratch.swept_bodies[index].group;
+    const int group = w.scratch.continuous.swept_bodies[index].group;
     if (group == kNone) {
       for_each_jointed(w, index, search.dt, add);
       continue;
     }
-    const int count = static_cast<int>(w.scratch.swept_bodies.size());
+    const int count = static_cast<int>(w.scratch.continuous.swept_bodies.size());
     for (int i = 0; i < count; ++i)
-      if (w.scratch.swept_bodies[i].group == group) add(i);
+      if (w.scratch.continuous.swept_bodies[i].group == group) add(i);
   }
   if (members.size() > kMaxGroup || !may_move_together(w, members)) return false;
   move_together(w, members, next.fraction);
-  for (const int index : members) insert_swept_aabb(w, w.scratch.swept_bodies[index]);
+  for (const int index : members) insert_swept_aabb(w, w.scratch.continuous.swept_bodies[index]);
   for (const int index : members) {
     schedule_toi_event(w, index, next.fraction, search);
     schedule_others_toi_events(w, index, next.fraction, search);
@@ -213,7 +213,7 @@ bool is_slow_impact(const WorldData<Real>& w, const ToiEvent& at, double approac
 // searched again; so is one that the pre-solve hook disables.
 template <class Real>
 void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
-  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  std::vector<SweptBody>& swept_bodies = w.scratch.continuous.swept_bodies;
   if (swept_bodies[next.swept_body].version != next.version) return;
   const int other_body = w.shapes[next.other].body;
   SweptBody* other = moving_swept_body(w, other_body, search.dt);
@@ -223,7 +223,7 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
     schedule_toi_event(w, next.swept_body, next.fraction, search);
     return;
   }
-  const int other_index = other == nullptr ? kNone : w.scratch.swept_index_of[other_body];
+  const int other_index = other == nullptr ? kNone : w.scratch.continuous.swept_index_of[other_body];
   const Real restitution = restitution_between(w, next.shape, next.other);
   const bool stay = stay_together(w, next.shape, next.other);
   const int max_impacts = restitution == 1          ? tuning::kMaxImpactsPerStep
@@ -275,7 +275,7 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
   if (continue_together(w, next, other_index, search)) return;
   if (pushes_other) {
     // The pushed body pushes the other one along too.
-    push_along(w, other_index, w.scratch.swept_index_of[pushed_by], next.fraction, search);
+    push_along(w, other_index, w.scratch.continuous.swept_index_of[pushed_by], next.fraction, search);
     schedule_toi_event(w, next.swept_body, next.fraction, search);
     return;
   }
@@ -287,7 +287,7 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
 // Processes impacts in the order of time until the step ends.
 template <class Real>
 void process_toi_queue(WorldData<Real>& w, ImpactSearch& search) {
-  std::vector<ToiEvent>& toi_events = w.scratch.toi_events;
+  std::vector<ToiEvent>& toi_events = w.scratch.continuous.toi_events;
   // Reserve for four bodies with the maximum number of impacts per step, so that the list seldom grows.
   ensure_capacity(toi_events, 4 * tuning::kMaxImpactsPerStep);
   std::make_heap(toi_events.begin(), toi_events.end(), is_later);
@@ -302,15 +302,15 @@ void process_toi_queue(WorldData<Real>& w, ImpactSearch& search) {
 // Finds impacts of dynamic bodies, even slow ones, with a fast kinematic body that passes them.
 template <class Real>
 void schedule_pusher_impacts(WorldData<Real>& w, int index, ImpactSearch& search) {
-  const SweptBody pusher = w.scratch.swept_bodies[index];
+  const SweptBody pusher = w.scratch.continuous.swept_bodies[index];
   const auto add_impact = [&](int shape, int other, const ContactConstraint<Real>* contact) {
     const int body = w.shapes[shape].body;
     if (!RelativeMotionTest<Real>(w, body).is_fast(pusher.body)) return;
     const int swept_index = swept_body_index(w, body, search.dt);
-    const SweptPath path(w.scratch.swept_bodies[swept_index], 0, search);
+    const SweptPath path(w.scratch.continuous.swept_bodies[swept_index], 0, search);
     ToiEvent found{.swept_body = swept_index, .version = path.swept.version};
     update_earliest_impact(w, path, {shape, other, contact}, found);
-    if (found.fraction < 1) w.scratch.toi_events.push_back(with_other_version(w, found));
+    if (found.fraction < 1) w.scratch.continuous.toi_events.push_back(with_other_version(w, found));
   };
   if (pusher.covered) {
     for_each_edge(w.contacts, w.bodies[pusher.body].first_contact,
@@ -321,7 +321,7 @@ void schedule_pusher_impacts(WorldData<Real>& w, int index, ImpactSearch& search
                   });
     return;
   }
-  std::vector<std::pair<int, int>>& pairs = w.scratch.found_pairs;
+  std::vector<std::pair<int, int>>& pairs = w.scratch.broad_phase.found_pairs;
   pairs.clear();
   const Aabb<Real> swept_aabb = swept_aabb_of(w, pusher);
   for (int shape = w.bodies[pusher.body].first_shape; shape != kNone; shape = w.shapes[shape].next) {
@@ -341,23 +341,24 @@ template <class Real>
 bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
   const int blocks = (count + kSweptOfBlock - 1) / kSweptOfBlock;
   std::atomic<std::int64_t> used_iterations{0};
-  w.scratch.found_toi_events.begin(blocks);
+  w.scratch.continuous.found_toi_events.begin(blocks);
   w.scheduler.blocks(blocks, [&](int block) {
     PrefetchContacts ahead;
     for (int i = block * kSweptOfBlock; i < std::min(count, (block + 1) * kSweptOfBlock); ++i) {
       ahead.advance(w, static_cast<std::size_t>(i));
-      if (!w.is_dynamic(w.scratch.swept_bodies[i].body)) continue;
+      if (!w.is_dynamic(w.scratch.continuous.swept_bodies[i].body)) continue;
       if (used_iterations.load(std::memory_order_relaxed) > search.toi_iteration_budget) return;
       ImpactSearch own = search;
       const ToiEvent first = first_toi_event(w, i, 0, own);
-      if (first.fraction < 1) w.scratch.found_toi_events.add(block, first);
+      if (first.fraction < 1) w.scratch.continuous.found_toi_events.add(block, first);
       const int iterations = search.toi_iteration_budget - own.toi_iteration_budget;
       if (iterations > 0) used_iterations.fetch_add(iterations, std::memory_order_relaxed);
     }
   });
   if (used_iterations.load() > search.toi_iteration_budget) return false;
   search.toi_iteration_budget -= static_cast<int>(used_iterations.load());
-  w.scratch.found_toi_events.for_each([&](const ToiEvent& first) { append(w.scratch.toi_events, first); });
+  w.scratch.continuous.found_toi_events.for_each(
+      [&](const ToiEvent& first) { append(w.scratch.continuous.toi_events, first); });
   return true;
 }
 
@@ -365,34 +366,34 @@ bool find_first_impacts(WorldData<Real>& w, int count, ImpactSearch& search) {
 // contain the whole path.
 template <class Real>
 void insert_swept_aabbs(WorldData<Real>& w) {
-  for (SweptBody& swept : w.scratch.swept_bodies)
+  for (SweptBody& swept : w.scratch.continuous.swept_bodies)
     if (!swept.has_swept_aabb && w.enlarged[swept.body]) insert_swept_aabb(w, swept);
 }
 
 template <class Real>
 void schedule_deep_contacts(WorldData<Real>& w, ImpactSearch& search) {
-  for (const int id : w.scratch.deep_contacts) {
+  for (const int id : w.scratch.continuous.deep_contacts) {
     const ContactRecord& contact = w.contacts[id];
     const auto half_width = [&](int body) { return w.bodies[body].half_width; };
     const bool is_a =
         w.is_dynamic(contact.body_a) &&
         (!w.is_dynamic(contact.body_b) || half_width(contact.body_a) < half_width(contact.body_b));
     const int swept_index = swept_body_index(w, is_a ? contact.body_a : contact.body_b, search.dt);
-    const SweptPath path(w.scratch.swept_bodies[swept_index], 0, search);
+    const SweptPath path(w.scratch.continuous.swept_bodies[swept_index], 0, search);
     ToiEvent found{.swept_body = swept_index, .version = path.swept.version};
     const int shape = is_a ? contact.shape_a : contact.shape_b,
               other = is_a ? contact.shape_b : contact.shape_a;
     update_earliest_impact(w, path, {shape, other, constraint_in(w, contact)}, found);
-    if (found.fraction < 1) w.scratch.toi_events.push_back(with_other_version(w, found));
+    if (found.fraction < 1) w.scratch.continuous.toi_events.push_back(with_other_version(w, found));
   }
 }
 
 // Adds the swept bodies of fast bodies. Returns true if the fat AABBs of all contained their motions.
 template <class Real>
 bool add_fast_bodies(WorldData<Real>& w, double dt) {
-  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  std::vector<SweptBody>& swept_bodies = w.scratch.continuous.swept_bodies;
   bool all_covered = true;
-  for (const FastBody& fast : w.scratch.fast_bodies) {
+  for (const FastBody& fast : w.scratch.continuous.fast_bodies) {
     if (!(w.settings.continuous && w.extras_of(fast.body).continuous) && !fast.expected) continue;
     all_covered = all_covered && fast.covered;
     if (!w.scheduler.shares()) {
@@ -400,7 +401,7 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
       swept.covered = fast.covered, swept.expected = fast.expected;
       continue;
     }
-    w.scratch.swept_index_of[fast.body] = static_cast<int>(swept_bodies.size());
+    w.scratch.continuous.swept_index_of[fast.body] = static_cast<int>(swept_bodies.size());
     SweptBody swept;
     swept.body = fast.body, swept.covered = fast.covered, swept.expected = fast.expected;
     append(swept_bodies, swept);
@@ -421,14 +422,14 @@ bool add_fast_bodies(WorldData<Real>& w, double dt) {
 
 template <class Real>
 void solve_continuous(WorldData<Real>& w, Real dt) {
-  w.scratch.deep_contacts.clear(), w.scratch.swept_bodies.clear();
+  w.scratch.continuous.deep_contacts.clear(), w.scratch.continuous.swept_bodies.clear();
   if (w.settings.continuous) find_deep_contacts(w);
-  if (w.scratch.fast_bodies.empty() && w.scratch.deep_contacts.empty()) return;
+  if (w.scratch.continuous.fast_bodies.empty() && w.scratch.continuous.deep_contacts.empty()) return;
   find_loaded_bodies(w);
   const double time = static_cast<double>(dt);
-  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
-  w.scratch.toi_events.clear();
-  w.scratch.swept_index_of.assign(w.bodies.size(), kNone);
+  std::vector<SweptBody>& swept_bodies = w.scratch.continuous.swept_bodies;
+  w.scratch.continuous.toi_events.clear();
+  w.scratch.continuous.swept_index_of.assign(w.bodies.size(), kNone);
   const bool all_covered = add_fast_bodies(w, time);
   for (SweptBody& swept : swept_bodies)
     if (!swept.covered) insert_swept_aabb(w, swept);
@@ -443,13 +444,13 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
     for (int i = 0; i < fast_count; ++i) {
       ahead.advance(w, static_cast<std::size_t>(i));
       const ToiEvent first = first_toi_event(w, i, 0, search);
-      if (first.fraction < 1) append(w.scratch.toi_events, first);
+      if (first.fraction < 1) append(w.scratch.continuous.toi_events, first);
     }
   }
   for (int i = 0; i < fast_count; ++i)
     if (!w.is_dynamic(swept_bodies[i].body)) schedule_pusher_impacts(w, i, search);
   schedule_deep_contacts(w, search);
-  if (!w.scratch.toi_events.empty()) {
+  if (!w.scratch.continuous.toi_events.empty()) {
     insert_swept_aabbs(w);
     process_toi_queue(w, search);
   }
@@ -463,7 +464,7 @@ void solve_continuous(WorldData<Real>& w, Real dt) {
     }
     if (swept.has_swept_aabb) restore_fat_aabb(w, swept.body, dt);
   }
-  w.scratch.swept_index_of.clear();
+  w.scratch.continuous.swept_index_of.clear();
 }
 
 template void solve_continuous(WorldData<float>&, float);

@@ -18,14 +18,15 @@ constexpr int kContactsOfBlock = 512;
 
 template <class Real>
 void find_loaded_bodies(WorldData<Real>& w) {
-  w.scratch.has_contact_load.assign(w.bodies.size(), 0);
+  w.scratch.narrow_phase.has_contact_load.assign(w.bodies.size(), 0);
   w.graph.for_each([&](const ContactConstraint<Real>& c) {
     if (has_pressed(c)) return mark_contact_load(w, c);
     const Real near_gap =
         c.depenetration_speed * Real(tuning::kRecycleDistance / tuning::kDepenetrationSpeed);
     if (c.separation[0] > near_gap && (c.count < 2 || c.separation[1] > near_gap)) return;
     for (const int body : {c.body_a, c.body_b})
-      if (w.scratch.has_contact_load[body] == 0) w.scratch.has_contact_load[body] = kMayHold;
+      if (w.scratch.narrow_phase.has_contact_load[body] == 0)
+        w.scratch.narrow_phase.has_contact_load[body] = kMayHold;
   });
 }
 
@@ -43,24 +44,25 @@ void find_deep_contacts(WorldData<Real>& w) {
   };
   if (!w.scheduler.shares()) {
     w.graph.for_each([&](const ContactConstraint<Real>& c) {
-      if (is_deep(c)) w.scratch.deep_contacts.push_back(c.contact);
+      if (is_deep(c)) w.scratch.continuous.deep_contacts.push_back(c.contact);
     });
     return;
   }
-  std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
+  std::vector<ContactRun<Real>>& runs = w.scratch.narrow_phase.contact_runs;
   runs.clear();
   w.graph.for_each_colour([&](std::vector<ContactConstraint<Real>>& colour, bool) {
     const int count = static_cast<int>(colour.size());
     for (int first = 0; first < count; first += kContactsOfBlock)
       append(runs, ContactRun<Real>{colour.data() + first, std::min(kContactsOfBlock, count - first), 0});
   });
-  w.scratch.found_deep.begin(static_cast<int>(runs.size()));
+  w.scratch.continuous.found_deep.begin(static_cast<int>(runs.size()));
   w.scheduler.blocks(static_cast<int>(runs.size()), [&](int block) {
     const ContactRun<Real>& run = runs[block];
     for (int i = 0; i < run.count; ++i)
-      if (is_deep(run.first[i])) w.scratch.found_deep.add(block, run.first[i].contact);
+      if (is_deep(run.first[i])) w.scratch.continuous.found_deep.add(block, run.first[i].contact);
   });
-  w.scratch.found_deep.for_each([&](int contact) { append(w.scratch.deep_contacts, contact); });
+  w.scratch.continuous.found_deep.for_each(
+      [&](int contact) { append(w.scratch.continuous.deep_contacts, contact); });
 }
 
 #define PLUMB_FOR(Real)                               \

@@ -14,7 +14,7 @@ namespace {
 // that is not awake moves freely, with the mean of its velocities.
 template <class Real>
 double twice_work_on(const WorldData<Real>& w, int body, double dt) {
-  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.solver.velocity_increments;
   const SolverBody<Real>& motion = w.motion[body];
   const BodyRecord<Real>& record = w.bodies[body];
   const auto work = [&](Vec2<Real> gain, Real spin_gain) {
@@ -53,8 +53,8 @@ void remove_remaining_work(WorldData<Real>& w, const std::vector<int>& indices, 
   if (!enabled(Switch::RemainingWork)) return;
   double work = 0, twice_energy = 0;
   for (const int index : indices) {
-    const int body = w.scratch.swept_bodies[index].body;
-    if (w.scratch.swept_bodies[index].impacts > 0) return;  // its velocity is that after an impact
+    const int body = w.scratch.continuous.swept_bodies[index].body;
+    if (w.scratch.continuous.swept_bodies[index].impacts > 0) return;  // its velocity is that after an impact
     const BodyRecord<Real>& record = w.bodies[body];
     const SolverBody<Real>& motion = w.motion[body];
     work += twice_work_on(w, body, dt);
@@ -65,21 +65,21 @@ void remove_remaining_work(WorldData<Real>& w, const std::vector<int>& indices, 
   if (!(work > 0 && allowed >= 0)) return;
   const Real scale = static_cast<Real>(std::sqrt(allowed / twice_energy));
   for (const int index : indices) {
-    SolverBody<Real>& motion = w.motion[w.scratch.swept_bodies[index].body];
+    SolverBody<Real>& motion = w.motion[w.scratch.continuous.swept_bodies[index].body];
     motion.velocity *= scale, motion.angular_velocity *= scale;
   }
 }
 
 template <class Real>
 void find_joint_corrections(WorldData<Real>& w, const std::vector<int>& indices, double fraction) {
-  std::vector<SweptBody>& swept_bodies = w.scratch.swept_bodies;
+  std::vector<SweptBody>& swept_bodies = w.scratch.continuous.swept_bodies;
   for (std::size_t next = 0; next < indices.size(); ++next) {
     SweptBody& swept = swept_bodies[indices[next]];
     swept.joint_correction = {};
     if (!enabled(Switch::JoinedStops) || next == 0 || swept.changed || swept.arm != Vec2d{}) continue;
     for_each_edge(w.joints, w.bodies[swept.body].first_joint, [&](int edge, const JointRecord& joint) {
       const bool is_a = (edge & 1) == 0;
-      const int other_index = w.scratch.swept_index_of[is_a ? joint.body_b : joint.body_a];
+      const int other_index = w.scratch.continuous.swept_index_of[is_a ? joint.body_b : joint.body_a];
       const auto placed = indices.begin() + static_cast<std::ptrdiff_t>(next);
       if (!joint.active || swept.joint_correction != Vec2d{} ||
           std::find(indices.begin(), placed, other_index) == placed)

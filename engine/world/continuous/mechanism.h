@@ -34,7 +34,7 @@ void for_each_in_mechanism(WorldData<Real>& w, int body, const Visit& visit) {
 /// Calls visit(place) for the swept bodies of a body and of all dynamic bodies connected to it by joints.
 template <class Real, class Visit>
 void for_each_jointed(WorldData<Real>& w, int index, double dt, const Visit& visit) {
-  for_each_in_mechanism(w, w.scratch.swept_bodies[index].body,
+  for_each_in_mechanism(w, w.scratch.continuous.swept_bodies[index].body,
                         [&](int body) { visit(swept_body_index(w, body, dt)); });
 }
 

@@ -22,8 +22,9 @@ class PrefetchContacts {
     for (int& edge : edges_)
       if (edge != kNone) edge = prefetch(w.contacts[edge / 2].next[edge & 1]);
     const std::size_t ahead = index + edges_.size();
-    if (ahead < w.scratch.swept_bodies.size())
-      edges_[index % edges_.size()] = prefetch(w.bodies[w.scratch.swept_bodies[ahead].body].first_contact);
+    if (ahead < w.scratch.continuous.swept_bodies.size())
+      edges_[index % edges_.size()] =
+          prefetch(w.bodies[w.scratch.continuous.swept_bodies[ahead].body].first_contact);
   }
 
  private:

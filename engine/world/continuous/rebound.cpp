@@ -28,7 +28,8 @@ bool is_free(const WorldData<Real>& w, int body, double dt) {
   if (!record.awake || record.first_joint != kNone) return false;
   if (record.constraints == 0) return true;
   // Most contacts of a body in a crowd are too far away to support it, whatever its velocity.
-  if (w.scratch.has_contact_load[body] != kMayHold) return w.scratch.has_contact_load[body] == 0;
+  if (w.scratch.narrow_phase.has_contact_load[body] != kMayHold)
+    return w.scratch.narrow_phase.has_contact_load[body] == 0;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     if (contact.home != ContactHome::Graph) return false;
     const ContactConstraint<Real>& c = w.graph.at({contact.colour, contact.index});

@@ -15,9 +15,9 @@ SweptBody swept_body_of(const WorldData<Real>& w, int body, double dt);
 /// Returns the SweptBody of a body, or null if continuous collision has none for it.
 template <class Real>
 const SweptBody* find_swept_body(const WorldData<Real>& w, int body) {
-  if (w.scratch.swept_index_of.size() <= static_cast<std::size_t>(body)) return nullptr;
-  const int index = w.scratch.swept_index_of[body];
-  return index == kNone ? nullptr : &w.scratch.swept_bodies[index];
+  if (w.scratch.continuous.swept_index_of.size() <= static_cast<std::size_t>(body)) return nullptr;
+  const int index = w.scratch.continuous.swept_index_of[body];
+  return index == kNone ? nullptr : &w.scratch.continuous.swept_bodies[index];
 }
 
 /// Returns true if no joint, lock, pre-solve hook or loaded contact acts on the bodies of two shapes in this

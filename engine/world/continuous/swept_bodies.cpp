@@ -47,12 +47,12 @@ void restore_fat_aabb(WorldData<Real>& w, int body, Real dt) {
 
 template <class Real>
 int swept_body_index(WorldData<Real>& w, int body, double dt) {
-  int& index = w.scratch.swept_index_of[body];
+  int& index = w.scratch.continuous.swept_index_of[body];
   if (index == kNone) {
-    index = static_cast<int>(w.scratch.swept_bodies.size());
-    w.scratch.swept_bodies.push_back(swept_body_of(w, body, dt));
-    set_arm(w, w.scratch.swept_bodies.back());
-    w.scratch.swept_bodies.back().covered = true;
+    index = static_cast<int>(w.scratch.continuous.swept_bodies.size());
+    w.scratch.continuous.swept_bodies.push_back(swept_body_of(w, body, dt));
+    set_arm(w, w.scratch.continuous.swept_bodies.back());
+    w.scratch.continuous.swept_bodies.back().covered = true;
   }
   return index;
 }

@@ -164,7 +164,7 @@ ToiEvent with_other_version(const WorldData<Real>& w, ToiEvent found) {
 /// Returns the first impact of a swept body from a fraction of the step on.
 template <class Real>
 ToiEvent first_toi_event(const WorldData<Real>& w, int index, double from, ImpactSearch& search) {
-  const SweptBody& swept = w.scratch.swept_bodies[index];
+  const SweptBody& swept = w.scratch.continuous.swept_bodies[index];
   ToiEvent first{.swept_body = index, .version = swept.version};
   if (!w.is_dynamic(swept.body)) return first;
   if (swept.covered && !swept.changed) {

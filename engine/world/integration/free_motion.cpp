@@ -148,7 +148,7 @@ constexpr int kBodiesPerBlock = 256;
 
 template <class Real, class Visit>
 void for_each_increment(WorldData<Real>& w, const Visit& visit) {
-  std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  std::vector<VelocityIncrement<Real>>& increments = w.scratch.solver.velocity_increments;
   w.scheduler.ranges(static_cast<int>(increments.size()), kBodiesPerBlock, [&](int first, int last) {
     const Visit own = visit;  // a local copy, which no pointer can change
     VelocityIncrement<Real>* const list = increments.data();
@@ -177,8 +177,8 @@ const int* reserve_increments(WorldData<Real>& w, int blocks, Integrator integra
     firsts[block + 1] = found;
   });
   for (int block = 0; block < blocks; ++block) firsts[block + 1] += firsts[block];
-  resize_with_growth(w.scratch.velocity_increments, firsts[blocks]),
-      resize_with_growth(w.scratch.start_velocities, firsts[blocks]);
+  resize_with_growth(w.scratch.solver.velocity_increments, firsts[blocks]),
+      resize_with_growth(w.scratch.solver.start_velocities, firsts[blocks]);
   return firsts.data();
 }
 
@@ -186,11 +186,11 @@ const int* reserve_increments(WorldData<Real>& w, int blocks, Integrator integra
 
 template <class Real>
 void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator integrator) {
-  std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
-  increments.clear(), w.scratch.start_velocities.clear();
+  std::vector<VelocityIncrement<Real>>& increments = w.scratch.solver.velocity_increments;
+  increments.clear(), w.scratch.solver.start_velocities.clear();
   const double dt = h * substeps;
   const Vec2<Real> gain = static_cast<Real>(dt) * w.settings.gravity.template as<Real>();
-  const bool loaded = w.loads.used(), articulated = !w.scratch.trees.empty();
+  const bool loaded = w.loads.used(), articulated = !w.scratch.islands.trees.empty();
   const PrefetchAwakeBodies<Real> ahead(w);
   const int count = static_cast<int>(w.awake.size());
   // Moves a free body, or stores the increment of another one.
@@ -212,13 +212,13 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
     // The displacement of the last step, for `ramp_kinematic_velocities`.
     increment.velocity_before = motion.delta_position, increment.spin_before = motion.delta_angle;
     motion.delta_position = {}, motion.delta_angle = 0;
-    increment.in_tree = articulated && w.scratch.trees.is_link[body];
+    increment.in_tree = articulated && w.scratch.islands.trees.is_link[body];
     add(increment, BodyVelocity<Real>{motion.velocity, motion.angular_velocity});
   };
   if (!w.scheduler.shares()) {
     for (int index = 0; index < count; ++index) {
       prepare(index, [&](const VelocityIncrement<Real>& increment, const BodyVelocity<Real>& start) {
-        increments.push_back(increment), w.scratch.start_velocities.push_back(start);
+        increments.push_back(increment), w.scratch.solver.start_velocities.push_back(start);
       });
     }
     return;
@@ -230,7 +230,7 @@ void prepare_integration(WorldData<Real>& w, double h, int substeps, Integrator 
     for (int index = block * kBodiesPerBlock; index < std::min(count, (block + 1) * kBodiesPerBlock);
          ++index) {
       prepare(index, [&](const VelocityIncrement<Real>& increment, const BodyVelocity<Real>& start) {
-        increments[next] = increment, w.scratch.start_velocities[next] = start;
+        increments[next] = increment, w.scratch.solver.start_velocities[next] = start;
         ++next;
       });
     }
@@ -274,7 +274,7 @@ bool ramp_kinematic_velocities(WorldData<Real>& w, double h, int substeps) {
     return std::abs(missed) <= rounding * std::abs(expected) ? Real(0) : per_time * missed;
   };
   bool any = false;
-  for (VelocityIncrement<Real>& increment : w.scratch.velocity_increments) {
+  for (VelocityIncrement<Real>& increment : w.scratch.solver.velocity_increments) {
     SolverBody<Real>& motion = w.motion[increment.body];
     if (is_dynamic(motion) || w.bodies[increment.body].type != BodyType::Kinematic) continue;
     Vec2<Real> change{change_to(motion.velocity.x, increment.velocity_before.x),
@@ -294,11 +294,11 @@ bool ramp_kinematic_velocities(WorldData<Real>& w, double h, int substeps) {
 
 template <class Real>
 void end_kinematic_ramps(WorldData<Real>& w, double h, int substeps) {
-  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.solver.velocity_increments;
   for (std::size_t i = 0; i < increments.size(); ++i) {
     SolverBody<Real>& motion = w.motion[increments[i].body];
     if (is_dynamic(motion) || w.bodies[increments[i].body].type != BodyType::Kinematic) continue;
-    const BodyVelocity<Real>& given = w.scratch.start_velocities[i];
+    const BodyVelocity<Real>& given = w.scratch.solver.start_velocities[i];
     motion.velocity = given.velocity, motion.angular_velocity = given.angular_velocity;
     motion.delta_position = displacement_by(given.velocity, static_cast<Real>(h), substeps);
     motion.delta_angle = displacement_by(given.angular_velocity, static_cast<Real>(h), substeps);
@@ -355,7 +355,7 @@ void integrate_positions(WorldData<Real>& w, Real h, Integrator integrator) {
 
 template <class Real>
 void enforce_motion_locks(WorldData<Real>& w) {
-  for (const VelocityIncrement<Real>& increment : w.scratch.velocity_increments) {
+  for (const VelocityIncrement<Real>& increment : w.scratch.solver.velocity_increments) {
     SolverBody<Real>& motion = w.motion[increment.body];
     if (increment.locked_x) motion.delta_position.x = motion.velocity.x = 0;
     if (increment.locked_y) motion.delta_position.y = motion.velocity.y = 0;

@@ -30,7 +30,7 @@ bool is_outside_trees(const WorldData<Real>& w, const JointRecord& joint) {
 // Returns the number of active joints that are not part of hinge trees.
 template <class Real>
 int joints_outside_trees(const WorldData<Real>& w) {
-  return w.joint_set.active_count() - w.scratch.trees.hinge_count;
+  return w.joint_set.active_count() - w.scratch.islands.trees.hinge_count;
 }
 
 // Returns true if an island with this number of rows is solved directly.
@@ -92,8 +92,8 @@ bool is_near(const WorldData<Real>& w, const ContactConstraint<Real>& c, int poi
 template <class Real>
 bool left_to_iterations(const WorldData<Real>& w, int body) {
   const Scratch<Real>& s = w.scratch;
-  return w.settings.solver != Solver::Direct && body < static_cast<int>(s.not_a_tree.size()) &&
-         s.not_a_tree[s.tree_root_of[body]] == kLeftToIterations;
+  return w.settings.solver != Solver::Direct && body < static_cast<int>(s.islands.not_a_tree.size()) &&
+         s.islands.not_a_tree[s.islands.tree_root_of[body]] == kLeftToIterations;
 }
 
 // Prepares to hand joints over to the iterations: scales the impulses of the joints for which `left` returns
@@ -101,7 +101,7 @@ bool left_to_iterations(const WorldData<Real>& w, int body) {
 template <class Real, class Left>
 void hand_over_joints(WorldData<Real>& w, const Left& left) {
   if (!enabled(Switch::HandingOver)) return;
-  std::vector<Real>& warm_start_fraction = w.scratch.warm_start_fraction;
+  std::vector<Real>& warm_start_fraction = w.scratch.solver.warm_start_fraction;
   warm_start_fraction.clear();
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!left(joint)) return;
@@ -134,44 +134,47 @@ void keep_loads(WorldData<Real>& w, JointedIsland<Real>& island) {
 template <class Real>
 void choose_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
-  s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
-  s.heaviest.assign(w.bodies.size(), 0);
-  s.island_joints.assign(w.bodies.size(), 0);
-  s.island_bounded_rows.assign(w.bodies.size(), 0);
+  s.islands.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
+  s.islands.heaviest.assign(w.bodies.size(), 0);
+  s.islands.island_joints.assign(w.bodies.size(), 0);
+  s.islands.island_bounded_rows.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     const Real mass = w.bodies[body].mass;
     if (!w.is_dynamic(body)) continue;
-    const int root = s.island_of[body];
-    s.lightest[root] = std::min(s.lightest[root], mass), s.heaviest[root] = std::max(s.heaviest[root], mass);
+    const int root = s.islands.island_of[body];
+    s.islands.lightest[root] = std::min(s.islands.lightest[root], mass),
+    s.islands.heaviest[root] = std::max(s.islands.heaviest[root], mass);
     // A body has infinite mass along a locked axis, which the iterations of joints do not take into account.
     const BodyRecord<Real>& record = w.bodies[body];
-    if (record.lock_x || record.lock_y) s.heaviest[root] = std::numeric_limits<Real>::infinity();
+    if (record.lock_x || record.lock_y) s.islands.heaviest[root] = std::numeric_limits<Real>::infinity();
   }
   const auto root_of = [&](const JointRecord& joint) {
-    return s.island_of[w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b];
+    return s.islands.island_of[w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b];
   };
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!is_outside_trees(w, joint)) return;
     const int root = root_of(joint);
-    ++s.island_joints[root];
-    s.island_bounded_rows[root] += w.joint_set.bounded_rows(joint.slot);
+    ++s.islands.island_joints[root];
+    s.islands.island_bounded_rows[root] += w.joint_set.bounded_rows(joint.slot);
   });
   for (const int body : w.awake) {
-    if (!w.is_dynamic(body) || s.island_of[body] != body || s.island_joints[body] == 0) continue;
+    if (!w.is_dynamic(body) || s.islands.island_of[body] != body || s.islands.island_joints[body] == 0)
+      continue;
     // Each contact counts two rows in island_size.
     const bool small = enabled(Switch::JointedIslands) &&
-                       s.island_joints[body] <= tuning::kMaxJointedJoints &&
-                       s.island_size[body] <= 2 * tuning::kMaxJointedContacts;
-    const bool similar_masses = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
+                       s.islands.island_joints[body] <= tuning::kMaxJointedJoints &&
+                       s.islands.island_size[body] <= 2 * tuning::kMaxJointedContacts;
+    const bool similar_masses =
+        s.islands.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.islands.lightest[body];
     const bool few = w.settings.integrator == Integrator::VelocityVerlet &&
-                     s.island_bounded_rows[body] <= tuning::kFewBoundedRows &&
-                     s.island_size[body] <= 2 * tuning::kFewContacts && !left_to_iterations(w, body);
+                     s.islands.island_bounded_rows[body] <= tuning::kFewBoundedRows &&
+                     s.islands.island_size[body] <= 2 * tuning::kFewContacts && !left_to_iterations(w, body);
     const bool always = !similar_masses || w.settings.solver == Solver::Direct;
-    s.island_size[body] = small && always ? kJointed : small && few ? kJointedIfCheap : kIterated;
+    s.islands.island_size[body] = small && always ? kJointed : small && few ? kJointedIfCheap : kIterated;
   }
   // From here on: joints less bodies.
   for (const int body : w.awake)
-    if (w.is_dynamic(body)) --s.island_joints[s.island_of[body]];
+    if (w.is_dynamic(body)) --s.islands.island_joints[s.islands.island_of[body]];
 }
 
 // Includes towers and other slender heaps of any height: if there are few loops, and few contacts on any
@@ -180,11 +183,11 @@ void choose_jointed(WorldData<Real>& w) {
 template <class Real, class ContactsOf, class SizeOf>
 void choose_slender(WorldData<Real>& w, const ContactsOf& contacts_of, const SizeOf& size_of) {
   if (!enabled(Switch::SlenderIslands)) return;
-  std::vector<int>& limits = w.scratch.max_island_rows;
+  std::vector<int>& limits = w.scratch.islands.max_island_rows;
   limits.assign(w.bodies.size(), 2 * tuning::kMaxSlenderLoops);
   for (const int body : w.awake) {
     if (!w.is_dynamic(body)) continue;
-    int& limit = limits[w.scratch.island_of[body]];
+    int& limit = limits[w.scratch.islands.island_of[body]];
     limit = contacts_of(body) > tuning::kMaxSlenderContacts ? -tuning::kMaxSlenderRows : limit + 2;
   }
   for (const int body : w.awake) {
@@ -195,10 +198,11 @@ void choose_slender(WorldData<Real>& w, const ContactsOf& contacts_of, const Siz
 }
 
 // Finds the islands, by their root body, and stores an upper bound of the rows of each in
-// `w.scratch.island_size`. Islands with more than tuning::kMaxDirectRows are solved by iterations alone.
+// `w.scratch.islands.island_size`. Islands with more than tuning::kMaxDirectRows are solved by iterations
+// alone.
 template <class Real>
 void find_islands(WorldData<Real>& w) {
-  UnionFind islands(w.scratch.island_of, w.bodies.size());
+  UnionFind islands(w.scratch.islands.island_of, w.bodies.size());
   const auto connect = [&](int a, int b) {
     if (w.is_dynamic(a) && w.is_dynamic(b)) islands.join(a, b);
   };
@@ -206,23 +210,23 @@ void find_islands(WorldData<Real>& w) {
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (is_outside_trees(w, joint)) connect(joint.body_a, joint.body_b);
   });
-  w.scratch.island_size.assign(w.bodies.size(), 0);
-  w.scratch.island_index.assign(w.bodies.size(), kNone);
+  w.scratch.islands.island_size.assign(w.bodies.size(), 0);
+  w.scratch.islands.island_index.assign(w.bodies.size(), kNone);
   const auto count = [&](int a, int b, int rows) {
-    w.scratch.island_size[islands.find(w.is_dynamic(a) ? a : b)] += rows;
+    w.scratch.islands.island_size[islands.find(w.is_dynamic(a) ? a : b)] += rows;
   };
   w.graph.for_each([&](const ContactConstraint<Real>& c) { count(c.body_a, c.body_b, 2); });
-  for (const int body : w.awake) w.scratch.island_of[body] = islands.find(body);
+  for (const int body : w.awake) w.scratch.islands.island_of[body] = islands.find(body);
   choose_slender(
       w, [&](int body) { return w.bodies[body].constraints; },
-      [&](int body) -> int& { return w.scratch.island_size[body]; });
+      [&](int body) -> int& { return w.scratch.islands.island_size[body]; });
   if (joints_outside_trees(w) > 0) choose_jointed(w);
   const auto any = [&](const auto& test) {
     return std::any_of(w.awake.begin(), w.awake.end(),
-                       [&](int body) { return test(w.scratch.island_size[body]); });
+                       [&](int body) { return test(w.scratch.islands.island_size[body]); });
   };
-  w.scratch.has_direct_islands = any([](int size) { return is_direct(size) || is_jointed(size); });
-  w.scratch.has_crowded_islands = enabled(Switch::DirectIslands) && any(is_crowded);
+  w.scratch.islands.has_direct_islands = any([](int size) { return is_direct(size) || is_jointed(size); });
+  w.scratch.islands.has_crowded_islands = enabled(Switch::DirectIslands) && any(is_crowded);
 }
 
 // Counts the rows of the points that are near enough to press, of the islands that have too many contacts.
@@ -230,34 +234,35 @@ void find_islands(WorldData<Real>& w) {
 template <class Real>
 bool choose_crowded(WorldData<Real>& w, Real dt) {
   Scratch<Real>& s = w.scratch;
-  if (!s.has_crowded_islands) return false;
-  s.near_rows.assign(w.bodies.size(), 0), s.near_contacts.assign(w.bodies.size(), 0);
+  if (!s.islands.has_crowded_islands) return false;
+  s.islands.near_rows.assign(w.bodies.size(), 0), s.islands.near_contacts.assign(w.bodies.size(), 0);
   // Number of islands that may still have few enough: a large heap is left after a part of its contacts.
   auto undecided = std::count_if(w.awake.begin(), w.awake.end(), [&](int body) {
-    return s.island_of[body] == body && is_crowded(s.island_size[body]);
+    return s.islands.island_of[body] == body && is_crowded(s.islands.island_size[body]);
   });
   const auto add = [&](const ContactConstraint<Real>& c) {
-    const int root = s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b];
-    int& rows = s.near_rows[root];
-    if (!is_crowded(s.island_size[root]) || rows > tuning::kMaxSlenderRows) return;
+    const int root = s.islands.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b];
+    int& rows = s.islands.near_rows[root];
+    if (!is_crowded(s.islands.island_size[root]) || rows > tuning::kMaxSlenderRows) return;
     if (!is_near(w, c, 0, dt) && !(c.count == 2 && is_near(w, c, 1, dt))) return;
     // Those with the ground close no loops of bodies.
     if (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b)) rows += is_deep_in(w, c) ? kIterated : 2;
     if (rows > tuning::kMaxSlenderRows) --undecided;
-    ++s.near_contacts[c.body_a], ++s.near_contacts[c.body_b];
+    ++s.islands.near_contacts[c.body_a], ++s.islands.near_contacts[c.body_b];
   };
   w.graph.for_each_colour([&](const std::vector<ContactConstraint<Real>>& colour, bool) {
     for (std::size_t i = 0; i < colour.size() && undecided > 0; ++i) add(colour[i]);
   });
   choose_slender(
-      w, [&](int body) { return s.near_contacts[body]; },
-      [&](int body) -> int& { return s.near_rows[body]; });
-  return std::any_of(w.awake.begin(), w.awake.end(), [&](int body) { return is_direct(s.near_rows[body]); });
+      w, [&](int body) { return s.islands.near_contacts[body]; },
+      [&](int body) -> int& { return s.islands.near_rows[body]; });
+  return std::any_of(w.awake.begin(), w.awake.end(),
+                     [&](int body) { return is_direct(s.islands.near_rows[body]); });
 }
 
 template <class Island, class Real>
 Island& island_at(WorldData<Real>& w, std::vector<Island>& islands, int& count, int root) {
-  int& index = w.scratch.island_index[root];
+  int& index = w.scratch.islands.island_index[root];
   if (index == kNone) {
     index = count++;
     if (count > static_cast<int>(islands.size())) islands.emplace_back(&w.scratch.memory);
@@ -321,24 +326,24 @@ bool add_rows(const WorldData<Real>& w, DirectIsland<Real>& island, Real dt, boo
 template <class Real>
 void fill_islands(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
-  const auto root_of = [&](int a, int b) { return s.island_of[w.is_dynamic(a) ? a : b]; };
+  const auto root_of = [&](int a, int b) { return s.islands.island_of[w.is_dynamic(a) ? a : b]; };
   const auto jointed_at = [&](int root) -> JointedIsland<Real>& {
-    const bool is_new = s.island_index[root] == kNone;
-    JointedIsland<Real>& island = island_at(w, s.jointed_islands, s.jointed_count, root);
+    const bool is_new = s.islands.island_index[root] == kNone;
+    JointedIsland<Real>& island = island_at(w, s.islands.jointed_islands, s.islands.jointed_count, root);
     if (is_new) island.joints.clear();
     return island;
   };
   w.graph.for_each([&](ContactConstraint<Real>& c) {
-    const int root = root_of(c.body_a, c.body_b), rows = s.island_size[root];
+    const int root = root_of(c.body_a, c.body_b), rows = s.islands.island_size[root];
     if (is_jointed(rows)) jointed_at(root).contacts.push_back(&c);
-    if (is_direct(is_crowded(rows) && s.has_crowded_islands ? s.near_rows[root] : rows))
-      island_at(w, s.direct_islands, s.direct_count, root).contacts.push_back(&c);
+    if (is_direct(is_crowded(rows) && s.islands.has_crowded_islands ? s.islands.near_rows[root] : rows))
+      island_at(w, s.islands.direct_islands, s.islands.direct_count, root).contacts.push_back(&c);
   });
   if (joints_outside_trees(w) == 0) return;
   w.joints.for_each([&](int, const JointRecord& joint) {
     if (!is_outside_trees(w, joint)) return;
     const int root = root_of(joint.body_a, joint.body_b);
-    if (is_jointed(s.island_size[root])) jointed_at(root).joints.push_back(joint.slot);
+    if (is_jointed(s.islands.island_size[root])) jointed_at(root).joints.push_back(joint.slot);
   });
 }
 
@@ -348,23 +353,23 @@ template <class Real>
 void order_jointed(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
   int kept = 0;
-  for (int i = 0; i < s.jointed_count; ++i) {
-    JointedIsland<Real>& island = s.jointed_islands[i];
-    int& size = s.island_size[island.root];
+  for (int i = 0; i < s.islands.jointed_count; ++i) {
+    JointedIsland<Real>& island = s.islands.jointed_islands[i];
+    int& size = s.islands.island_size[island.root];
     const double max_cost = size == kJointed ? tuning::kMaxJointedCost
                                              : tuning::kFewCost * static_cast<double>(island.joints.size());
     if (order_jointed_island(w, island) <= std::min(max_cost, tuning::kMaxJointedCost)) {
       if (kept != i) {
-        std::swap(s.jointed_islands[kept], island);
-        s.island_index[s.jointed_islands[kept].root] = kept;
+        std::swap(s.islands.jointed_islands[kept], island);
+        s.islands.island_index[s.islands.jointed_islands[kept].root] = kept;
       }
       ++kept;
     } else {
-      size = kIterated, s.island_index[island.root] = kNone;
+      size = kIterated, s.islands.island_index[island.root] = kNone;
     }
   }
-  s.jointed_count = kept;
-  s.has_direct_islands = kept > 0 || s.direct_count > 0;
+  s.islands.jointed_count = kept;
+  s.islands.has_direct_islands = kept > 0 || s.islands.direct_count > 0;
 }
 
 // Hands the joints that are no longer solved with their island over to the iterations.
@@ -372,7 +377,8 @@ template <class Real>
 void hand_over_unselected(WorldData<Real>& w) {
   hand_over_joints(w, [&](const JointRecord& joint) {
     const int body = w.is_dynamic(joint.body_a) ? joint.body_a : joint.body_b;
-    return is_outside_trees(w, joint) && !is_jointed(w.scratch.island_size[w.scratch.island_of[body]]);
+    return is_outside_trees(w, joint) &&
+           !is_jointed(w.scratch.islands.island_size[w.scratch.islands.island_of[body]]);
   });
 }
 
@@ -394,8 +400,8 @@ Real current_separation(const SolverBody<Real>* motion, const DirectRow<Real>& r
 template <class Real, class Act>
 void for_each_direct(WorldData<Real>& w, const Act& act) {
   constexpr int kIslandsPerTask = 2;
-  w.scheduler.ranges(w.scratch.direct_count, kIslandsPerTask, [&](int first, int last) {
-    for (int i = first; i < last; ++i) act(w.scratch.direct_islands[i]);
+  w.scheduler.ranges(w.scratch.islands.direct_count, kIslandsPerTask, [&](int first, int last) {
+    for (int i = first; i < last; ++i) act(w.scratch.islands.direct_islands[i]);
   });
 }
 
@@ -403,25 +409,26 @@ void for_each_direct(WorldData<Real>& w, const Act& act) {
 
 template <class Real>
 void prepare_direct_islands(WorldData<Real>& w, Real dt) {
-  w.scratch.direct_count = w.scratch.jointed_count = 0;
+  w.scratch.islands.direct_count = w.scratch.islands.jointed_count = 0;
   const bool articulated = w.settings.solver == Solver::Direct;
   if (!articulated && !w.settings.direct_islands) return;
   if (w.graph.empty() && joints_outside_trees(w) == 0) return;
-  const bool are_new = !w.scratch.islands_known;
+  const bool are_new = !w.scratch.islands.islands_known;
   if (are_new) find_islands(w);
-  w.scratch.islands_known = true;
+  w.scratch.islands.islands_known = true;
   const bool has_crowded = choose_crowded(w, dt);
-  if (w.scratch.has_direct_islands || has_crowded) {
+  if (w.scratch.islands.has_direct_islands || has_crowded) {
     fill_islands(w);
     if (are_new) order_jointed(w);
   }
   if (are_new && joints_outside_trees(w) > 0) hand_over_unselected(w);
-  if (!w.scratch.has_direct_islands && !has_crowded) return;
+  if (!w.scratch.islands.has_direct_islands && !has_crowded) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     // Gives all points rows if something lands, because it may close any gap above it. If those are too many,
     // the iterations find the impact: they would repeat impulses of a solution of the near ones.
     const bool any_distance = lands(w, island, dt);
-    if (any_distance && is_crowded(w.scratch.island_size[island.root])) return solve_by_iterations(w, island);
+    if (any_distance && is_crowded(w.scratch.islands.island_size[island.root]))
+      return solve_by_iterations(w, island);
     if (!add_rows(w, island, dt, any_distance) && !(any_distance && add_rows(w, island, dt, false)))
       return solve_by_iterations(w, island);
     for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
@@ -434,15 +441,15 @@ template <class Real>
 void assemble_again(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   Scratch<Real>& s = w.scratch;
   if (c.hardness != ContactHardness::Rigid) return;
-  const int index = s.island_index[s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b]];
-  DirectIsland<Real>& island = s.direct_islands[index];
+  const int index = s.islands.island_index[s.islands.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b]];
+  DirectIsland<Real>& island = s.islands.direct_islands[index];
   if (!add_rows(w, island, Real(0), true)) return solve_by_iterations(w, island);
   island.system.assemble(w.motion.data());
 }
 
 template <class Real>
 void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool use_bias) {
-  if (w.scratch.direct_count == 0) return;
+  if (w.scratch.islands.direct_count == 0) return;
   for_each_direct(w, [&](DirectIsland<Real>& island) {
     if (island.system.rows.empty()) return;  // solved by iterations
     std::size_t next = 0;
@@ -473,13 +480,15 @@ void hand_over_all(WorldData<Real>& w) {
 
 template <class Real>
 void finish_direct_islands(WorldData<Real>& w) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i) keep_loads(w, w.scratch.jointed_islands[i]);
-  for (int i = 0; i < w.scratch.direct_count; ++i) {
-    for (ContactConstraint<Real>* c : w.scratch.direct_islands[i].contacts) c->hardness = hardness_of(w, *c);
-    w.scratch.island_index[w.scratch.direct_islands[i].root] = kNone;
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i)
+    keep_loads(w, w.scratch.islands.jointed_islands[i]);
+  for (int i = 0; i < w.scratch.islands.direct_count; ++i) {
+    for (ContactConstraint<Real>* c : w.scratch.islands.direct_islands[i].contacts)
+      c->hardness = hardness_of(w, *c);
+    w.scratch.islands.island_index[w.scratch.islands.direct_islands[i].root] = kNone;
   }
-  for (int i = 0; i < w.scratch.jointed_count; ++i)
-    w.scratch.island_index[w.scratch.jointed_islands[i].root] = kNone;
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i)
+    w.scratch.islands.island_index[w.scratch.islands.jointed_islands[i].root] = kNone;
 }
 
 #define PLUMB_FOR(Real)                                                                 \

@@ -27,23 +27,24 @@ bool may_use_trees(const WorldData<Real>& w) {
 template <class Real>
 void leave_to_iterations(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
-  s.island_size.assign(w.bodies.size(), 0);
-  s.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
-  s.heaviest.assign(w.bodies.size(), 0);
+  s.islands.island_size.assign(w.bodies.size(), 0);
+  s.islands.lightest.assign(w.bodies.size(), std::numeric_limits<Real>::max());
+  s.islands.heaviest.assign(w.bodies.size(), 0);
   for (const int body : w.awake) {
     if (!w.is_dynamic(body)) continue;
-    const int set = s.tree_root_of[body];
-    ++s.island_size[set];
-    s.lightest[set] = std::min(s.lightest[set], w.bodies[body].mass);
-    s.heaviest[set] = std::max(s.heaviest[set], w.bodies[body].mass);
+    const int set = s.islands.tree_root_of[body];
+    ++s.islands.island_size[set];
+    s.islands.lightest[set] = std::min(s.islands.lightest[set], w.bodies[body].mass);
+    s.islands.heaviest[set] = std::max(s.islands.heaviest[set], w.bodies[body].mass);
   }
   for (const int body : w.awake) {
-    if (!w.is_dynamic(body) || s.tree_root_of[body] != body) continue;
-    const bool similar_masses = s.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.lightest[body];
-    const int size = s.island_size[body];
+    if (!w.is_dynamic(body) || s.islands.tree_root_of[body] != body) continue;
+    const bool similar_masses =
+        s.islands.heaviest[body] <= Real(tuning::kDirectMassRatio) * s.islands.lightest[body];
+    const int size = s.islands.island_size[body];
     if (similar_masses && size >= tuning::kMinIteratedLinks && size <= tuning::kMaxIteratedLinks &&
-        !s.not_a_tree[body])
-      s.not_a_tree[body] = kLeftToIterations;
+        !s.islands.not_a_tree[body])
+      s.islands.not_a_tree[body] = kLeftToIterations;
   }
 }
 
@@ -52,8 +53,8 @@ void leave_to_iterations(WorldData<Real>& w) {
 template <class Real>
 void find_sets(WorldData<Real>& w) {
   Scratch<Real>& s = w.scratch;
-  UnionFind sets(s.tree_root_of, w.bodies.size());
-  std::vector<char>&bad = s.not_a_tree, &grounded = s.tree_grounded;
+  UnionFind sets(s.islands.tree_root_of, w.bodies.size());
+  std::vector<char>&bad = s.islands.not_a_tree, &grounded = s.islands.tree_grounded;
   bad.assign(w.bodies.size(), 0), grounded.assign(w.bodies.size(), 0);
   // Marks the root of the body's set.
   const auto exclude = [&](int body) {
@@ -80,7 +81,7 @@ void find_sets(WorldData<Real>& w) {
   });
   w.graph.for_each([&](const ContactConstraint<Real>& c) { exclude(c.body_a), exclude(c.body_b); });
   for (const int body : w.awake)
-    if (w.is_dynamic(body)) s.tree_root_of[body] = sets.find(body);
+    if (w.is_dynamic(body)) s.islands.tree_root_of[body] = sets.find(body);
   if (w.settings.solver != Solver::Direct) leave_to_iterations(w);
 }
 
@@ -89,7 +90,7 @@ template <class Real>
 class TreeBuilder {
  public:
   explicit TreeBuilder(WorldData<Real>& w)
-      : w_(w), trees_(w.scratch.trees), link_index_(w.scratch.link_index) {
+      : w_(w), trees_(w.scratch.islands.trees), link_index_(w.scratch.islands.link_index) {
     link_index_.assign(w.bodies.size(), kNone);
   }
 
@@ -173,7 +174,8 @@ void make_trees(WorldData<Real>& w) {
   const Scratch<Real>& s = w.scratch;
   TreeBuilder<Real> maker(w);
   const auto needs_tree = [&](int body) {
-    return w.is_dynamic(body) && !s.not_a_tree[s.tree_root_of[body]] && !s.trees.is_link[body];
+    return w.is_dynamic(body) && !s.islands.not_a_tree[s.islands.tree_root_of[body]] &&
+           !s.islands.trees.is_link[body];
   };
   w.joints.for_each([&](int index, const JointRecord& joint) {
     if (!joint.active) return;
@@ -216,14 +218,14 @@ void load_hinges(WorldData<Real>& w, std::span<ArticulatedLink> tree, const Hing
 
 template <class Real>
 void load_increments(WorldData<Real>& w) {
-  HingeTrees<Real>& trees = w.scratch.trees;
-  std::vector<int>& velocity_increment_of = w.scratch.link_index;
-  for (std::size_t i = 0; i < w.scratch.velocity_increments.size(); ++i)
-    velocity_increment_of[w.scratch.velocity_increments[i].body] = static_cast<int>(i);
+  HingeTrees<Real>& trees = w.scratch.islands.trees;
+  std::vector<int>& velocity_increment_of = w.scratch.islands.link_index;
+  for (std::size_t i = 0; i < w.scratch.solver.velocity_increments.size(); ++i)
+    velocity_increment_of[w.scratch.solver.velocity_increments[i].body] = static_cast<int>(i);
   for (ArticulatedLink& link : trees.links) {
     if (!link.is_dynamic) continue;
     const VelocityIncrement<Real>& increment =
-        w.scratch.velocity_increments[velocity_increment_of[link.body]];
+        w.scratch.solver.velocity_increments[velocity_increment_of[link.body]];
     link.velocity_increment = increment.velocity.template as<double>();
     link.spin_increment = static_cast<double>(increment.spin);
     link.damping_factor = static_cast<double>(increment.damping_factor),
@@ -256,8 +258,8 @@ template <class Real>
 void find_hinge_trees(WorldData<Real>& w) {
   if (!w.topology_changed) return;
   w.topology_changed = false;
-  w.scratch.islands_known = false;
-  HingeTrees<Real>& trees = w.scratch.trees;
+  w.scratch.islands.islands_known = false;
+  HingeTrees<Real>& trees = w.scratch.islands.trees;
   trees.links.clear(), trees.results.clear(), trees.offsets.clear();
   trees.is_link.assign(w.bodies.size(), 0);
   trees.hinge_count = 0;
@@ -270,7 +272,7 @@ void find_hinge_trees(WorldData<Real>& w) {
 
 template <class Real>
 void move_hinge_trees(WorldData<Real>& w, double h, int substeps) {
-  HingeTrees<Real>& trees = w.scratch.trees;
+  HingeTrees<Real>& trees = w.scratch.islands.trees;
   if (trees.empty()) return;
   load_increments(w);
   for (ArticulatedLink& link : trees.links) load_body(w, link);

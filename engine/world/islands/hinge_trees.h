@@ -22,7 +22,7 @@ void move_hinge_trees(WorldData<Real>& w, double h, int substeps);
 /// Returns true if the body is part of a hinge tree.
 template <class Real>
 bool in_hinge_tree(const WorldData<Real>& w, int body) {
-  return !w.scratch.trees.empty() && w.scratch.trees.is_link[body] != 0;
+  return !w.scratch.islands.trees.empty() && w.scratch.islands.trees.is_link[body] != 0;
 }
 
 }  // namespace plumb

@@ -15,7 +15,7 @@ namespace plumb {
 /// Returns the index of a body among the island's links; adds the body if it is new.
 template <class Real>
 int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
-  int& index = w.scratch.link_of[body];
+  int& index = w.scratch.islands.link_of[body];
   if (index < static_cast<int>(island.links.size()) && island.links[index].body == body) return index;
   index = static_cast<int>(island.links.size());
   const SolverBody<Real>& motion = w.motion[body];
@@ -32,7 +32,8 @@ int link_at(WorldData<Real>& w, JointedIsland<Real>& island, int body) {
 template <class Real>
 void clear_links(WorldData<Real>& w, JointedIsland<Real>& island) {
   island.links.clear(), island.system.bodies.clear(), island.blocks.clear(), island.block_sizes.clear();
-  w.scratch.link_of.resize(std::max(w.scratch.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
+  w.scratch.islands.link_of.resize(
+      std::max(w.scratch.islands.link_of.size(), static_cast<std::size_t>(w.bodies.size())));
 }
 
 /// Finds the bodies of an island's joints and contacts.
@@ -62,7 +63,7 @@ void find_rigid_groups(WorldData<Real>& w, JointedIsland<Real>& island) {
   const int count = static_cast<int>(links.size());
   for (int link = 0; link < count; ++link) links[link].rigid_group = link;
   if (!enabled(Switch::RigidGroups)) return;
-  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.solver.joint_rows;
   for (std::size_t i = 0; i < island.joints.size(); ++i) {
     rows.clear();
     w.joint_set.solver_rows(island.joints[i], w.solver_bodies(), rows);

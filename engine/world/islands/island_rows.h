@@ -116,7 +116,7 @@ class RowBuilder {
   }
 
   void add_joint(int joint) {
-    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.solver.joint_rows;
     rows.clear();
     w_.joint_set.solver_rows(joint, w_.solver_bodies(), rows);
     const auto [link_a, link_b] = island_.blocks[block_];

@@ -64,7 +64,7 @@ class Mechanism {
   // Collects all joints that are connected to a joint through dynamic bodies. Returns false if they have too
   // many loops.
   bool collect(int joint) {
-    std::vector<char>& marks = w_.scratch.open_joints;
+    std::vector<char>& marks = w_.scratch.islands.open_joints;
     clear_constraints();
     clear_links(w_, island_);
     const auto add = [&](int slot) {
@@ -141,7 +141,7 @@ class Mechanism {
   // rotation.
   void make_joint_rows(Level level) {
     island_.system.rows.clear(), island_.row_sources.clear(), island_.max_gaps.clear();
-    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.solver.joint_rows;
     for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
       rows.clear();
       w_.joint_set.solver_rows(island_.joints[block], w_.solver_bodies(), rows);
@@ -365,7 +365,7 @@ class Mechanism {
       system.bodies[i].velocity = increment.velocity.template as<double>();
       system.bodies[i].spin = increment.spin;
     }
-    std::vector<JointSolverRow<Real>>& rows = w_.scratch.joint_rows;
+    std::vector<JointSolverRow<Real>>& rows = w_.scratch.solver.joint_rows;
     for (int block = 0; block < static_cast<int>(island_.joints.size()); ++block) {
       rows.clear();
       w_.joint_set.solver_rows(island_.joints[block], w_.solver_bodies(), rows);
@@ -402,9 +402,9 @@ class Mechanism {
 // Returns true if the island of a joint is known to have too many loops.
 template <class Real>
 bool has_many_loops(const WorldData<Real>& w, int joint) {
-  if (!w.scratch.islands_known) return false;
+  if (!w.scratch.islands.islands_known) return false;
   const auto [a, b] = w.joint_set.bodies(joint);
-  return w.scratch.island_joints[w.scratch.island_of[w.is_dynamic(a) ? a : b]] > kMaxLoops;
+  return w.scratch.islands.island_joints[w.scratch.islands.island_of[w.is_dynamic(a) ? a : b]] > kMaxLoops;
 }
 
 }  // namespace
@@ -413,11 +413,11 @@ template <class Real>
 void close_joint_gaps(WorldData<Real>& w, double h, int substeps) {
   if (!enabled(Switch::JointGaps)) return;
   if (!w.settings.direct_islands && w.settings.solver != Solver::Direct) return;
-  std::vector<char>& marks = w.scratch.open_joints;
+  std::vector<char>& marks = w.scratch.islands.open_joints;
   marks.assign(static_cast<std::size_t>(w.joint_set.slots()), kNotOpen);
   const double max_gap = kMaxGap * std::max(kReferenceSubsteps / static_cast<double>(substeps), 1.0);
   if (!w.joint_set.find_open(w.solver_bodies(), static_cast<Real>(max_gap), marks, &w.scheduler)) return;
-  Mechanism<Real> mechanism(w, w.scratch.open_mechanism, h, substeps, max_gap);
+  Mechanism<Real> mechanism(w, w.scratch.islands.open_mechanism, h, substeps, max_gap);
   for (int joint = 0; joint < static_cast<int>(marks.size()); ++joint) {
     if (marks[joint] != kOpen || has_many_loops(w, joint)) continue;
     if (mechanism.has_opened(joint) && mechanism.collect(joint)) mechanism.close();

@@ -231,7 +231,7 @@ constexpr double kSolutionsOfPart = 3;
 // Calls `look(gap)` with the gap of each rigid row and each limit at the present poses, in units of kDrift.
 template <class Real, class Visit>
 void for_each_gap(WorldData<Real>& w, const JointedIsland<Real>& island, const Visit& visit) {
-  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.solver.joint_rows;
   for (std::size_t i = 0; i < island.joints.size(); ++i) {
     rows.clear();
     w.joint_set.solver_rows(island.joints[i], w.solver_bodies(), rows);
@@ -340,7 +340,7 @@ void subdivide_substep(WorldData<Real>& w, JointedIsland<Real>& island, const Co
 template <class Real>
 double order_jointed_island(WorldData<Real>& w, JointedIsland<Real>& island) {
   find_links(w, island);
-  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.solver.joint_rows;
   for (const int joint : island.joints) {
     rows.clear();
     w.joint_set.solver_rows(joint, w.solver_bodies(), rows);
@@ -354,8 +354,8 @@ double order_jointed_island(WorldData<Real>& w, JointedIsland<Real>& island) {
 
 template <class Real>
 void prepare_jointed_islands(WorldData<Real>& w) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    JointedIsland<Real>& island = w.scratch.jointed_islands[i];
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.islands.jointed_islands[i];
     find_links(w, island);
     find_rigid_groups(w, island);
     island.impulses.clear(), island.last_impulses.clear();
@@ -367,8 +367,8 @@ void prepare_jointed_islands(WorldData<Real>& w) {
 
 template <class Real>
 void begin_jointed_substep(WorldData<Real>& w) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    JointedIsland<Real>& island = w.scratch.jointed_islands[i];
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.islands.jointed_islands[i];
     for (std::size_t k = 0; k < island.links.size(); ++k) {
       JointedLink& link = island.links[k];
       const SolverBody<Real>& motion = w.motion[link.body];
@@ -386,8 +386,8 @@ void begin_jointed_substep(WorldData<Real>& w) {
 
 template <class Real>
 void save_free_velocities(WorldData<Real>& w) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    for (JointedLink& link : w.scratch.jointed_islands[i].links) {
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    for (JointedLink& link : w.scratch.islands.jointed_islands[i].links) {
       const SolverBody<Real>& motion = w.motion[link.body];
       link.velocity = motion.velocity.template as<double>();
       link.spin = motion.angular_velocity;
@@ -397,8 +397,8 @@ void save_free_velocities(WorldData<Real>& w) {
 
 template <class Real>
 void add_impact_velocities(WorldData<Real>& w) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    for (JointedLink& link : w.scratch.jointed_islands[i].links) {
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    for (JointedLink& link : w.scratch.islands.jointed_islands[i].links) {
       const SolverBody<Real>& motion = w.motion[link.body];
       const Vec2d velocity = motion.velocity.template as<double>();
       const double spin = motion.angular_velocity;
@@ -410,8 +410,8 @@ void add_impact_velocities(WorldData<Real>& w) {
 
 template <class Real>
 void solve_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    JointedIsland<Real>& island = w.scratch.jointed_islands[i];
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.islands.jointed_islands[i];
     save_poses(w, island);
     for (JointedLink& link : island.links)
       link.velocity_increment = link.velocity - link.start_velocity,
@@ -435,8 +435,8 @@ void solve_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
 template <class Real>
 void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bool last) {
   const bool close = last || w.settings.solver == Solver::Direct;
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    JointedIsland<Real>& island = w.scratch.jointed_islands[i];
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    JointedIsland<Real>& island = w.scratch.islands.jointed_islands[i];
     // These impulses replace those of the pass over all contacts.
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->tracking != ImpactTracking::Off) c->step_impulse -= normal_sum(*c);

@@ -22,14 +22,14 @@ void add_row(WorldData<Real>& w, FeedbackRow<Real> row) {
       b.inverse_mass * length_squared(j.linear_b) + b.inverse_inertia * j.angular_b * j.angular_b;
   if (!(mobility > 0)) return;
   row.mass = 1 / (mobility + row.compliance);
-  w.scratch.feedback_rows.push_back(row);
+  w.scratch.solver.feedback_rows.push_back(row);
 }
 
 // Adds the rows of all joints: rigid ones, and limits that are violated. Springs and motors have no error.
 template <class Real>
 void add_joints(WorldData<Real>& w, Real rate) {
   const SolverBodies<Real> bodies = w.solver_bodies();
-  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.solver.joint_rows;
   for (int joint = 0; joint < w.joint_set.slots(); ++joint) {
     if (!w.joint_set.contains(joint) || !w.joint_set.active(joint)) continue;
     const auto [body_a, body_b] = w.joint_set.bodies(joint);
@@ -72,12 +72,12 @@ void add_contacts(WorldData<Real>& w, Real rate) {
 
 template <class Real>
 void feed_back_errors(WorldData<Real>& w, Real rate) {
-  std::vector<FeedbackRow<Real>>& rows = w.scratch.feedback_rows;
+  std::vector<FeedbackRow<Real>>& rows = w.scratch.solver.feedback_rows;
   rows.clear();
   if (w.joint_set.active_count() > 0) add_joints(w, rate);
   add_contacts(w, rate);
   if (rows.empty()) return;
-  std::vector<BodyVelocity<Real>>& added = w.scratch.feedback;
+  std::vector<BodyVelocity<Real>>& added = w.scratch.solver.feedback;
   added.assign(w.bodies.size(), {});
   for (int iteration = 0; iteration < w.settings.iterations; ++iteration) {
     for (FeedbackRow<Real>& row : rows) {
@@ -95,7 +95,7 @@ void feed_back_errors(WorldData<Real>& w, Real rate) {
       b.angular_velocity += d * of_b.inverse_inertia * j.angular_b;
     }
   }
-  for (const VelocityIncrement<Real>& increment : w.scratch.velocity_increments) {
+  for (const VelocityIncrement<Real>& increment : w.scratch.solver.velocity_increments) {
     w.motion[increment.body].velocity += added[increment.body].velocity;
     w.motion[increment.body].angular_velocity += added[increment.body].angular_velocity;
   }

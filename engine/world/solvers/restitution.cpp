@@ -55,9 +55,9 @@ void predict_circle_normal(const WorldData<Real>& w, const ContactRecord& contac
 // Collects the joints and the groups of bodies that they connect.
 template <class Real>
 void collect_joints(WorldData<Real>& w) {
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
   scratch.group.clear(), scratch.joints.clear();
-  if (w.joint_set.active_count() <= w.scratch.trees.hinge_count) return;
+  if (w.joint_set.active_count() <= w.scratch.islands.trees.hinge_count) return;
   UnionFind groups(scratch.group, w.bodies.size());
   w.joints.for_each([&](int, const JointRecord& joint) {
     const bool a = w.is_dynamic(joint.body_a), b = w.is_dynamic(joint.body_b);
@@ -78,8 +78,8 @@ void collect_joints(WorldData<Real>& w) {
 template <class Real>
 void append_joint_rows(void* world, ImpactJoint& joint) {
   WorldData<Real>& w = *static_cast<WorldData<Real>*>(world);
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
-  std::vector<JointSolverRow<Real>>& rows = w.scratch.joint_rows;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
+  std::vector<JointSolverRow<Real>>& rows = w.scratch.solver.joint_rows;
   joint.first_row = static_cast<int>(scratch.rows.size());
   rows.clear();
   const unsigned locks = locks_of(w, joint.a, joint.b);
@@ -114,7 +114,7 @@ bool any_without_restitution(WorldData<Real>& w) {
 // displacement along the contact's tangent.
 template <class Real>
 void keep_closed(WorldData<Real>& w, int body, Real h) {
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
   for_each_edge(w.contacts, w.bodies[body].first_contact, [&](int, const ContactRecord& record) {
     if (record.home != ContactHome::Graph) return;
     ContactConstraint<Real>& c = constraint_of(w, record);
@@ -143,7 +143,7 @@ void keep_closed(WorldData<Real>& w, int body, Real h) {
 template <class Real>
 void keep_closed(WorldData<Real>& w, Real h) {
   if (!enabled(Switch::KeptClosed)) return;
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
   const std::size_t count = scratch.has_other_contacts ? scratch.displaced.size() : 0;
   for (std::size_t i = 0; i < count; ++i)
     if (w.bodies[scratch.displaced[i]].first_joint == kNone) keep_closed(w, scratch.displaced[i], h);
@@ -152,7 +152,7 @@ void keep_closed(WorldData<Real>& w, Real h) {
 // Has the joints' rows computed anew, at the present poses.
 template <class Real>
 void begin_joint_rows(WorldData<Real>& w) {
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
   scratch.rows.clear();
   for (ImpactJoint& joint : scratch.joints) joint.rows_ready = false;
   scratch.append_rows = append_joint_rows<Real>, scratch.world = &w;
@@ -161,9 +161,9 @@ void begin_joint_rows(WorldData<Real>& w) {
 // Begins the impacts of a substep; reuses data of the last substep that have not changed.
 template <class Real>
 void prepare_impacts(WorldData<Real>& w) {
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
   if (!scratch.linked) {
-    link_contacts(w.motion.data(), w.scratch.restitution_contacts, scratch);
+    link_contacts(w.motion.data(), w.scratch.solver.restitution_contacts, scratch);
     scratch.has_other_contacts = any_without_restitution(w);
     scratch.linked = true;
   }
@@ -175,17 +175,17 @@ void prepare_impacts(WorldData<Real>& w) {
 template <class Real>
 bool propagate_impacts(WorldData<Real>& w, const ContactStep<Real>& step) {
   const SolverBodies<Real> bodies = w.solver_bodies();
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
-  if (!find_impacts(bodies.motion, w.scratch.restitution_contacts, scratch)) return false;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
+  if (!find_impacts(bodies.motion, w.scratch.solver.restitution_contacts, scratch)) return false;
   prepare_impacts(w);
-  propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.restitution_contacts, step, scratch);
+  propagate_impacts(bodies.motion, w.rotation.data(), w.scratch.solver.restitution_contacts, step, scratch);
   keep_closed(w, step.h);
   return true;
 }
 
 template <class Real>
 void add_impact_loads(WorldData<Real>& w, const JointStep<Real>& step) {
-  for (const ImpactJoint& joint : w.scratch.impacts.joints)
+  for (const ImpactJoint& joint : w.scratch.solver.impacts.joints)
     if (joint.impulse != Vec2d{} || joint.moment != 0)
       w.joint_set.add_impulse(joint.slot, joint.impulse.template as<Real>(), static_cast<Real>(joint.moment),
                               step);
@@ -198,27 +198,27 @@ template bool propagate_impacts(WorldData<double>&, const ContactStep<double>&);
 
 template <class Real>
 void collect_restitution_contacts(WorldData<Real>& w) {
-  w.scratch.restitution_contacts.clear();
-  w.scratch.impacts.linked = false;
-  for (const int id : w.scratch.bounce_candidates) {
+  w.scratch.solver.restitution_contacts.clear();
+  w.scratch.solver.impacts.linked = false;
+  for (const int id : w.scratch.narrow_phase.bounce_candidates) {
     const ContactRecord& contact = w.contacts[id];
     if (contact.home != ContactHome::Graph) continue;
     RestitutionContact<Real> bounce{.contact = &constraint_of(w, contact)};
     predict_circle_normal(w, contact, bounce);
     if (bounce.contact->restitution > 0 || bounce.radius_sum > 0)
-      w.scratch.restitution_contacts.push_back(bounce);
+      w.scratch.solver.restitution_contacts.push_back(bounce);
   }
-  w.scratch.impacts.group.clear(), w.scratch.impacts.joints.clear();
-  if (!w.scratch.restitution_contacts.empty()) collect_joints(w);
+  w.scratch.solver.impacts.group.clear(), w.scratch.solver.impacts.joints.clear();
+  if (!w.scratch.solver.restitution_contacts.empty()) collect_joints(w);
 }
 
 template <class Real>
 void stop_joint_rates(WorldData<Real>& w) {
-  ImpactScratch<Real>& scratch = w.scratch.impacts;
+  ImpactScratch<Real>& scratch = w.scratch.solver.impacts;
   if (scratch.joints.empty()) return;
   begin_joint_rows(w);
   scratch.visited.assign(scratch.group.size(), 0);
-  for (const RestitutionContact<Real>& bounce : w.scratch.restitution_contacts) {
+  for (const RestitutionContact<Real>& bounce : w.scratch.solver.restitution_contacts) {
     for (const int body : {bounce.contact->body_a, bounce.contact->body_b}) {
       if (!w.is_dynamic(body) || scratch.visited[scratch.group[body]]) continue;
       scratch.visited[scratch.group[body]] = 1;

@@ -47,7 +47,7 @@ void project_angular_limits(WorldData<Real>& w) {
 // Returns true if all awake bodies have been moved: in free flight, or as part of an articulated body.
 template <class Real>
 bool all_bodies_moved(const WorldData<Real>& w) {
-  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.solver.velocity_increments;
   return w.graph.empty() &&
          std::all_of(increments.begin(), increments.end(), [](const auto& k) { return k.in_tree; });
 }
@@ -56,27 +56,27 @@ bool all_bodies_moved(const WorldData<Real>& w) {
 // changes between the passes, and fast approaching circles without restitution. Empty if there are none.
 template <class Real>
 const std::vector<char>& scalar_contacts(WorldData<Real>& w) {
-  std::vector<char>& marks = w.scratch.is_scalar;
+  std::vector<char>& marks = w.scratch.solver.is_scalar;
   marks.clear();
   const auto mark = [&](const ContactConstraint<Real>& c) {
     if (marks.empty()) resize_with_growth(marks, w.contacts.size());
     marks[c.contact] = 1;
   };
-  for (const RestitutionContact<Real>& bounce : w.scratch.restitution_contacts)
+  for (const RestitutionContact<Real>& bounce : w.scratch.solver.restitution_contacts)
     if (!(bounce.contact->restitution > 0)) mark(*bounce.contact);
-  for (int i = 0; i < w.scratch.jointed_count; ++i)
-    for (const ContactConstraint<Real>* c : w.scratch.jointed_islands[i].contacts) mark(*c);
-  for (const int id : w.scratch.turning_contacts) mark(constraint_of(w, w.contacts[id]));
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i)
+    for (const ContactConstraint<Real>* c : w.scratch.islands.jointed_islands[i].contacts) mark(*c);
+  for (const int id : w.scratch.narrow_phase.turning_contacts) mark(constraint_of(w, w.contacts[id]));
   return marks;
 }
 
 // Returns marks, by slot, of the joints that are solved with their island. Empty if there are none.
 template <class Real>
 const std::vector<char>& joints_in_islands(WorldData<Real>& w) {
-  std::vector<char>& marks = w.scratch.joints_in_islands;
+  std::vector<char>& marks = w.scratch.islands.joints_in_islands;
   marks.clear();
-  for (int i = 0; i < w.scratch.jointed_count; ++i) {
-    for (const int joint : w.scratch.jointed_islands[i].joints) {
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
+    for (const int joint : w.scratch.islands.jointed_islands[i].joints) {
       if (marks.empty()) resize_with_growth(marks, w.joint_set.slots());
       marks[joint] = 1;
     }
@@ -88,16 +88,17 @@ const std::vector<char>& joints_in_islands(WorldData<Real>& w) {
 // island.
 template <class Real>
 bool any_joint_iterated(const WorldData<Real>& w) {
-  std::size_t others = static_cast<std::size_t>(w.scratch.trees.hinge_count);
-  for (int i = 0; i < w.scratch.jointed_count; ++i) others += w.scratch.jointed_islands[i].joints.size();
+  std::size_t others = static_cast<std::size_t>(w.scratch.islands.trees.hinge_count);
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i)
+    others += w.scratch.islands.jointed_islands[i].joints.size();
   return static_cast<std::size_t>(w.joint_set.active_count()) > others;
 }
 
 // Adds the impulses of a substep to the loads of joints that are solved with their island.
 template <class Real>
 void add_island_loads(WorldData<Real>& w, const JointStep<Real>& step) {
-  for (int i = 0; i < w.scratch.jointed_count; ++i)
-    for (const int joint : w.scratch.jointed_islands[i].joints)
+  for (int i = 0; i < w.scratch.islands.jointed_count; ++i)
+    for (const int joint : w.scratch.islands.jointed_islands[i].joints)
       w.joint_set.add_load(joint, w.solver_bodies(), step);
 }
 
@@ -108,7 +109,7 @@ constexpr int kBouncesPerTask = 128;
 // returned true.
 template <class Real, class Run>
 bool any_bounce(WorldData<Real>& w, const Run& run) {
-  const std::span<RestitutionContact<Real>> all(w.scratch.restitution_contacts);
+  const std::span<RestitutionContact<Real>> all(w.scratch.solver.restitution_contacts);
   std::atomic<bool> any = false;
   w.scheduler.ranges(static_cast<int>(all.size()), kBouncesPerTask, [&](int first, int last) {
     if (run(all.subspan(first, last - first))) any.store(true, std::memory_order_relaxed);
@@ -123,7 +124,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Integrator integrator = w.settings.integrator;
   prepare_integration(w, h, substeps, integrator);
   move_hinge_trees(w, h, substeps);
-  const bool jointed = w.joint_set.active_count() > w.scratch.trees.hinge_count;
+  const bool jointed = w.joint_set.active_count() > w.scratch.islands.trees.hinge_count;
   if (!jointed && all_bodies_moved(w)) return;
 
   const bool ramps = ramp_kinematic_velocities(w, h, substeps);
@@ -156,10 +157,10 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const bool iterated = jointed && any_joint_iterated(w);
   collect_restitution_contacts(w);
   collect_turning_contacts(w);
-  SoftContacts<Real>& soft_contacts = w.scratch.soft_contacts;
+  SoftContacts<Real>& soft_contacts = w.scratch.solver.soft_contacts;
   soft_contacts.prepare(w.graph, bodies.motion, scalar_contacts(w), w.scheduler);
   using Bounce = RestitutionContact<Real>;
-  const bool bounces = !w.scratch.restitution_contacts.empty();
+  const bool bounces = !w.scratch.solver.restitution_contacts.empty();
   stop_joint_rates(w);
   bool has_impacts = false;
   const auto handle_impacts = [&] {
@@ -187,7 +188,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     if (has_impacts) add_impact_velocities(w);
     if (iterated) w.joint_set.warm_start(bodies, joints, &w.scheduler);
     if (!impacts_first) handle_impacts();
-    defer_impacts(std::span<Bounce>(w.scratch.restitution_contacts));
+    defer_impacts(std::span<Bounce>(w.scratch.solver.restitution_contacts));
     if (bounces) soft_contacts.gather_restitution();
     if (!fuse_warm_start) soft_contacts.warm_start(bodies.motion, contacts);
     if (iterated) w.joint_set.solve(bodies, joints, &w.scheduler);
@@ -203,7 +204,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     soft_contacts.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps);
     add_island_loads(w, joints);
-    restore_deferred(std::span<Bounce>(w.scratch.restitution_contacts));
+    restore_deferred(std::span<Bounce>(w.scratch.solver.restitution_contacts));
     contacts.warm_start = joints.warm_start = 1;
   }
   if (ramps) end_kinematic_ramps(w, h, substeps);

@@ -195,7 +195,7 @@ void solve_without_push(WorldData<Real>& w, ContactConstraint<Real>& c, const Co
 
 template <class Real>
 void collect_turning_contacts(WorldData<Real>& w) {
-  std::erase_if(w.scratch.turning_contacts, [&](int id) {
+  std::erase_if(w.scratch.narrow_phase.turning_contacts, [&](int id) {
     const ContactRecord& contact = w.contacts[id];
     return contact.home != ContactHome::Graph || constraint_of(w, contact).restitution > 0 ||
            !enabled(Switch::TurningContacts);
@@ -205,7 +205,7 @@ void collect_turning_contacts(WorldData<Real>& w) {
 template <class Real>
 bool renew_turning_contacts(WorldData<Real>& w, Real h) {
   bool any = false;
-  for (const int id : w.scratch.turning_contacts) {
+  for (const int id : w.scratch.narrow_phase.turning_contacts) {
     const ContactRecord& contact = w.contacts[id];
     if (!has_turned(w, contact, h)) continue;
     ContactConstraint<Real>& c = constraint_of(w, contact);
@@ -222,14 +222,14 @@ bool renew_turning_contacts(WorldData<Real>& w, Real h) {
     }
   }
   if (!any) return false;
-  for (const int id : w.scratch.turning_contacts)
+  for (const int id : w.scratch.narrow_phase.turning_contacts)
     if (has_turned(w, w.contacts[id], h)) assemble_again(w, constraint_of(w, w.contacts[id]));
   return true;
 }
 
 template <class Real>
 void solve_turning_contacts(WorldData<Real>& w, const ContactStep<Real>& step) {
-  for (const int id : w.scratch.turning_contacts) {
+  for (const int id : w.scratch.narrow_phase.turning_contacts) {
     const ContactRecord& contact = w.contacts[id];
     ContactConstraint<Real>& c = constraint_of(w, contact);
     if (w.bodies[contact.body_a].first_joint != kNone || w.bodies[contact.body_b].first_joint != kNone)

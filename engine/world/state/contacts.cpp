@@ -193,7 +193,7 @@ void wake_contact(WorldData<Real>& w, int contact) {
     enter_nontouching(w, contact);
   } else if (record.home == ContactHome::Sleeping) {
     const int index = record.index;
-    if (w.stepping) append(w.scratch.woken_contacts, contact);
+    if (w.stepping) append(w.scratch.narrow_phase.woken_contacts, contact);
     const ContactConstraint<Real> constraint = w.sleeping_contacts[index];
     enter_graph(w, contact, constraint);
     leave_sleeping(w, index);

@@ -74,7 +74,7 @@ void set_touching(WorldData<Real>& w, int contact, bool touching);
 template <class Real>
 void mark_contact_load(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   for (const int body : {c.body_a, c.body_b})
-    __atomic_store_n(&w.scratch.has_contact_load[body], char(1), __ATOMIC_RELAXED);
+    __atomic_store_n(&w.scratch.narrow_phase.has_contact_load[body], char(1), __ATOMIC_RELAXED);
 }
 
 /// Invalidates the manifolds of a body that was teleported.

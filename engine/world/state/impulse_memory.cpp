@@ -35,7 +35,7 @@ ImpulseMemory<Real>::ImpulseMemory(WorldData<Real>& w, double h)
       h_(h),
       shorter_(enabled(Switch::ImpulseMemory) && starts_warm(w.settings.solver) && h < w.impulse_h) {
   if (!shorter_) return;
-  std::vector<Real>& earlier = w.scratch.earlier_impulses;
+  std::vector<Real>& earlier = w.scratch.solver.earlier_impulses;
   earlier.clear();
   w.graph.for_each([&](ContactConstraint<Real>& c) {
     for_each_impulse(c, [&](Real impulse) { earlier.push_back(impulse); });
@@ -49,7 +49,7 @@ void ImpulseMemory<Real>::finish(double dt) {
     const double shrunk = std::max(h_, w_.impulse_h - kShrinkRate * dt);
     const Real kept = static_cast<Real>((1 - h_ / w_.impulse_h) * shrunk / w_.impulse_h),
                scale = static_cast<Real>(shrunk / w_.impulse_h);
-    const std::vector<Real>& earlier = w_.scratch.earlier_impulses;
+    const std::vector<Real>& earlier = w_.scratch.solver.earlier_impulses;
     std::size_t next = 0;
     w_.graph.for_each([&](ContactConstraint<Real>& c) {
       for_each_impulse(c, [&](Real& impulse) { impulse = kept * earlier[next++] + scale * impulse; });

@@ -333,7 +333,7 @@ void quarantine_overloaded(WorldData<Real>& w, double dt) {
 
 template <class Real>
 void quarantine_diverged(WorldData<Real>& w, double dt) {
-  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.velocity_increments;
+  const std::vector<VelocityIncrement<Real>>& increments = w.scratch.solver.velocity_increments;
   std::vector<Fault> faults;
   bool shared = false;
   std::size_t next_increment = 0;  // both lists are in the order of `awake`
@@ -345,8 +345,8 @@ void quarantine_diverged(WorldData<Real>& w, double dt) {
     const bool has_increment = next_increment < increments.size() && increments[next_increment].body == body;
     const SolverBody<Real> motion = w.motion[body];
     const auto [field, value] = fault_of(w, body);
-    const BodyVelocity<Real> start =
-        has_increment ? w.scratch.start_velocities[next_increment] : velocity_before_flight(motion, dt);
+    const BodyVelocity<Real> start = has_increment ? w.scratch.solver.start_velocities[next_increment]
+                                                   : velocity_before_flight(motion, dt);
     restore_start_state(w, body, start);
     const bool self_caused = !has_increment || is_finite_motion(motion);
     shared = shared || !self_caused;

@@ -182,8 +182,8 @@ void sleep_islands(WorldData<Real>& w) {
   if (!w.settings.sleeping) return;
   if (std::none_of(w.awake.begin(), w.awake.end(), [&](int body) { return may_fall_asleep(w, body); }))
     return;
-  UnionFind islands(w.scratch.island_of, w.bodies.size());
-  w.scratch.islands_known = false;  // they are overwritten here
+  UnionFind islands(w.scratch.islands.island_of, w.bodies.size());
+  w.scratch.islands.islands_known = false;  // they are overwritten here
   std::vector<char>& cannot_sleep = w.scratch.cannot_sleep;
   cannot_sleep.assign(w.bodies.size(), 0);
   const auto connect = [&](int a, int b) {

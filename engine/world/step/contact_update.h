@@ -137,8 +137,8 @@ void begin_contact_with(WorldData<Real>& w, int block, int id, Real dt, bool loa
   mix_materials(w, contact, c);
   build(c);
   if (!begun.needs_pre_solve) begun.bounces = begin_contact_step(w, c, dt);
-  if (turns_in_step(w, c, dt)) w.scratch.found_turning.add(block, id);
-  w.scratch.begun_contacts.add(block, begun);
+  if (turns_in_step(w, c, dt)) w.scratch.narrow_phase.found_turning.add(block, id);
+  w.scratch.narrow_phase.begun_contacts.add(block, begun);
 }
 
 /// Prepares a contact at a predicted impact. Its plane is that of the impact, not of the middle of a step,
@@ -166,7 +166,7 @@ template <class Real>
   prepare_predicted_contact(w, contact, at, c, c.normal_impulse);
   const bool rides = !(c.restitution > 0) && rebuild_rotating_contact(w, contact, closest, dt, c);
   if (!rides && is_impact_in_flight(w, contact, at, c, dt)) {
-    w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
+    w.scratch.narrow_phase.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
     return;
   }
   begin_contact_with(w, block, id, dt, true, [&](ContactConstraint<Real>& begun) { begun = c; });
@@ -223,7 +223,7 @@ bool crosses_plane(const WorldData<Real>& w, const ContactRecord& contact,
 template <class Real>
 bool keeps_plane(const WorldData<Real>& w, const ContactRecord& contact,
                  const ContactManifold<Real>& manifold, Real dt, Real h) {
-  const auto bears_contact = [&](int body) { return w.scratch.has_contact_load[body] != 0; };
+  const auto bears_contact = [&](int body) { return w.scratch.narrow_phase.has_contact_load[body] != 0; };
   const auto has_joint = [&](int body) { return w.is_dynamic(body) && w.bodies[body].first_joint != kNone; };
   const bool loaded = bears_contact(contact.body_a) || bears_contact(contact.body_b);
   if (loaded && w.forms[contact.shape_a].chain && enabled(Switch::SegmentsAhead)) return true;
@@ -239,7 +239,7 @@ template <class Real>
   const int touch_change = contact.touching ? kTouchChange : 0;
   if ((w.enlarged[contact.body_a] || w.enlarged[contact.body_b]) && fat_aabbs_apart(w, contact))
     return kSeparated;
-  std::uint8_t& face = w.scratch.separating_faces[id];
+  std::uint8_t& face = w.scratch.narrow_phase.separating_faces[id];
   if (is_beyond_margin(w, contact, face, dt)) return touch_change;
   const ContactManifold<Real> manifold = new_manifold(w, contact, dt);
   if (manifold.separating != kNoFace) face = manifold.separating;
@@ -293,9 +293,10 @@ template <class Real>
     ContactConstraint<Real> updated = c;
     updated.normal_impulse[0] = c.current_separation[0], updated.normal_impulse[1] = c.current_separation[1];
     if (is_impact_in_flight(w, contact, at, updated, dt)) {
-      w.scratch.found_impacts.add(block, ExpectedImpact<Real>{.constraint = updated, .in_graph = true});
+      w.scratch.narrow_phase.found_impacts.add(block,
+                                               ExpectedImpact<Real>{.constraint = updated, .in_graph = true});
     } else {
-      w.scratch.found_loaded.add(block, {c.body_a, c.body_b});
+      w.scratch.narrow_phase.found_loaded.add(block, {c.body_a, c.body_b});
     }
   } else {
     prepare_rotating_contact(w, contact, manifold, dt, c, c.current_separation);
@@ -330,7 +331,7 @@ template <class Real>
   const int known = change & ~(kLeftFatAabb | kStale);
   if ((change & kStale) == 0) return known;
   const bool has_points = rebuild_manifold(w, block, contact, dt, h, c);
-  if (has_points && turns_in_step(w, c, dt)) w.scratch.found_turning.add(block, c.contact);
+  if (has_points && turns_in_step(w, c, dt)) w.scratch.narrow_phase.found_turning.add(block, c.contact);
   return known | kRebuilt | (!has_points ? kEnded : needs_pre_solve_call(w, contact) ? kNeedsPreSolve : 0);
 }
 

@@ -52,7 +52,7 @@ template <class Real>
 bool is_in_free_flight(const WorldData<Real>& w, int body, Real dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
-  if (w.scratch.is_loaded[body] || record.first_joint != kNone) return false;
+  if (w.scratch.narrow_phase.is_loaded[body] || record.first_joint != kNone) return false;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     return contact.home == ContactHome::Sleeping ||
            (contact.home == ContactHome::Graph &&
@@ -90,37 +90,37 @@ Real time_of_contact(const WorldData<Real>& w, const ContactConstraint<Real>& c)
 template <class Real>
 void assign_simultaneous_impacts(WorldData<Real>& w, Real dt) {
   if (!enabled(Switch::SimultaneousImpacts)) return;
-  std::vector<char>& listed = w.scratch.expects_impact;
-  std::vector<Real>& earliest = w.scratch.impacts.earliest;  // by body
+  std::vector<char>& listed = w.scratch.narrow_phase.expects_impact;
+  std::vector<Real>& earliest = w.scratch.solver.impacts.earliest;  // by body
   if (earliest.size() < w.motion.size()) resize_with_growth(earliest, static_cast<int>(w.motion.size()));
   const auto concerns = [&](const ContactConstraint<Real>& c) {
     return c.restitution > 0 || (w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b));
   };
-  for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+  for (const ExpectedImpact<Real>& impact : w.scratch.narrow_phase.expected_impacts) {
     if (!concerns(impact.constraint)) continue;
     const Real time = time_of_contact(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
       const bool first = listed.size() <= static_cast<std::size_t>(body) || !listed[body];
       earliest[body] = first ? time : std::min(earliest[body], time);
-      if (first) add_once(w, w.scratch.impact_bodies, listed, body);
+      if (first) add_once(w, w.scratch.narrow_phase.impact_bodies, listed, body);
     }
   }
-  for (const int body : w.scratch.impact_bodies) listed[body] = 0;
-  w.scratch.impact_bodies.clear();
-  for (const ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+  for (const int body : w.scratch.narrow_phase.impact_bodies) listed[body] = 0;
+  w.scratch.narrow_phase.impact_bodies.clear();
+  for (const ExpectedImpact<Real>& impact : w.scratch.narrow_phase.expected_impacts) {
     if (!concerns(impact.constraint)) continue;
     const Real time = time_of_contact(w, impact.constraint);
     for (const int body : {impact.constraint.body_a, impact.constraint.body_b}) {
       if (impact.constraint.restitution > 0 && time > earliest[body] + Real(kSimultaneous) * dt) continue;
       if (listed.size() > static_cast<std::size_t>(body) && listed[body]) {
-        add_once(w, w.scratch.loaded_bodies, w.scratch.is_loaded, body);
+        add_once(w, w.scratch.narrow_phase.loaded_bodies, w.scratch.narrow_phase.is_loaded, body);
       } else {
-        add_once(w, w.scratch.impact_bodies, listed, body);
+        add_once(w, w.scratch.narrow_phase.impact_bodies, listed, body);
       }
     }
   }
-  for (const int body : w.scratch.impact_bodies) listed[body] = 0;
-  w.scratch.impact_bodies.clear();
+  for (const int body : w.scratch.narrow_phase.impact_bodies) listed[body] = 0;
+  w.scratch.narrow_phase.impact_bodies.clear();
 }
 
 }  // namespace
@@ -196,9 +196,10 @@ bool was_load_bearing(const WorldData<Real>& w, const ContactConstraint<Real>& c
 template <class Real>
 void clear_expected_impacts(WorldData<Real>& w) {
   Scratch<Real>& scratch = w.scratch;
-  for (const int body : scratch.loaded_bodies) scratch.is_loaded[body] = 0;
-  for (const int body : scratch.impact_bodies) scratch.expects_impact[body] = 0;
-  scratch.loaded_bodies.clear(), scratch.impact_bodies.clear(), scratch.expected_impacts.clear();
+  for (const int body : scratch.narrow_phase.loaded_bodies) scratch.narrow_phase.is_loaded[body] = 0;
+  for (const int body : scratch.narrow_phase.impact_bodies) scratch.narrow_phase.expects_impact[body] = 0;
+  scratch.narrow_phase.loaded_bodies.clear(), scratch.narrow_phase.impact_bodies.clear(),
+      scratch.narrow_phase.expected_impacts.clear();
 }
 
 template <class Real>
@@ -235,15 +236,16 @@ bool is_impact_in_flight(WorldData<Real>& w, const ContactRecord& contact, const
 
 template <class Real>
 void mark_loaded(WorldData<Real>& w, int body_a, int body_b) {
-  add_once(w, w.scratch.loaded_bodies, w.scratch.is_loaded, body_a);
-  add_once(w, w.scratch.loaded_bodies, w.scratch.is_loaded, body_b);
+  add_once(w, w.scratch.narrow_phase.loaded_bodies, w.scratch.narrow_phase.is_loaded, body_a);
+  add_once(w, w.scratch.narrow_phase.loaded_bodies, w.scratch.narrow_phase.is_loaded, body_b);
 }
 
 template <class Real>
 void decide_expected_impacts(WorldData<Real>& w, Real dt) {
-  std::vector<ExpectedImpact<Real>>& impacts = w.scratch.expected_impacts;
+  std::vector<ExpectedImpact<Real>>& impacts = w.scratch.narrow_phase.expected_impacts;
   if (impacts.empty()) return;
-  if (w.scratch.is_loaded.size() < w.motion.size()) w.scratch.is_loaded.resize(w.motion.size());
+  if (w.scratch.narrow_phase.is_loaded.size() < w.motion.size())
+    w.scratch.narrow_phase.is_loaded.resize(w.motion.size());
   assign_simultaneous_impacts(w, dt);
   // An impact that is left to the solver may end the free flight of its bodies, which may affect their other
   // impacts.
@@ -263,8 +265,10 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   }
   for (const ExpectedImpact<Real>& impact : impacts) {
     if (impact.left_to_solver) continue;
-    add_once(w, w.scratch.impact_bodies, w.scratch.expects_impact, impact.constraint.body_a);
-    add_once(w, w.scratch.impact_bodies, w.scratch.expects_impact, impact.constraint.body_b);
+    add_once(w, w.scratch.narrow_phase.impact_bodies, w.scratch.narrow_phase.expects_impact,
+             impact.constraint.body_a);
+    add_once(w, w.scratch.narrow_phase.impact_bodies, w.scratch.narrow_phase.expects_impact,
+             impact.constraint.body_b);
   }
 }
 

@@ -69,7 +69,7 @@ struct ImmediateUpdates {
   PrefetchedEnlarging<Real>& tree;
   // Stores the new fat AABB `box` of a shape that has left its previous one.
   void enlarge(int shape, const Aabb<Real>& box) const { store_fat_aabb(w, shape, box, tree); }
-  void add_fast(const FastBody& fast) const { append(w.scratch.fast_bodies, fast); }
+  void add_fast(const FastBody& fast) const { append(w.scratch.continuous.fast_bodies, fast); }
   void add_nonfinite(int body) const { append(w.scratch.nonfinite_bodies, body); }
 };
 
@@ -79,9 +79,9 @@ struct DeferredUpdates {
   WorldData<Real>& w;
   int block;
   void enlarge(int shape, const Aabb<Real>& box) const {
-    w.scratch.proxy_updates.add(block, ProxyUpdate<Real>{shape, box});
+    w.scratch.broad_phase.proxy_updates.add(block, ProxyUpdate<Real>{shape, box});
   }
-  void add_fast(const FastBody& fast) const { w.scratch.found_fast.add(block, fast); }
+  void add_fast(const FastBody& fast) const { w.scratch.continuous.found_fast.add(block, fast); }
   void add_nonfinite(int body) const { w.scratch.found_nonfinite.add(block, body); }
 };
 
@@ -97,7 +97,7 @@ template <class Real, class Updates>
   const Real rotation_distance = std::abs(motion.delta_angle) * extent;
   const Real displacement =
       std::abs(motion.delta_position.x) + std::abs(motion.delta_position.y) + rotation_distance;
-  const bool expects_impact = any_expected && w.scratch.expects_impact[body];
+  const bool expects_impact = any_expected && w.scratch.narrow_phase.expects_impact[body];
   const bool fast = expects_impact || displacement > Real(tuning::kFastFraction) * record.half_width;
   if (!is_finite_motion(motion) || (fast && !(is_valid_motion(motion) && stays_in_range(w, body)))) {
     updates.add_nonfinite(body);
@@ -143,11 +143,11 @@ template <class Real, class Updates>
 template <class Real>
 void finalize_bodies(WorldData<Real>& w, Real dt) {
   Scratch<Real>& scratch = w.scratch;
-  scratch.fast_bodies.clear(), scratch.nonfinite_bodies.clear();
+  scratch.continuous.fast_bodies.clear(), scratch.nonfinite_bodies.clear();
   Load<Real>* const loads = w.loads.used() ? w.loads.data() : nullptr;
   Vec2d* const position_compensation = position_compensation_of(w);
   RestDisplacement* const rest_displacements = rest_displacements_of(w);
-  const bool any_expected = !scratch.impact_bodies.empty();
+  const bool any_expected = !scratch.narrow_phase.impact_bodies.empty();
   const PrefetchAwakeBodies<Real> prefetch(w);
   const int count = static_cast<int>(w.awake.size());
   const auto finalize = [&w, &prefetch, dt, any_expected, loads, position_compensation, rest_displacements ](
@@ -165,15 +165,15 @@ void finalize_bodies(WorldData<Real>& w, Real dt) {
     finalize(0, count, immediate);
   } else {
     const int blocks = (count + kBodiesPerBlock - 1) / kBodiesPerBlock;
-    scratch.proxy_updates.begin(blocks), scratch.found_fast.begin(blocks),
+    scratch.broad_phase.proxy_updates.begin(blocks), scratch.continuous.found_fast.begin(blocks),
         scratch.found_nonfinite.begin(blocks);
     w.scheduler.blocks(blocks, [&](int block) {
       finalize(block * kBodiesPerBlock, std::min(count, (block + 1) * kBodiesPerBlock),
                DeferredUpdates<Real>{w, block});
     });
-    scratch.proxy_updates.for_each(
+    scratch.broad_phase.proxy_updates.for_each(
         [&](const ProxyUpdate<Real>& each) { immediate.enlarge(each.shape, each.box); });
-    scratch.found_fast.for_each([&](const FastBody& fast) { immediate.add_fast(fast); });
+    scratch.continuous.found_fast.for_each([&](const FastBody& fast) { immediate.add_fast(fast); });
     scratch.found_nonfinite.for_each([&](int body) { immediate.add_nonfinite(body); });
   }
   moving.finish();

@@ -190,7 +190,8 @@ SpeculativeContact<Real> segment_ahead(const WorldData<Real>& w, const ContactRe
                                        const ContactManifold<Real>& manifold, Real dt, Real h) {
   const ShapeForm<Real>&segment = w.forms[contact.shape_a], &mover = w.forms[contact.shape_b];
   if (!segment.chain || !enabled(Switch::SegmentsAhead)) return {};
-  if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
+  if (w.scratch.narrow_phase.has_contact_load[contact.body_a] == 0 &&
+      w.scratch.narrow_phase.has_contact_load[contact.body_b] == 0)
     return {};
   const Real smaller = std::min(segment.extent, mover.extent);
   const Real tolerance =
@@ -240,7 +241,8 @@ template <class Real>
 SpeculativeContact<Real> arriving_contact(const WorldData<Real>& w, const ContactRecord& contact,
                                           const ContactManifold<Real>& manifold, Real dt) {
   if (!enabled(Switch::LastingContacts)) return {};
-  if (w.scratch.has_contact_load[contact.body_a] == 0 && w.scratch.has_contact_load[contact.body_b] == 0)
+  if (w.scratch.narrow_phase.has_contact_load[contact.body_a] == 0 &&
+      w.scratch.narrow_phase.has_contact_load[contact.body_b] == 0)
     return {};
   const Real smaller = std::min(w.forms[contact.shape_a].extent, w.forms[contact.shape_b].extent);
   const Real tolerance = Real(tuning::kRecycleDistance) * smaller;

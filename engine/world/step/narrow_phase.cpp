@@ -31,13 +31,13 @@ constexpr int kNontouchingPerBlock = 128, kContactsPerBlock = 128;
 // Cuts the graph's colours into blocks.
 template <class Real>
 void find_contact_runs(WorldData<Real>& w) {
-  std::vector<ContactRun<Real>>& runs = w.scratch.contact_runs;
+  std::vector<ContactRun<Real>>& runs = w.scratch.narrow_phase.contact_runs;
   runs.clear();
   // This comes first: if memory runs out, no changes of any run have been recorded.
-  std::vector<std::uint8_t>& changes = w.scratch.contact_changes;
+  std::vector<std::uint8_t>& changes = w.scratch.narrow_phase.contact_changes;
   resize_with_growth(changes, static_cast<int>(w.nontouching_contacts.size() + w.graph.size()));
   std::fill(changes.begin(), changes.end(), std::uint8_t{0});
-  std::vector<std::uint8_t>& faces = w.scratch.separating_faces;
+  std::vector<std::uint8_t>& faces = w.scratch.narrow_phase.separating_faces;
   if (static_cast<int>(faces.size()) < w.contacts.size()) {
     ensure_capacity(faces, static_cast<std::size_t>(w.contacts.size()));
     faces.resize(static_cast<std::size_t>(w.contacts.size()), kNoFace);
@@ -56,7 +56,7 @@ void find_contact_runs(WorldData<Real>& w) {
 // Stores the new impulses of a run's rebuilt contacts.
 template <class Real>
 void store_rebuilt_impulses(WorldData<Real>& w, const ContactRun<Real>& run, Real dt) {
-  std::uint8_t* const changes = w.scratch.contact_changes.data() + run.first_index;
+  std::uint8_t* const changes = w.scratch.narrow_phase.contact_changes.data() + run.first_index;
   for (int i = 0; i < run.count; ++i) {
     if ((changes[i] & kRebuilt) == 0) continue;
     ContactConstraint<Real>& c = run.first[i];
@@ -72,16 +72,16 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
   find_contact_runs(w);
   const int nontouching_count = static_cast<int>(w.nontouching_contacts.size()),
             nontouching_blocks = (nontouching_count + kNontouchingPerBlock - 1) / kNontouchingPerBlock;
-  const std::vector<ContactRun<Real>>& runs = scratch.contact_runs;
+  const std::vector<ContactRun<Real>>& runs = scratch.narrow_phase.contact_runs;
   const int blocks = nontouching_blocks + static_cast<int>(runs.size());
-  scratch.begun_contacts.begin(blocks), scratch.found_impacts.begin(blocks);
-  scratch.found_loaded.begin(blocks), scratch.found_turning.begin(blocks);
-  std::uint8_t* const changes = scratch.contact_changes.data();
+  scratch.narrow_phase.begun_contacts.begin(blocks), scratch.narrow_phase.found_impacts.begin(blocks);
+  scratch.narrow_phase.found_loaded.begin(blocks), scratch.narrow_phase.found_turning.begin(blocks);
+  std::uint8_t* const changes = scratch.narrow_phase.contact_changes.data();
   // By run: the union of its contacts' changes.
   std::vector<int>& any = scratch.block_firsts;
   any.assign(runs.size(), 0);
-  scratch.has_contact_load.assign(w.bodies.size(), 0);
-  scratch.pushers.assign(w.bodies.size(), kNone);
+  scratch.narrow_phase.has_contact_load.assign(w.bodies.size(), 0);
+  scratch.narrow_phase.pushers.assign(w.bodies.size(), kNone);
   const LoopScheduler::SerialGuard serial(w.scheduler, w.has_rules());
   const bool shared = w.scheduler.shares();
   const auto recycle = [&](int block) {
@@ -131,10 +131,10 @@ void update_each(WorldData<Real>& w, Real dt, Real h) {
 // After an exception, makes the next step recompute the points of the contacts.
 template <class Real>
 void invalidate_all(WorldData<Real>& w) {
-  for (const ContactRun<Real>& run : w.scratch.contact_runs) {
+  for (const ContactRun<Real>& run : w.scratch.narrow_phase.contact_runs) {
     for (int i = 0; i < run.count; ++i) {
       ContactConstraint<Real>& c = run.first[i];
-      if ((w.scratch.contact_changes[run.first_index + i] & kRebuilt) != 0)
+      if ((w.scratch.narrow_phase.contact_changes[run.first_index + i] & kRebuilt) != 0)
         c.normal_impulse[0] = c.current_separation[0], c.normal_impulse[1] = c.current_separation[1];
       c.recycle_budget = -1;
     }
@@ -154,14 +154,14 @@ bool passes_pre_solve_hook(WorldData<Real>& w, const ContactConstraint<Real>& c)
 template <class Real>
 void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
   if (!w.pre_solve) return;
-  w.scratch.begun_contacts.for_each([&](BegunContact<Real>& begun) {
+  w.scratch.narrow_phase.begun_contacts.for_each([&](BegunContact<Real>& begun) {
     if (!begun.needs_pre_solve) return;
     begun.disabled = !passes_pre_solve_hook(w, begun.constraint);
     if (!begun.disabled) begun.bounces = begin_contact_step(w, begun.constraint, dt);
   });
-  for (const ContactRun<Real>& run : w.scratch.contact_runs) {
+  for (const ContactRun<Real>& run : w.scratch.narrow_phase.contact_runs) {
     for (int i = 0; i < run.count; ++i) {
-      std::uint8_t& change = w.scratch.contact_changes[run.first_index + i];
+      std::uint8_t& change = w.scratch.narrow_phase.contact_changes[run.first_index + i];
       if ((change & kNeedsPreSolve) == 0) continue;
       ContactConstraint<Real>& c = run.first[i];
       if (!passes_pre_solve_hook(w, c)) {
@@ -177,35 +177,38 @@ void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
 template <class Real>
 void collect_changes(WorldData<Real>& w) {
   Scratch<Real>& scratch = w.scratch;
-  scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
+  scratch.narrow_phase.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
     if (begun.disabled) return;
     const ContactConstraint<Real>& c = begun.constraint;
-    if (begun.bounces) append(scratch.bounce_candidates, c.contact);
+    if (begun.bounces) append(scratch.narrow_phase.bounce_candidates, c.contact);
     if (begun.loaded) mark_loaded(w, c.body_a, c.body_b);
   });
-  scratch.found_loaded.for_each(
+  scratch.narrow_phase.found_loaded.for_each(
       [&](const std::pair<int, int>& bodies) { mark_loaded(w, bodies.first, bodies.second); });
-  scratch.found_turning.for_each([&](int id) { append(scratch.turning_contacts, id); });
-  scratch.found_impacts.for_each(
-      [&](const ExpectedImpact<Real>& impact) { append(scratch.expected_impacts, impact); });
-  const std::vector<std::uint8_t>& changes = scratch.contact_changes;
+  scratch.narrow_phase.found_turning.for_each(
+      [&](int id) { append(scratch.narrow_phase.turning_contacts, id); });
+  scratch.narrow_phase.found_impacts.for_each(
+      [&](const ExpectedImpact<Real>& impact) { append(scratch.narrow_phase.expected_impacts, impact); });
+  const std::vector<std::uint8_t>& changes = scratch.narrow_phase.contact_changes;
   for (std::size_t i = 0; i < w.nontouching_contacts.size(); ++i) {
-    if ((changes[i] & kSeparated) != 0) append(scratch.separated_contacts, w.nontouching_contacts[i]);
-    if ((changes[i] & kTouchChange) != 0) append(scratch.bounced_contacts, w.nontouching_contacts[i]);
+    if ((changes[i] & kSeparated) != 0)
+      append(scratch.narrow_phase.separated_contacts, w.nontouching_contacts[i]);
+    if ((changes[i] & kTouchChange) != 0)
+      append(scratch.narrow_phase.bounced_contacts, w.nontouching_contacts[i]);
   }
   constexpr int kCollected = kTouchChange | kSeparated | kEnded | kBounces;
-  for (std::size_t block = 0; block < scratch.contact_runs.size(); ++block) {
-    const ContactRun<Real>& run = scratch.contact_runs[block];
+  for (std::size_t block = 0; block < scratch.narrow_phase.contact_runs.size(); ++block) {
+    const ContactRun<Real>& run = scratch.narrow_phase.contact_runs[block];
     // Rebuilt contacts may bounce, too.
     if ((scratch.block_firsts[block] & (kCollected | kRebuilt)) == 0) continue;
     for (int i = 0; i < run.count; ++i) {
       const int change = changes[run.first_index + i];
       if ((change & kCollected) == 0) continue;
       const int id = run.first[i].contact;
-      if ((change & kTouchChange) != 0) append(scratch.touch_changes, id);
-      if ((change & kSeparated) != 0) append(scratch.separated_contacts, id);
-      if ((change & kEnded) != 0) append(scratch.ended_contacts, id);
-      if ((change & kBounces) != 0) append(scratch.bounce_candidates, id);
+      if ((change & kTouchChange) != 0) append(scratch.narrow_phase.touch_changes, id);
+      if ((change & kSeparated) != 0) append(scratch.narrow_phase.separated_contacts, id);
+      if ((change & kEnded) != 0) append(scratch.narrow_phase.ended_contacts, id);
+      if ((change & kBounces) != 0) append(scratch.narrow_phase.bounce_candidates, id);
     }
   }
 }
@@ -214,15 +217,15 @@ void collect_changes(WorldData<Real>& w) {
 template <class Real>
 void resolve_expected_impacts(WorldData<Real>& w, Real dt) {
   decide_expected_impacts(w, dt);
-  w.scratch.solver_impacts.clear();
-  for (ExpectedImpact<Real>& impact : w.scratch.expected_impacts) {
+  w.scratch.narrow_phase.solver_impacts.clear();
+  for (ExpectedImpact<Real>& impact : w.scratch.narrow_phase.expected_impacts) {
     ContactConstraint<Real>& c = impact.constraint;
     if (impact.in_graph) {
-      if (!impact.left_to_solver) append(w.scratch.ended_contacts, c.contact);
+      if (!impact.left_to_solver) append(w.scratch.narrow_phase.ended_contacts, c.contact);
     } else if (impact.left_to_solver) {
-      if (begin_contact_step(w, c, dt)) append(w.scratch.bounce_candidates, c.contact);
-      append(w.scratch.solver_impacts, c);
-      if (turns_in_step(w, c, dt)) append(w.scratch.turning_contacts, c.contact);
+      if (begin_contact_step(w, c, dt)) append(w.scratch.narrow_phase.bounce_candidates, c.contact);
+      append(w.scratch.narrow_phase.solver_impacts, c);
+      if (turns_in_step(w, c, dt)) append(w.scratch.narrow_phase.turning_contacts, c.contact);
     } else {
       wake_body(w, c.body_a), wake_body(w, c.body_b);
     }
@@ -242,11 +245,12 @@ void add_to_graph(WorldData<Real>& w, const ContactConstraint<Real>& c) {
 // impact may push a woken body into a neighbour.
 template <class Real>
 void begin_woken_contacts(WorldData<Real>& w, Real dt) {
-  for (const int id : w.scratch.woken_contacts) {
+  for (const int id : w.scratch.narrow_phase.woken_contacts) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
-    if (begin_contact_step(w, constraint_of(w, w.contacts[id]), dt)) append(w.scratch.bounce_candidates, id);
+    if (begin_contact_step(w, constraint_of(w, w.contacts[id]), dt))
+      append(w.scratch.narrow_phase.bounce_candidates, id);
   }
-  w.scratch.woken_contacts.clear();
+  w.scratch.narrow_phase.woken_contacts.clear();
 }
 
 }  // namespace
@@ -254,9 +258,11 @@ void begin_woken_contacts(WorldData<Real>& w, Real dt) {
 template <class Real>
 void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   auto& scratch = w.scratch;
-  scratch.separated_contacts.clear(), scratch.ended_contacts.clear(), scratch.touch_changes.clear();
-  scratch.bounce_candidates.clear(), scratch.bounced_contacts.clear(), scratch.woken_contacts.clear();
-  scratch.turning_contacts.clear();
+  scratch.narrow_phase.separated_contacts.clear(), scratch.narrow_phase.ended_contacts.clear(),
+      scratch.narrow_phase.touch_changes.clear();
+  scratch.narrow_phase.bounce_candidates.clear(), scratch.narrow_phase.bounced_contacts.clear(),
+      scratch.narrow_phase.woken_contacts.clear();
+  scratch.narrow_phase.turning_contacts.clear();
   clear_expected_impacts(w);
   if (w.disabled_pairs.size() > 0) w.disabled_pairs.clear();
   if (w.enabled_pairs.size() > 0) w.enabled_pairs.clear();
@@ -270,21 +276,21 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
     throw;
   }
   resolve_expected_impacts(w, dt);
-  for (const int id : scratch.touch_changes) {
+  for (const int id : scratch.narrow_phase.touch_changes) {
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     update_touching(w, c, !c.touching);
   }
-  for (const int id : scratch.bounced_contacts) set_touching(w, id, false);
-  for (const int id : scratch.separated_contacts) destroy_contact(w, id);
-  for (const int id : scratch.ended_contacts) end_contact(w, id);
-  scratch.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
+  for (const int id : scratch.narrow_phase.bounced_contacts) set_touching(w, id, false);
+  for (const int id : scratch.narrow_phase.separated_contacts) destroy_contact(w, id);
+  for (const int id : scratch.narrow_phase.ended_contacts) end_contact(w, id);
+  scratch.narrow_phase.begun_contacts.for_each([&](const BegunContact<Real>& begun) {
     if (begun.disabled) {
       set_touching(w, begun.constraint.contact, false);
     } else {
       add_to_graph(w, begun.constraint);
     }
   });
-  for (const ContactConstraint<Real>& c : scratch.solver_impacts) add_to_graph(w, c);
+  for (const ContactConstraint<Real>& c : scratch.narrow_phase.solver_impacts) add_to_graph(w, c);
   begin_woken_contacts(w, dt);
 }
 
@@ -293,7 +299,7 @@ void report_impacts(WorldData<Real>& w) {
   const auto had_impact = [](const ContactConstraint<Real>& c) {
     return c.max_normal_impulse[0] > 0 || (c.count == 2 && c.max_normal_impulse[1] > 0);
   };
-  for (const int id : w.scratch.bounce_candidates) {
+  for (const int id : w.scratch.narrow_phase.bounce_candidates) {
     if (w.contacts[id].home != ContactHome::Graph) continue;
     ContactConstraint<Real>& c = constraint_of(w, w.contacts[id]);
     if (had_impact(c)) set_touching(w, id, true);

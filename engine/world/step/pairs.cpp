@@ -30,9 +30,10 @@ template <class Real>
 bool mark_self_overlaps(WorldData<Real>& w) {
   const int moved = static_cast<int>(w.move_buffer.size()), all = w.dynamic_tree.size();
   if (all < tuning::kMinOverlapPassMoves || !enabled(Switch::SelfOverlapPass)) return false;
-  w.scratch.has_overlap.resize(static_cast<std::size_t>(w.dynamic_tree.proxies()));
+  w.scratch.broad_phase.has_overlap.resize(static_cast<std::size_t>(w.dynamic_tree.proxies()));
   if (moved < tuning::kMinOverlapPassMoves || moved * tuning::kOverlapPassDivisor < all) return false;
-  return is_mostly_apart(w) && w.dynamic_tree.mark_self_overlaps(w.scratch.has_overlap, 4 * moved);
+  return is_mostly_apart(w) &&
+         w.dynamic_tree.mark_self_overlaps(w.scratch.broad_phase.has_overlap, 4 * moved);
 }
 
 // Prefetch distances in pairs and in shapes: entries of the pair set are scattered, and records of a million
@@ -123,7 +124,7 @@ bool find_group_pairs(const WorldData<Real>& w, const MovedGroup<Real>& moved, c
 // Finds the new pairs of a block of moved shapes.
 template <class Real>
 void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool has_static) {
-  BlockLists<std::pair<int, int>>& found = w.scratch.found_pairs_of;
+  BlockLists<std::pair<int, int>>& found = w.scratch.broad_phase.found_pairs_of;
   // Of two moved shapes, only one reports the pair.
   const auto note = [&](int shape, int other) {
     if (other != shape && !(w.shapes[other].moved && other < shape)) found.add(block, {shape, other});
@@ -137,7 +138,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool has_static) 
     if (!record.moved || record.proxy == kNone) continue;  // destroyed meanwhile
     // Without static shapes every proxy is in the dynamic tree, so one without an overlap can be skipped
     // without reading its body.
-    if (marked && !has_static && w.scratch.has_overlap[record.proxy] == 0) continue;
+    if (marked && !has_static && w.scratch.broad_phase.has_overlap[record.proxy] == 0) continue;
     const BodyType type = w.bodies[record.body].type;
     const std::uint32_t mask = effective_mask(record.filter);
     if (mask == 0) continue;
@@ -154,7 +155,7 @@ void find_pairs_of(WorldData<Real>& w, int block, bool marked, bool has_static) 
       note(shape, other);
       return true;
     };
-    if (type == BodyType::Static || !marked || w.scratch.has_overlap[record.proxy] != 0)
+    if (type == BodyType::Static || !marked || w.scratch.broad_phase.has_overlap[record.proxy] != 0)
       w.dynamic_tree.query(box, mask, visit);
     if (type == BodyType::Dynamic) w.static_tree.query(box, mask, visit);
   }
@@ -192,9 +193,9 @@ void find_pairs(WorldData<Real>& w, Real dt) {
   const bool marked = mark_self_overlaps(w);
   const bool has_static = w.static_tree.size() > 0;
   const int blocks = static_cast<int>((w.move_buffer.size() + kMovedPerBlock - 1) / kMovedPerBlock);
-  w.scratch.found_pairs_of.begin(blocks);
+  w.scratch.broad_phase.found_pairs_of.begin(blocks);
   w.scheduler.blocks(blocks, [&](int block) { find_pairs_of(w, block, marked, has_static); });
-  w.scratch.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
+  w.scratch.broad_phase.found_pairs_of.for_each([&](const std::pair<int, int>& pair) {
     // If a shape was created in the slot of a destroyed one that had moved, it is listed twice, and finds its
     // pairs twice.
     if (!w.pairs.contains(pair.first, pair.second) && passes_user_filter(w, pair.first, pair.second))

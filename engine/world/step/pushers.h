@@ -13,7 +13,7 @@ constexpr int kSeveralPushers = -2;
 /// bodies press, not on their order.
 template <class Real>
 void add_pusher(WorldData<Real>& w, int body, int pusher, bool shared) {
-  int& entry = w.scratch.pushers[body];
+  int& entry = w.scratch.narrow_phase.pushers[body];
   int known = __atomic_load_n(&entry, __ATOMIC_RELAXED);
   while (known != pusher && known != kSeveralPushers) {
     const int both = known == kNone ? pusher : kSeveralPushers;
@@ -39,7 +39,7 @@ void mark_pushers(WorldData<Real>& w, const ContactConstraint<Real>& c, bool sha
 /// while contacts are updated.
 template <class Real, class Test>
 bool any_pusher(const WorldData<Real>& w, int body, Test&& test) {
-  if (w.scratch.has_contact_load[body] == 0) return false;
+  if (w.scratch.narrow_phase.has_contact_load[body] == 0) return false;
   return any_edge(w.contacts, w.bodies[body].first_contact, [&](const ContactRecord& contact) {
     const int other = contact.body_a == body ? contact.body_b : contact.body_a;
     if (contact.home != ContactHome::Graph || !w.is_dynamic(other)) return false;
@@ -52,7 +52,7 @@ bool any_pusher(const WorldData<Real>& w, int body, Test&& test) {
 template <class Real>
 bool is_pressed_by_third(const WorldData<Real>& w, int body, int partner) {
   if (!w.is_dynamic(body)) return false;
-  const int pusher = w.scratch.pushers[body];
+  const int pusher = w.scratch.narrow_phase.pushers[body];
   return pusher != kNone && pusher != partner;
 }
 

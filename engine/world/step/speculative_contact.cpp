@@ -40,7 +40,7 @@ template <class Real>
 bool is_unsupported(const WorldData<Real>& w, int body) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic || record.first_joint != kNone) return false;
-  return w.scratch.has_contact_load[body] == 0;
+  return w.scratch.narrow_phase.has_contact_load[body] == 0;
 }
 
 // Returns by how much dynamic bodies that press on one of two bodies may still push it off its predicted
@@ -56,7 +56,8 @@ Real push_of_neighbours(const WorldData<Real>& w, int a, int b, Real dt) {
     return max_point_speed(w.motion[pusher].velocity - w.motion[body].velocity,
                            rotation_speed(w, pusher) + rotation_speed(w, body));
   };
-  if (const int only = w.scratch.pushers[body]; only != kSeveralPushers) return dt * speed_of(only);
+  if (const int only = w.scratch.narrow_phase.pushers[body]; only != kSeveralPushers)
+    return dt * speed_of(only);
   Real fastest = 0;
   any_pusher(w, body, [&](int other) {
     if (other != partner) fastest = std::max(fastest, speed_of(other));
