@@ -115,6 +115,15 @@ class RowBuilder {
     return midpoint_ ? 2 * rate - start_rate(row) : std::max(rate, std::min(solved_rate(row), 0.0));
   }
 
+  // Returns true if the next row, or one after it, had an impulse in the first solve.
+  bool pressed(std::size_t after = 0) const {
+    return !midpoint_ && island_.impulses[island_.row_sources.size() + after] > 0;
+  }
+
+  // Returns true if a unilateral row takes no part after the motion: a gap without an impulse does not slow
+  // bodies down, nor keep a blow from speeding them up.
+  bool is_open(double gap, bool pressed) const { return !midpoint_ && !correcting_ && gap > 0 && !pressed; }
+
   void add_joint(int joint) {
     std::vector<JointSolverRow<Real>>& rows = w_.scratch.solver.joint_rows;
     rows.clear();
@@ -131,6 +140,7 @@ class RowBuilder {
       // Gap at the start of the substep: springs pull, and limits are measured, from it.
       const double start = midpoint_ ? gap - 0.5 * h_ * mean_rate(row) : gap;
       double lower = -most;
+      bool open = false;
       rigid_ = from.role == RowRole::Rigid;
       switch (from.role) {
         case RowRole::Rigid:
@@ -145,6 +155,7 @@ class RowBuilder {
           lower = 0;
           row.target = target_rate(start, row);
           row.gap = gap;
+          open = is_open(gap, pressed());
           break;
         case RowRole::Motor:
           row.target = from.speed;
@@ -152,8 +163,8 @@ class RowBuilder {
           break;
       }
       if (driven) row.softening = std::max(row.softening, driver_compliance_);
-      add(row, {.impulse = from.impulse, .max_impulse = from.max_impulse, .pair = from.pair}, lower, most,
-          *from.impulse);
+      add(row, {.impulse = from.impulse, .max_impulse = from.max_impulse, .pair = from.pair}, lower,
+          open ? 0 : most, *from.impulse);
     }
   }
 
@@ -197,13 +208,9 @@ class RowBuilder {
       const double start = midpoint_ ? gap - 0.5 * h_ * mean_rate(row) : gap;
       row.target = target_rate(start, row);
       row.gap = std::max(gap, -double(c.depenetration_speed) * h_ / tuning::kDirectPushFraction);
-      // A contact that bounces is disabled until its time of impact. After the motion, a gap without an
-      // impulse does not slow bodies down.
-      const std::size_t index = island_.row_sources.size();
-      const bool pressed =
-          !midpoint_ && (island_.impulses[index] > 0 || (has_friction && island_.impulses[index + 1] > 0));
-      const bool open = !midpoint_ && !correcting_ && gap > 0 && !pressed;
-      const bool disabled = open || redundant || !(c.mass[i] > 0);
+      // A contact that bounces is disabled until its time of impact.
+      const bool pressed = this->pressed() || (has_friction && this->pressed(1));
+      const bool disabled = is_open(gap, pressed) || redundant || !(c.mass[i] > 0);
       const double most = disabled ? 0 : std::numeric_limits<double>::infinity();
       for (int k = 0; k < (has_friction ? 2 : 1); ++k) {
         const double slope = k == 0 ? friction : -friction;
