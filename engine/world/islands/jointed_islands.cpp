@@ -426,7 +426,7 @@ void solve_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step) {
     advance_links(w, island, step.h);
     if (const double drift = drift_of(w, island); drift > 1 && enabled(Switch::DividedSubsteps))
       subdivide_substep(w, island, step, drift, effort);
-    if (!island.contacts.empty()) update_warm_start_fraction(w, island);
+    if (!island.contacts.empty() && !island.joints.empty()) update_warm_start_fraction(w, island);
     for (const JointedLink& link : island.links)
       store_velocity(w.motion[link.body], link.mean_velocity, link.mean_spin);
   }
@@ -451,7 +451,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
       store_velocity(w.motion[link.body], link.velocity, link.spin);
     for (ContactConstraint<Real>* c : island.contacts)
       if (c->tracking != ImpactTracking::Off) record_max_impulse(*c), c->step_impulse += normal_sum(*c);
-    if (last || !island.contacts.empty()) update_warm_start_fraction(w, island);
+    if (!island.joints.empty() && (last || !island.contacts.empty())) update_warm_start_fraction(w, island);
   }
 }
 

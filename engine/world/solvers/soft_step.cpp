@@ -176,7 +176,8 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
         w, [&](std::span<Bounce> some) { return record_approaches(bodies.motion, some, contacts); });
     // Do not reuse the last substep's impulses after an impact, or if a contact separated.
     const bool renewed = substep > 0 && renew_turning_contacts(w, static_cast<Real>(h));
-    const bool fuse_warm_start = substep > 0 && !jointed && !has_impacts && !separated && !renewed;
+    const bool fuse_warm_start = substep > 0 && !jointed && w.scratch.islands.jointed_count == 0 &&
+                                 !has_impacts && !separated && !renewed;
     begin_jointed_substep(w);
     fuse_warm_start ? integrate_and_warm_start(w) : integrate_velocities(w);
     // Find impacts before warm starting. Warm-start impulses cancel only in the solve; before that, they
