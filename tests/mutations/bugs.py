@@ -64,7 +64,7 @@ MUTATIONS = [
              "return std::sqrt(a * b);", "return a * b;"),
     Mutation("a hinge lets go of its load before its spring is solved", "engine/world/joint_solver/joint_constraint.h",
              "if (angular_beside_rigid()) solve_point(v, soft, kRelax, relaxation);", "if (angular_beside_rigid()) solve_point(v, soft, which, relaxation);", "world", ("world/springs",)),
-    Mutation("small mechanisms are left to iterations", "engine/world/islands/direct_islands.cpp",
+    Mutation("small mechanisms are left to iterations", "engine/world/islands/island_choice.cpp",
              "small && few ? kJointedIfCheap : kIterated", "kIterated", "world", ("world/mechanisms",)),
     Mutation("iterations start from all impulses of what was solved as one", "engine/world/joint_solver/joint_set.cpp",
              "if (carry == 1) return 1;", "return 1;", "world", ("world/mechanisms",)),

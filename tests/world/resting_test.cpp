@@ -113,12 +113,15 @@ TEST(Sleeping, ATowerFallsAsleepAndWakesWhenItsSupportGoes) {
   EXPECT_EQ(world.counts().awake, 0);
 }
 
-// A static box is put into one that stands, with a heavy one on it: it presses it into the ground. What is
-// pushed apart is not at rest; without the other it stands and sleeps.
+// A static box is put into one that stands between walls, with a heavy one on it: it presses it into the
+// ground. What is pushed apart is not at rest; without the other it stands and sleeps.
 TEST(Sleeping, WaitsForShapesThatLieInEachOther) {
   World world;
   add_ground(world);
   const BodyId low = add_box(world, {0, 0.5}), high = add_box(world, {0, 1.5}, 3200);
+  for (const double side : {-1, 1})
+    world.create_body({.type = BodyType::Static, .position = {side, 0.4}},
+                      ShapeDefinition{.geometry = Box{1, 0.8}});
   const BodyId intruder = world.create_body({.type = BodyType::Static, .position = {30, 40}},
                                             ShapeDefinition{.geometry = Box{0.5, 0.5}});
   run(world, 120);

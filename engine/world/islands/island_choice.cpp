@@ -169,7 +169,7 @@ bool needs_one_system(const WorldData<Real>& w, const DirectIsland<Real>& island
   Real lightest = std::numeric_limits<Real>::max(), heaviest = 0;
   bool has_pair = false;
   for (const ContactConstraint<Real>* c : island.contacts) {
-    // What is driven presses with any force, of which only joints keep the part that is a load.
+    // Leaves out driven bodies: they press with any force, of which only joints keep the part that is a load.
     if (is_driver(w, c->body_a) || is_driver(w, c->body_b)) return false;
     for (const int body : {c->body_a, c->body_b}) {
       if (!w.is_dynamic(body)) continue;
@@ -177,7 +177,8 @@ bool needs_one_system(const WorldData<Real>& w, const DirectIsland<Real>& island
     }
     has_pair = has_pair || (w.is_dynamic(c->body_a) && w.is_dynamic(c->body_b));
   }
-  if (!has_pair || heaviest > Real(tuning::kDirectMassRatio) * lightest) return has_pair;
+  if (!has_pair || heaviest > Real(tuning::kMaxSystemMassRatio) * lightest) return false;
+  if (heaviest > Real(tuning::kDirectMassRatio) * lightest) return true;
   const WarmStartedBodies<Real> warm_started(w, island);
   const Real fall = dt * static_cast<Real>(std::sqrt(length_squared(w.settings.gravity)));
   return std::any_of(island.contacts.begin(), island.contacts.end(), [&](const ContactConstraint<Real>* c) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "engine/world/ablation/ablation.h"
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/state/constants.h"
