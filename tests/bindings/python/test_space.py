@@ -69,7 +69,7 @@ def test_constraints_hold():
         assert bodies[3].local_to_world((-1, 0)).x == pytest.approx(29, abs=1e-2)  # a soft slide
     assert pin.impulse > 0
     with pytest.raises(NotImplementedError):
-        space.add(pm.SimpleMotor(space.static_body, bodies[0], 1))
+        space.add(pm.RotaryLimitJoint(space.static_body, bodies[0], 0, 1))
 
 
 def test_collisions_are_told_once_and_changes_wait_for_the_end_of_the_step():

@@ -7,14 +7,16 @@ NotImplementedError when it is added to a space.
 
 from plumb.space.arbiter import Arbiter
 from plumb.space.bodies import Body
+from plumb.space.collisions import empty_callback
+from plumb.space.constraint import Constraint
 from plumb.space.constraints import (
-    Constraint, DampedRotarySpring, DampedSpring, GearJoint, GrooveJoint, PinJoint, PivotJoint, RatchetJoint,
-    RotaryLimitJoint, SimpleMotor, SlideJoint)
+    GearJoint, GrooveJoint, PinJoint, PivotJoint, RatchetJoint, RotaryLimitJoint, SimpleMotor, SlideJoint)
 from plumb.space.moments import (
     area_for_circle, area_for_poly, area_for_segment, moment_for_box, moment_for_circle, moment_for_poly,
     moment_for_segment)
 from plumb.space.shapes import Circle, Poly, Segment, Shape
 from plumb.space.space import Space
+from plumb.space.springs import DampedRotarySpring, DampedSpring
 from plumb.space.values import (
     BB, ContactPoint, ContactPointSet, PointQueryInfo, SegmentQueryInfo, ShapeFilter, ShapeQueryInfo, Transform,
     Vec2d)
@@ -26,4 +28,4 @@ __all__ = [
     "DampedSpring", "GearJoint", "GrooveJoint", "PinJoint", "PivotJoint", "PointQueryInfo", "Poly", "RatchetJoint",
     "RotaryLimitJoint", "Segment", "SegmentQueryInfo", "Shape", "ShapeFilter", "ShapeQueryInfo", "SimpleMotor",
     "SlideJoint", "Space", "Transform", "Vec2d", "area_for_circle", "area_for_poly", "area_for_segment",
-    "moment_for_box", "moment_for_circle", "moment_for_poly", "moment_for_segment", "version"]
+    "empty_callback", "moment_for_box", "moment_for_circle", "moment_for_poly", "moment_for_segment", "version"]

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 
-from plumb.space.values import Vec2d
+from plumb.space.values import InSpace, Vec2d
 
 
-class Body:
+class Body(InSpace):
     DYNAMIC, KINEMATIC, STATIC = 0, 1, 2
     _TYPES = {DYNAMIC: "dynamic", KINEMATIC: "kinematic", STATIC: "static"}
     _names = {DYNAMIC: "DYNAMIC", KINEMATIC: "KINEMATIC", STATIC: "STATIC"}
 
     def __init__(self, mass: float = 0, moment: float = 0, body_type: int = DYNAMIC) -> None:
         self._held = None
-        self._space = None
+        self._idle = 0.0  # s, for which it was slow
+        self._known_mass = None  # that the world's body has
         self._type = body_type
         self._mass, self._moment = float(mass), float(moment)
         self._cog = Vec2d(0, 0)
@@ -48,9 +49,27 @@ class Body:
         mass, moment, cog = self._mass_now()
         if not (0 < mass < math.inf and moment > 0):
             return  # refused by the step, as pymunk does
+        if (mass, moment, cog) == self._known_mass:
+            return
+        self._known_mass = mass, moment, cog
+        self._do(self._pass_mass)
+        for joint in self._constraints:
+            joint._masses_changed()
+
+    def _pass_mass(self):
+        mass, moment, cog = self._known_mass
         turns = moment < math.inf
         self._held.set_mass(mass, moment if turns else 1.0, cog)
         self._held.set_locks(rotation=not turns)
+
+    def _do(self, action):
+        """Acts on the world's body if there is one: at the end of the step for callbacks from within one."""
+        if self._held is not None:
+            space = self._space
+            if space is None:
+                action()  # its space is gone
+            else:
+                space._do(lambda: action() if self._held is not None else None)
 
     @property
     def mass(self):
@@ -89,8 +108,7 @@ class Body:
     def position(self, position):
         assert len(position) == 2
         self._position = Vec2d(*position)
-        if self._held:
-            self._held.position = self._position
+        self._do(lambda: setattr(self._held, "position", Vec2d(*position)))
 
     @property
     def angle(self):
@@ -99,8 +117,7 @@ class Body:
     @angle.setter
     def angle(self, angle):
         self._angle = float(angle)
-        if self._held:
-            self._held.angle = self._angle
+        self._do(lambda: setattr(self._held, "angle", float(angle)))
 
     @property
     def velocity(self):
@@ -110,8 +127,8 @@ class Body:
     def velocity(self, velocity):
         assert len(velocity) == 2
         self._velocity = Vec2d(*velocity)
-        if self._held and self._type != Body.STATIC:
-            self._held.velocity = self._velocity
+        if self._type != Body.STATIC:
+            self._do(lambda: setattr(self._held, "velocity", Vec2d(*velocity)))
 
     @property
     def angular_velocity(self):
@@ -120,8 +137,8 @@ class Body:
     @angular_velocity.setter
     def angular_velocity(self, spin):
         self._spin = float(spin)
-        if self._held and self._type != Body.STATIC:
-            self._held.angular_velocity = self._spin
+        if self._type != Body.STATIC:
+            self._do(lambda: setattr(self._held, "angular_velocity", float(spin)))
 
     @property
     def torque(self):
@@ -152,8 +169,11 @@ class Body:
             assert Body.DYNAMIC in (body_type, other._type), "At least one body of a constraint must be dynamic."
         self._type = body_type
         if self._held:
-            self._held.type = self._TYPES[body_type]
+            self._known_mass = None
+            self._do(lambda: setattr(self._held, "type", self._TYPES[body_type]))
             self._update_mass()
+            for joint in self._constraints:
+                joint._renew()
 
     @property
     def space(self):
@@ -172,13 +192,17 @@ class Body:
         return self._held is not None and not self._held.awake
 
     def activate(self):
-        if self._held and self._type == Body.DYNAMIC:
-            self._held.awake = True
+        if self._type == Body.DYNAMIC:
+            self._do(lambda: setattr(self._held, "awake", True))
 
     def sleep(self):
         if self._held is None:
             raise Exception("Body not added to a space")
-        self._held.awake = False
+        self._do(lambda: setattr(self._held, "awake", False))
+
+    def _let_sleep(self, may):
+        if self._held.may_sleep != may:
+            self._held.may_sleep = may
 
     def local_to_world(self, v):
         return Vec2d(*v).rotated(self.angle) + self.position
@@ -204,6 +228,10 @@ class Body:
         self.apply_force_at_world_point(Vec2d(*force).rotated(self.angle), self.local_to_world(point))
 
     def apply_impulse_at_world_point(self, impulse, point):
+        if self._space is not None and self._space._in_world:
+            arm = Vec2d(*point) - self._centre()
+            self._do(lambda: self.apply_impulse_at_world_point(impulse, self._centre() + arm))
+            return
         self.activate()
         mass, moment, _ = self._mass_now()
         self.velocity = self.velocity + Vec2d(*impulse) / mass
@@ -213,15 +241,19 @@ class Body:
         self.apply_impulse_at_world_point(Vec2d(*impulse).rotated(self.angle), self.local_to_world(point))
 
     def each_arbiter(self, function, *args, **kwargs):
-        for contact in self._held.contacts() if self._held else ():
-            function(self._space._arbiter_of(contact), *args, **kwargs)
+        space = self._space
+        for contact in self._held.contacts() if space is not None else ():
+            function(space._arbiter_of(contact, self), *args, **kwargs)
 
     def _enter(self, space):
         self._space = space
         self._held = space._world.create_body(type=self._TYPES[self._type], position=self._position, angle=self._angle,
                                               velocity=self._velocity, angular_velocity=self._spin,
-                                              mass=(1.0, 1.0, (0, 0)) if self._type == Body.DYNAMIC else None)
+                                              mass=(1.0, 1.0, (0, 0)) if self._type == Body.DYNAMIC else None,
+                                              may_sleep=not 0.5 < space._sleep_time < math.inf)
+        self._idle = 0.0
         self._held.linear_damping = self._held.angular_damping = space._rate()
+        self._known_mass = None
         self._update_mass()
 
     def _leave(self):

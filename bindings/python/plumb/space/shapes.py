@@ -5,13 +5,15 @@ import math
 from plumb import _plumb
 from plumb.space.geometry import cast, nearest, touch
 from plumb.space.moments import area_for_poly, area_for_segment, hull_of, moment_for_poly, moment_for_segment
-from plumb.space.values import BB, ContactPointSet, ShapeFilter, Transform, Vec2d
+from plumb.space.values import BB, ContactPointSet, InSpace, ShapeFilter, Transform, Vec2d
 
 
-class Shape:
+class Shape(InSpace):
+    _rank = 0  # of its kind in a pair
+    _age = 0  # in the order in which shapes came to the space
+
     def __init__(self, body):
         self._held = None
-        self._space = None
         self._body = None
         self._friction = self._elasticity = 0.0
         self._surface = Vec2d(0, 0)
@@ -39,17 +41,54 @@ class Shape:
     def space(self):
         return self._space
 
-    def _set(self, name, value):
-        setattr(self, name, value)
-        if self._held:
-            self._leave_world()
-            self._enter_world()
+    def _do(self, action):
+        """Acts on the world's shape if there is one: at the end of the step for callbacks from within one."""
+        if self._held and self._space is not None:
+            self._space._do(lambda: action() if self._held else None)
 
-    friction = property(lambda self: self._friction, lambda self, value: self._set("_friction", value))
-    elasticity = property(lambda self: self._elasticity, lambda self, value: self._set("_elasticity", value))
-    collision_type = property(lambda self: self._collision_type, lambda self, v: self._set("_collision_type", v))
-    sensor = property(lambda self: self._sensor, lambda self, value: self._set("_sensor", bool(value)))
-    surface_velocity = property(lambda self: self._surface, lambda self, v: self._set("_surface", Vec2d(*v)))
+    def _set_geometry(self, name, value):
+        setattr(self, name, value)
+        self._do(self._renew)
+
+    def _renew(self):
+        self._leave_world()
+        self._enter_world()
+        self._space._note_new_geometry(self)
+
+    def _quality(name, pass_on):
+        def put(self, value):
+            setattr(self, name, value)
+            self._do(lambda: pass_on(self))
+
+        return property(lambda self: getattr(self, name), put)
+
+    friction = _quality("_friction", lambda self: setattr(self._held, "friction", self._friction))
+    elasticity = _quality("_elasticity", lambda self: self._pass_elasticity())
+    collision_type = _quality("_collision_type", lambda self: setattr(self._held, "pre_solve", self._space._asks(self)))
+    sensor = _quality("_sensor", lambda self: setattr(self._held, "sensor", bool(self._sensor)))
+    del _quality
+
+    def _pass_elasticity(self):
+        self._held.restitution = min(self._elasticity, 1.0)
+        self._held.hit_events = self._elasticity > 1
+
+    @property
+    def surface_velocity(self):
+        return self._surface
+
+    @surface_velocity.setter
+    def surface_velocity(self, velocity):
+        self._surface = Vec2d(*velocity)
+        if self._space is not None:
+            self._space._note_belt(self)
+
+    def _facing(self, up):
+        """Returns the direction of the side that a body is likely to land on, before any does."""
+        return up.normalized() if up != (0, 0) else Vec2d(0, 1)
+
+    def _move_surface(self, speed):
+        if self._held.surface_speed != speed:
+            self._held.surface_speed = speed
 
     @property
     def filter(self):
@@ -58,8 +97,7 @@ class Shape:
     @filter.setter
     def filter(self, value):
         self._filter = value
-        if self._held:
-            self._held.set_filter(value.categories, value.mask, -value.group)
+        self._do(lambda: self._held.set_filter(value.categories, value.mask, -value.group))
 
     def _unit(self):
         """Returns area, moment about the centre of gravity of a unit mass, and that centre."""
@@ -142,10 +180,12 @@ class Shape:
     def _enter_world(self):
         f = self._filter
         self._held = self._body._held.create_shape(_plumb.ShapeDefinition(
-            self._geometry(), position=self._place(), density=0, friction=self._friction, restitution=min(self._elasticity, 1.0),
-            surface_speed=-self._surface.x, category=f.categories, mask=f.mask, group=-f.group, sensor=self._sensor,
-            pre_solve=self._space._asks(self)))
+            self._geometry(), position=self._place(), density=0, friction=self._friction,
+            restitution=min(self._elasticity, 1.0),
+            category=f.categories, mask=f.mask, group=-f.group, sensor=bool(self._sensor),
+            pre_solve=self._space._asks(self), hit_events=self._elasticity > 1))
         self._space._of[self._held.index] = self
+        self._space._note_belt(self)
 
     def _leave_world(self):
         del self._space._of[self._held.index]
@@ -162,10 +202,10 @@ class Circle(Shape):
     offset = property(lambda self: self._offset)
 
     def unsafe_set_radius(self, radius):
-        self._set("_radius", radius)
+        self._set_geometry("_radius", radius)
 
     def unsafe_set_offset(self, offset):
-        self._set("_offset", Vec2d(*offset))
+        self._set_geometry("_offset", Vec2d(*offset))
 
     def _unit(self):
         return math.pi * self._radius**2, self._radius**2 / 2, self._offset
@@ -181,6 +221,8 @@ class Circle(Shape):
 
 
 class Segment(Shape):
+    _rank = 1
+
     def __init__(self, body, a, b, radius):
         self._a, self._b, self._radius = Vec2d(*a), Vec2d(*b), radius
         super().__init__(body)
@@ -193,12 +235,16 @@ class Segment(Shape):
     def normal(self):
         return -(self._b - self._a).normalized().perpendicular()
 
+    def _facing(self, up):
+        side = self.normal.rotated(self._body.angle)
+        return side if side.dot(up) >= 0 else -side
+
     def unsafe_set_endpoints(self, a, b):
         self._a = Vec2d(*a)
-        self._set("_b", Vec2d(*b))
+        self._set_geometry("_b", Vec2d(*b))
 
     def unsafe_set_radius(self, radius):
-        self._set("_radius", radius)
+        self._set_geometry("_radius", radius)
 
     def set_neighbors(self, prev, next):
         """Does nothing: plumb smooths the seams of neighbouring segments by itself."""
@@ -218,6 +264,8 @@ class Segment(Shape):
 
 
 class Poly(Shape):
+    _rank = 2
+
     def __init__(self, body, vertices, transform=None, radius=0):
         self._radius = radius
         self._vertices = hull_of([(transform or Transform()) @ v for v in vertices])
@@ -241,10 +289,10 @@ class Poly(Shape):
         return list(self._vertices)
 
     def unsafe_set_radius(self, radius):
-        self._set("_radius", radius)
+        self._set_geometry("_radius", radius)
 
     def unsafe_set_vertices(self, vertices, transform=None):
-        self._set("_vertices", hull_of([(transform or Transform()) @ v for v in vertices]))
+        self._set_geometry("_vertices", hull_of([(transform or Transform()) @ v for v in vertices]))
 
     def _unit(self):
         points = self._vertices

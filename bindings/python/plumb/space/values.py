@@ -3,9 +3,24 @@
 from __future__ import annotations
 
 import math
+import weakref
 from typing import Any, NamedTuple
 
 BIG = 1e9  # in any unit: as good as without a bound
+
+
+class InSpace:
+    """Belongs to a space without keeping it alive: a space is gone with the last one who uses it."""
+
+    _ref = None
+
+    @property
+    def _space(self):
+        return self._ref and self._ref()
+
+    @_space.setter
+    def _space(self, space):
+        self._ref = space and weakref.ref(space)
 
 
 class Vec2d(NamedTuple):
