@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 #include <vector>
@@ -77,6 +78,95 @@ TYPED_TEST(PassingThrough, AOneWayPlatformLetsSmallJumpersRiseToTheirFullHeight)
       EXPECT_NEAR(top, radius + jump * jump / (2 * kGravity), 1e-3) << radius << " " << jump;
       EXPECT_NEAR(world.position(player).y, 2.1 + radius, 1e-3) << radius << " " << jump;
     }
+  }
+}
+
+// The ball is above the surface until the hook was asked, and lands as without one: where the path of its
+// lowest point meets the surface.
+TYPED_TEST(PassingThrough, AHookIsAskedBeforeABodyOverlaps) {
+  const auto land = [](bool asks, double size, double height, double slope) {
+    BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+    world.create_body({.type = BodyType::Static, .position = {0, -0.5}},
+                      {.geometry = Box{40, 1}, .pre_solve = asks});
+    const BodyId ball =
+        world.create_body({.position = {0, size * height}, .velocity = {slope * size, -36 * size}},
+                          {.geometry = Circle{size / 2}, .material = {.friction = 0}});
+    bool asked = false;
+    world.on_pre_solve([&](const ContactReading&) { return asked = true; });
+    double lowest = 1;
+    for (int i = 0; i < 12; ++i) {
+      world.step();
+      lowest = std::min(lowest, (world.position(ball).y - size / 2) / size);
+      if (world.position(ball).y < size / 2 - 1e-3 * size) {
+        EXPECT_TRUE(asked || !asks) << height;
+      }
+    }
+    EXPECT_EQ(asked, asks);
+    EXPECT_NEAR(world.position(ball).x, slope * size / 5, 1e-4 * size) << height;
+    return lowest;
+  };
+  for (const double size : {0.2, 1.0}) {
+    for (int phase = 0; phase < 50; ++phase) {
+      for (const double slope : {0.0, 10.0}) {
+        EXPECT_GT(land(true, size, 1.4 + 0.02 * phase, slope), -1e-3) << size << " " << phase;
+        EXPECT_GT(land(false, size, 1.4 + 0.02 * phase, slope), -1e-3) << size << " " << phase;
+      }
+    }
+  }
+}
+
+// Boxes that bounce leave a surface whose hook says yes with what they leave any other with.
+TYPED_TEST(PassingThrough, AHookThatAnswersTrueChangesNoImpact) {
+  for (int number = 0; number < 100; ++number) {
+    const auto fly = [&](bool asks) {
+      BasicWorld<TypeParam> world({.sleeping = false});
+      const Material material{.friction = 0.3, .restitution = 0.1 * (number % 10)};
+      world.create_body({.type = BodyType::Static, .position = {0, -0.5}},
+                        {.geometry = Box{40, 1}, .material = material, .pre_solve = asks});
+      const BodyId box = world.create_body({.position = {0, 1.5 + 0.02 * number},
+                                            .angle = 0.05 * number,
+                                            .velocity = {1, -3.0 - number % 7 * 8},
+                                            .angular_velocity = 0.1 * number - 5},
+                                           {.geometry = Box{1, 0.5}, .material = material});
+      bool asked = false;
+      world.on_pre_solve([&](const ContactReading&) { return asked = true; });
+      for (int i = 0; i < 60 && !(world.velocity(box).y > -1); ++i) world.step();
+      EXPECT_EQ(asked, asks) << number;
+      return std::array<double, 6>{world.position(box).x,
+                                   world.position(box).y,
+                                   world.angle(box),
+                                   static_cast<double>(world.velocity(box).x),
+                                   static_cast<double>(world.velocity(box).y),
+                                   static_cast<double>(world.angular_velocity(box))};
+    };
+    EXPECT_EQ(fly(true), fly(false)) << number;
+  }
+}
+
+// The hook reads the bodies as they are at the impact, not as they would be at the step's end.
+TYPED_TEST(PassingThrough, AHookReadsTheBodiesAtTheImpact) {
+  for (const double spin : {0.0, 3.0}) {
+    BasicWorld<TypeParam> world({.sleeping = false});
+    world.create_body({.type = BodyType::Static},
+                      ShapeDefinition{.geometry = Box{60, 0.01}, .pre_solve = true});
+    const BodyId disc =
+        world.create_body({.position = {0, 2.03}, .velocity = {0, -30}, .angular_velocity = spin},
+                          ShapeDefinition{.geometry = Circle{0.05}});
+    int calls = 0;
+    world.on_pre_solve([&](const ContactReading& contact) {
+      if (++calls > 1) return true;
+      // v^2 = v0^2 + 2 g d, with d down to where it touches.
+      const double fall = 2.03 - 0.055, speed = std::sqrt(900 + 2 * kGravity * fall),
+                   time = (speed - 30) / kGravity;
+      EXPECT_NEAR(world.position(disc).y, 0.055, 1e-4);
+      EXPECT_NEAR(world.box(disc).lower.y, 0.005, 1e-4);
+      EXPECT_NEAR(world.velocity(disc).y, -speed, 2e-3);
+      EXPECT_NEAR(contact.approach, -speed, 2e-3);
+      EXPECT_NEAR(world.angle(disc), spin * time, 1e-3);
+      return true;
+    });
+    run(world, 10);
+    EXPECT_GE(calls, 1);
   }
 }
 

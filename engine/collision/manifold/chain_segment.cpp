@@ -1,36 +1,15 @@
 #include <cmath>
 
+#include "engine/collision/manifold/chain_neighbour.h"
 #include "engine/collision/manifold/hull_pair.h"
 
 namespace plumb {
 namespace narrow {
 namespace {
 
-/// Bends below this, in rad, are ignored: a curve of short segments is as smooth as a line.
-constexpr double kFlat = 0.01;
-
 /// Minus the sine of 45 degrees: steeper normals point into the ground.
 template <class Real>
 constexpr Real kInto = Real(0.70710678118654752);
-
-/// The chain's continuation at one end of a segment.
-template <class Real>
-struct Neighbour {
-  bool open;            // no neighbour: the end is a corner
-  bool convex;          // it bends away from the front
-  Vec2<Real> normal{};  // the neighbour's
-};
-
-/// `corner` is the shared vertex and `other` the neighbour's far one; `first`: at the segment's first end.
-template <class Real>
-Neighbour<Real> neighbour(Vec2<Real> corner, Vec2<Real> other, Vec2<Real> normal, bool first) {
-  const Vec2<Real> edge = first ? corner - other : other - corner;
-  const Real length = std::sqrt(length_squared(edge));
-  if (!(length > 0)) return {true, true};
-  const Vec2<Real> own{edge.y / length, -edge.x / length};
-  const Real bend = first ? cross(own, normal) : cross(normal, own);
-  return {false, bend > Real(kFlat), own};
-}
 
 /// Admits the normals that belong to a segment: its own, and at an end that bends away from the front those
 /// between its own and the neighbour's.
@@ -38,16 +17,15 @@ template <class Real>
 struct AdmitOwn {
   static constexpr bool kOpen = false;
   Vec2<Real> tangent;
-  Neighbour<Real> before, after;
+  ChainNeighbour<Real> before, after;
   Real slack;  // m, against rounding: no gap between segments
 
   Normal operator()(Vec2<Real> normal) const {
     const bool at_first = dot(normal, tangent) < 0;
-    const Neighbour<Real>& end = at_first ? before : after;
+    const ChainNeighbour<Real>& end = at_first ? before : after;
     if (end.open) return Normal::Admit;
     if (!end.convex) return Normal::Snap;
-    const Real inside = at_first ? cross(end.normal, normal) : cross(normal, end.normal);
-    if (inside >= -Real(kFlat)) return Normal::Admit;
+    if (is_within_bend(end, normal, at_first)) return Normal::Admit;
     // For normals that point into the ground rather than along it: a penetration this deep must be resolved
     // by this segment.
     return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
@@ -113,8 +91,8 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
   for (int i = 0; i < hull_b.count; ++i) sum += hull_b.point(i);
   if (dot(normal, sum) < 0) return {};
 
-  const AdmitOwn<Real> admit{perpendicular(normal), neighbour(first, before, normal, true),
-                             neighbour(second, after, normal, false),
+  const AdmitOwn<Real> admit{perpendicular(normal), chain_neighbour(first, before, normal, true),
+                             chain_neighbour(second, after, normal, false),
                              32 * std::numeric_limits<Real>::epsilon() *
                                  (taxicab(first) + taxicab(second) + taxicab(b_in_a.position))};
   return collide_hulls<kAny, kAny>(

@@ -3,33 +3,53 @@
 #include "engine/collision/distance/hull_distance.h"
 #include "engine/world/state/contact_setup.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/shape_boxes.h"
 
 namespace plumb {
 namespace {
 
-// Moves a body to its pose at a fraction of the step, and back to the step's end when it is destroyed: the
-// hook may throw.
+// Moves a body to its state at a fraction of the step, for what the hook reads of it, and back to the step's
+// end when it is destroyed: the hook may throw.
 template <class Real>
-class PoseAt {
+class StateAt {
  public:
-  PoseAt(WorldData<Real>& w, const SweptBody* swept, double fraction) : w_(w) {
+  StateAt(WorldData<Real>& w, const SweptBody* swept, double fraction) : w_(w) {
     if (swept == nullptr) return;
     body_ = swept->body, position_ = w.position[body_], rotation_ = w.rotation[body_];
+    SolverBody<Real>& motion = w.motion[body_];
+    angle_ = w.bodies[body_].angle, velocity_ = motion.velocity, spin_ = motion.angular_velocity;
     const Rotation<double> q = swept->rotation_at(fraction);
     w.position[body_] = swept->position_at(fraction);
     w.rotation[body_] = {static_cast<Real>(q.c), static_cast<Real>(q.s)};
+    w.bodies[body_].angle += swept->delta_angle_before +
+                             swept->elapsed_fraction(fraction) * swept->delta_angle -
+                             static_cast<double>(motion.delta_angle);
+    motion.velocity = swept->velocity_at(fraction).template as<Real>();
+    motion.angular_velocity = static_cast<Real>(swept->angular_velocity);
+    update_tight_aabbs();
   }
-  ~PoseAt() {
-    if (body_ != kNone) w_.position[body_] = position_, w_.rotation[body_] = rotation_;
+  ~StateAt() {
+    if (body_ == kNone) return;
+    w_.position[body_] = position_, w_.rotation[body_] = rotation_, w_.bodies[body_].angle = angle_;
+    w_.motion[body_].velocity = velocity_, w_.motion[body_].angular_velocity = spin_;
+    update_tight_aabbs();
   }
-  PoseAt(const PoseAt&) = delete;
-  PoseAt& operator=(const PoseAt&) = delete;
+  StateAt(const StateAt&) = delete;
+  StateAt& operator=(const StateAt&) = delete;
 
  private:
+  void update_tight_aabbs() {
+    for (int shape = w_.bodies[body_].first_shape; shape != kNone; shape = w_.shapes[shape].next)
+      w_.tight_aabbs[shape] = tight_aabb(w_, shape);
+  }
+
   WorldData<Real>& w_;
   int body_ = kNone;
   Vec2d position_{};
   Rotation<Real> rotation_{};
+  double angle_ = 0;
+  Vec2<Real> velocity_{};
+  Real spin_ = 0;
 };
 
 template <class Real>
@@ -85,7 +105,7 @@ bool is_disabled_impact(WorldData<Real>& w, const SweptBody& a, int shape, const
   if (enabled.size() > 0 && enabled.contains(shape, other)) return false;
   const ContactRecord contact = contact_of(w, shape, other);
   if (has_solver_contact(w, contact)) return false;
-  const PoseAt<Real> pose_a(w, &a, fraction), pose_b(w, b, fraction);
+  const StateAt<Real> state_a(w, &a, fraction), state_b(w, b, fraction);
   const bool disabled = !w.pre_solve(contact, contact_now(w, contact));
   (disabled ? w.disabled_pairs : enabled).insert(shape, other);
   return disabled;

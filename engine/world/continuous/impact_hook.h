@@ -14,9 +14,9 @@ bool is_disabled_pair(const WorldData<Real>& w, int shape, int other) {
 }
 
 /// Returns true if the hook lets the shapes of an impact pass through each other in this step. Calls it at
-/// most once per step for the same shapes, with their contact at the poses of the impact: that of `a` with
-/// its `shape`, and of `b` with `other` (null: does not move). Contacts with points were decided before the
-/// step was solved.
+/// most once per step for the same shapes, with their contact and bodies as they are at the impact: `a` with
+/// its `shape`, and `b` with `other` (null: does not move). Contacts with points, and impacts that were
+/// expected, were decided before the step was solved.
 template <class Real>
 bool is_disabled_impact(WorldData<Real>& w, const SweptBody& a, int shape, const SweptBody* b, int other,
                         double fraction);

@@ -242,7 +242,7 @@ SweptBody swept_body_of(const WorldData<Real>& w, int body, double dt) {
 template <class Real>
 bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, double dt) {
   const ShapeRecord<Real>&a = w.shapes[shape], &b = w.shapes[other];
-  if (a.pre_solve || b.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
+  if (!enabled(Switch::ImpactsInFlight)) return false;
   if (!enabled(Switch::Landings) && !(restitution_between(w, shape, other) > 0)) return false;
   if (stay_together(w, shape, other) && !are_alone(w, a.body, b.body, static_cast<Real>(dt))) return false;
   return is_free(w, a.body, dt) && is_free(w, b.body, dt);

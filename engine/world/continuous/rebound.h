@@ -20,7 +20,7 @@ const SweptBody* find_swept_body(const WorldData<Real>& w, int body) {
   return index == kNone ? nullptr : &w.scratch.continuous.swept_bodies[index];
 }
 
-/// Returns true if no joint, lock, pre-solve hook or loaded contact acts on the bodies of two shapes in this
+/// Returns true if no joint, lock or loaded contact acts on the bodies of two shapes in this
 /// step of `dt`, s. Only then is their impact resolved within the step; otherwise bodies are stopped.
 template <class Real>
 bool may_resolve_toi_impact(const WorldData<Real>& w, int shape, int other, double dt);

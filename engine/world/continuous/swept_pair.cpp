@@ -10,6 +10,7 @@
 #include "engine/geometry/convex_core.h"
 #include "engine/math/trigonometry.h"
 #include "engine/world/ablation/ablation.h"
+#include "engine/world/continuous/chain_passing.h"
 #include "engine/world/continuous/rebound.h"
 #include "engine/world/continuous/swept_bound.h"
 #include "engine/world/continuous/swept_boxes.h"
@@ -133,15 +134,23 @@ class PairImpactSearch {
   double fraction(const Result& result) const {
     return path_.from + result.exact_fraction * (1 - path_.from);
   }
-  // Returns true for an impact on the back of a chain segment, which shapes may pass from behind.
-  bool hits_back_side(const Result& at) const {
+  // Returns true for an impact on a chain that contacts do not see: the shape passes from behind.
+  bool passes(const Result& at) const {
     const bool moves = w_.forms[pair_.shape].chain;
     if (!moves && !w_.forms[pair_.other].chain) return false;
-    const Sweep<double>& sweep = moves ? path_.sweep : other_motion_.sweep;
-    const Rotation<double> q = pose_at(sweep, at.exact_fraction).rotation;
-    const Vec2d front = q * (moves ? whole() : obstacle()).corners[0].normal.template as<double>(),
-                normal = at.normal.template as<double>();
-    return dot(front, moves ? -normal : normal) < 0;
+    const Corner<Real>* const chain = w_.convex(moves ? pair_.shape : pair_.other).corners;
+    const Sweep<double>&own = path_.sweep, &other = other_motion_.sweep;
+    const ChainEncounter<Real> encounter{moves ? whole() : obstacle(),
+                                         moves ? obstacle() : whole(),
+                                         moves ? own : other,
+                                         moves ? other : own,
+                                         chain[-1].point,
+                                         chain[2].point,
+                                         chain[0].point,
+                                         chain[1].point};
+    const Vec2d normal = at.normal.template as<double>();
+    return passes_chain(encounter, at.point.template as<double>(), moves ? -normal : normal,
+                        at.exact_fraction, at.state == Result::State::Hit);
   }
 
  private:
@@ -400,13 +409,14 @@ double fraction_of_impact(const WorldData<Real>& w, const SweptPath& path, const
       may_resolve_toi_impact(w, pair.shape, pair.other, path.search.dt)) {
     const Result first = at.find_impact_closely();
     if (first.state == Result::State::Separated) return 1;
-    if (first.state != Result::State::Overlapped) return at.hits_back_side(first) ? 1 : at.fraction(first);
+    if (first.state != Result::State::Overlapped && !at.passes(first)) return at.fraction(first);
   }
   const Result core_result = core_impact(w, at, pair);
-  if (core_result.state == Result::State::Separated || at.hits_back_side(core_result)) return 1;
+  if (core_result.state == Result::State::Separated || at.passes(core_result)) return 1;
   const Result first = at.find_impact(at.whole(), at.obstacle());
   // Shapes that touch at the start are separated by their contact until the core comes too near.
-  const bool touch = first.state == Result::State::Overlapped || first.exact_fraction == 0;
+  const bool touch =
+      first.state == Result::State::Overlapped || first.exact_fraction == 0 || at.passes(first);
   if (touch && lift_off(w, path, pair, core_result.exact_fraction) == Vec2d{}) return 1;
   return touch ? at.fraction(core_result) : at.fraction(first);
 }

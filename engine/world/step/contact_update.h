@@ -165,7 +165,7 @@ template <class Real>
   mix_materials(w, contact, c);
   prepare_predicted_contact(w, contact, at, c, c.normal_impulse);
   const bool rides = !(c.restitution > 0) && rebuild_rotating_contact(w, contact, closest, dt, c);
-  if (!rides && is_impact_in_flight(w, contact, at, c, dt)) {
+  if (!rides && is_impact_in_flight(w, at, c, dt)) {
     w.scratch.narrow_phase.found_impacts.add(block, ExpectedImpact<Real>{.constraint = c});
     return;
   }
@@ -292,7 +292,7 @@ template <class Real>
     prepare_predicted_contact(w, contact, at, c, c.current_separation);
     ContactConstraint<Real> updated = c;
     updated.normal_impulse[0] = c.current_separation[0], updated.normal_impulse[1] = c.current_separation[1];
-    if (is_impact_in_flight(w, contact, at, updated, dt)) {
+    if (is_impact_in_flight(w, at, updated, dt)) {
       w.scratch.narrow_phase.found_impacts.add(block,
                                                ExpectedImpact<Real>{.constraint = updated, .in_graph = true});
     } else {

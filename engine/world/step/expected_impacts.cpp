@@ -203,10 +203,10 @@ void clear_expected_impacts(WorldData<Real>& w) {
 }
 
 template <class Real>
-bool is_impact_in_flight(WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
+bool is_impact_in_flight(WorldData<Real>& w, const SpeculativeContact<Real>& at,
                          const ContactConstraint<Real>& c, Real dt) {
   const bool solves_in_flight = w.settings.solver == Solver::SoftSteps || w.settings.solver == Solver::Direct;
-  if (!solves_in_flight || contact.pre_solve || !enabled(Switch::ImpactsInFlight)) return false;
+  if (!solves_in_flight || !enabled(Switch::ImpactsInFlight)) return false;
   if (!(c.restitution > 0)) {
     if (!enabled(Switch::Landings)) return false;
     // Slower bodies strike with one corner after the other in different substeps: contacts handle them at
@@ -272,15 +272,15 @@ void decide_expected_impacts(WorldData<Real>& w, Real dt) {
   }
 }
 
-#define PLUMB_FOR(Real)                                                                                      \
-  template bool are_alone(const WorldData<Real>&, int, int, Real);                                           \
-  template bool turns_in_step(WorldData<Real>&, const ContactConstraint<Real>&, Real);                       \
-  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);               \
-  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);              \
-  template void clear_expected_impacts(WorldData<Real>&);                                                    \
-  template bool is_impact_in_flight(WorldData<Real>&, const ContactRecord&, const SpeculativeContact<Real>&, \
-                                    const ContactConstraint<Real>&, Real);                                   \
-  template void mark_loaded(WorldData<Real>&, int, int);                                                     \
+#define PLUMB_FOR(Real)                                                                         \
+  template bool are_alone(const WorldData<Real>&, int, int, Real);                              \
+  template bool turns_in_step(WorldData<Real>&, const ContactConstraint<Real>&, Real);          \
+  template bool is_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real);  \
+  template bool was_load_bearing(const WorldData<Real>&, const ContactConstraint<Real>&, Real); \
+  template void clear_expected_impacts(WorldData<Real>&);                                       \
+  template bool is_impact_in_flight(WorldData<Real>&, const SpeculativeContact<Real>&,          \
+                                    const ContactConstraint<Real>&, Real);                      \
+  template void mark_loaded(WorldData<Real>&, int, int);                                        \
   template void decide_expected_impacts(WorldData<Real>&, Real);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

@@ -32,11 +32,10 @@ template <class Real>
 void clear_expected_impacts(WorldData<Real>& w);
 
 /// Returns true if a contact's speculative contact `at` may be an impact in flight, with or without
-/// restitution: it closes fast enough and has no pre-solve hook. `c` is the constraint made from `at`. The
-/// corners of a body strike one after the other also without restitution; solved together, they would remove
-/// all of its spin.
+/// restitution: it closes fast enough. `c` is the constraint made from `at`. The corners of a body strike one
+/// after the other also without restitution; solved together, they would remove all of its spin.
 template <class Real>
-bool is_impact_in_flight(WorldData<Real>& w, const ContactRecord& contact, const SpeculativeContact<Real>& at,
+bool is_impact_in_flight(WorldData<Real>& w, const SpeculativeContact<Real>& at,
                          const ContactConstraint<Real>& c, Real dt);
 
 /// Marks the two bodies of a contact that will carry load in this step: they are not in free flight.

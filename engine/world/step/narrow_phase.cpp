@@ -150,7 +150,26 @@ bool passes_pre_solve_hook(WorldData<Real>& w, const ContactConstraint<Real>& c)
   return false;
 }
 
-// Calls the user's pre-solve hook for contacts with new points, on the calling thread and in their order.
+// Calls the user's pre-solve hook for impacts that are expected in flight, unless they have points already
+// and were decided with the contacts. Continuous collision does not call it again for those that are enabled.
+template <class Real>
+void decide_impacts_by_hook(WorldData<Real>& w) {
+  w.scratch.narrow_phase.found_impacts.for_each([&](const ExpectedImpact<Real>& impact) {
+    const int id = impact.constraint.contact;
+    const ContactRecord& contact = w.contacts[id];
+    if (!contact.pre_solve) return;
+    const bool disabled = impact.in_graph ? w.disabled_pairs.contains(contact.shape_a, contact.shape_b)
+                                          : !passes_pre_solve_hook(w, impact.constraint);
+    if (!disabled) {
+      w.enabled_pairs.insert(contact.shape_a, contact.shape_b);
+    } else if (!impact.in_graph && contact.touching) {
+      append(w.scratch.narrow_phase.bounced_contacts, id);
+    }
+  });
+}
+
+// Calls the user's pre-solve hook for contacts with new points and for expected impacts, on the calling
+// thread and in their order.
 template <class Real>
 void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
   if (!w.pre_solve) return;
@@ -171,6 +190,7 @@ void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
       }
     }
   }
+  decide_impacts_by_hook(w);
 }
 
 // Collects the recorded changes, in the order of the contacts.
@@ -187,8 +207,11 @@ void collect_changes(WorldData<Real>& w) {
       [&](const std::pair<int, int>& bodies) { mark_loaded(w, bodies.first, bodies.second); });
   scratch.narrow_phase.found_turning.for_each(
       [&](int id) { append(scratch.narrow_phase.turning_contacts, id); });
-  scratch.narrow_phase.found_impacts.for_each(
-      [&](const ExpectedImpact<Real>& impact) { append(scratch.narrow_phase.expected_impacts, impact); });
+  scratch.narrow_phase.found_impacts.for_each([&](const ExpectedImpact<Real>& impact) {
+    const ContactRecord& contact = w.contacts[impact.constraint.contact];
+    if (w.disabled_pairs.size() == 0 || !w.disabled_pairs.contains(contact.shape_a, contact.shape_b))
+      append(scratch.narrow_phase.expected_impacts, impact);
+  });
   const std::vector<std::uint8_t>& changes = scratch.narrow_phase.contact_changes;
   for (std::size_t i = 0; i < w.nontouching_contacts.size(); ++i) {
     if ((changes[i] & kSeparated) != 0)
