@@ -1,5 +1,7 @@
 // Cost of a step of every scenario on every engine at every size: one benchmark for each, from the
 // registries.
+#include <cstdio>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -69,5 +71,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
-  return 0;
+  if (std::cout.flush() && std::fflush(stdout) == 0) return 0;
+  std::fputs("plumb: stdout: cannot be written: the medium is full, or broken\n", stderr);
+  return 2;
 }

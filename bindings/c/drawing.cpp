@@ -1,6 +1,8 @@
+#include <cmath>
 #include <cstring>
 
 #include "bindings/c/handle.h"
+#include "engine/core/text.h"
 #include "engine/world/debug_draw.h"
 #include "engine/world/world_data.h"
 #ifndef PLUMB_NO_FILES
@@ -81,6 +83,12 @@ const PastPoses<Real>* kept_poses(const plumb_past_poses* past) {
   throw Error(Error::Kind::Value, "past poses", "precision", "", "are of a world of another precision");
 }
 
+void require_fraction(double fraction) {
+  if (std::isfinite(fraction)) return;
+  throw Error(Error::Kind::Value, "past poses", "fraction", plumb::shortest(fraction),
+              "must be a number: 0 for the kept poses, 1 for the present ones");
+}
+
 /// Returns the pose of the body's origin: the engine's are those of the centre of mass.
 template <class Real>
 plumb_pose pose_between(const BasicWorld<Real>& w, const PastPoses<Real>* past, plumb::BodyId body,
@@ -109,6 +117,7 @@ size_t plumb_past_poses_between(const plumb_past_poses* past, const plumb_world*
                                 plumb_pose* to, size_t capacity) {
   return read_or<size_t>(0, world, [&]<class Real>(const BasicWorld<Real>& w) {
     const PastPoses<Real>* poses = kept_poses<Real>(past);
+    require_fraction(fraction);
     if (capacity > 0) require(to, "out");
     const std::vector<plumb::BodyId> bodies = w.bodies();
     for (size_t i = 0; i < bodies.size() && i < capacity; ++i)
@@ -136,6 +145,7 @@ plumb_status plumb_world_draw_between(const plumb_world* world, const plumb_past
   return read_checked(world, [&]<class Real>(const BasicWorld<Real>& w) {
     Drawing drawing(require(draw, "draw"));
     const PastPoses<Real>* poses = kept_poses<Real>(past);
+    require_fraction(fraction);
     if (poses == nullptr) return plumb::draw(w, drawing, options_of(options));
     plumb::draw(w, *poses, fraction, drawing, options_of(options));
   });

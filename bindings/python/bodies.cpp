@@ -9,7 +9,7 @@ using py::arg;
 
 }  // namespace
 
-py::dict reading_of(const WorldPointer& held, const ContactReading& c) {
+py::dict reading_of(const WorldReference& held, const ContactReading& c) {
   py::list points, separations, impulses;
   for (int i = 0; i < c.count; ++i)
     points.append(c.points[i]), separations.append(c.separations[i]), impulses.append(c.impulses[i]);
@@ -20,7 +20,8 @@ py::dict reading_of(const WorldPointer& held, const ContactReading& c) {
 }
 
 void bind_bodies(py::module_& module) {
-  py::class_<HeldBody> body(module, "Body", "A body of a world: SI units, angles in rad.");
+  py::class_<HeldBody> body(module, "Body", traversed<HeldBody>(),
+                            "A body of a world: SI units, angles in rad.");
   body.def_property("position", PLUMB_READ(HeldBody, w.position(h.id)),
                     PLUMB_SET(HeldBody, Vec2d, w.set_position(h.id, value, w.angle(h.id))),
                     "m, of the origin")
@@ -186,7 +187,7 @@ void bind_bodies(py::module_& module) {
       .def(
           "destroy", [](const HeldBody& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); },
           "Destroys it with its shapes, contacts and joints.");
-  bind_common(body, "Body");
+  bind_common(body, "Body", "Its row in the world's arrays.");
 }
 
 }  // namespace plumb::python

@@ -20,7 +20,7 @@ namespace plumb::python {
 using HeldWorldClass = py::class_<HeldWorld, WorldPointer>;
 
 template <class Id>
-py::list handles(const WorldPointer& world, const std::vector<Id>& ids) {
+py::list handles(const WorldReference& world, const std::vector<Id>& ids) {
   py::list all;
   for (const Id id : ids) all.append(Held<Id>{world, id});
   return all;
@@ -28,15 +28,15 @@ py::list handles(const WorldPointer& world, const std::vector<Id>& ids) {
 
 /// Returns the number of `handle` in `world`. Throws `Error` (Value) if it is of another world, where the
 /// number would name another object.
-template <class Id>
-Id id_in(const WorldPointer& world, const Held<Id>& handle, const char* field) {
-  if (handle.world != world)
+template <class World, class Id>
+Id id_in(const World& world, const Held<Id>& handle, const char* field) {
+  if (!(handle.world == world))
     throw Error(Error::Kind::Value, "world", field, std::to_string(handle.id.index), "is of another world");
   return handle.id;
 }
 
 /// Returns a contact as a dict.
-py::dict reading_of(const WorldPointer& held, const ContactReading& c);
+py::dict reading_of(const WorldReference& held, const ContactReading& c);
 
 /// Returns the definition of a shape that is given as one, or as its geometry alone.
 inline ShapeDefinition definition_of(const std::variant<ShapeDefinition, ShapeGeometry>& given) {
@@ -48,10 +48,10 @@ inline ShapeDefinition definition_of(const std::variant<ShapeDefinition, ShapeGe
 
 /// Adds what each handle has: index, comparison, hash and text.
 template <class Class>
-void bind_common(Class& type, const char* name) {
+void bind_common(Class& type, const char* name, const char* about_index) {
   using Handle = typename Class::type;
   type.def_property_readonly(
-          "index", [](const Handle& h) { return h.id.index; }, "Its row in the world's arrays.")
+          "index", [](const Handle& h) { return h.id.index; }, about_index)
       .def(
           "__eq__", [](const Handle& a, const Handle& b) { return a == b; }, py::is_operator())
       .def("__hash__",

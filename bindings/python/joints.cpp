@@ -8,7 +8,7 @@ using py::arg;
 }  // namespace
 
 void bind_joints(py::module_& module) {
-  py::class_<HeldJoint> joint(module, "Joint", "A joint of two bodies.");
+  py::class_<HeldJoint> joint(module, "Joint", traversed<HeldJoint>(), "A joint of two bodies.");
   joint.def_property_readonly("valid", PLUMB_READ(HeldJoint, w.valid(h.id)))
       .def_property("user_data", PLUMB_READ(HeldJoint, w.user_data(h.id)),
                     PLUMB_SET(HeldJoint, std::uint64_t, w.set_user_data(h.id, value)))
@@ -53,7 +53,7 @@ void bind_joints(py::module_& module) {
           arg("force") = 0.0, arg("torque") = 0.0,
           "Sets the loads beyond which it is in World.events['loaded'], N and N m; 0: never.")
       .def("destroy", [](const HeldJoint& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
-  bind_common(joint, "Joint");
+  bind_common(joint, "Joint", "Its number among the world's joints; used again once it is destroyed.");
 }
 
 }  // namespace plumb::python

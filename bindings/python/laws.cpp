@@ -22,16 +22,22 @@ void apply(const WorldPointer& held, bool wakes, Call&& call) {
 struct HeldLawBody {
   HeldBody body;
   LawBody state;
+  template <class Visit>
+  void traverse(Visit&& visit) const {
+    body.traverse(visit);
+  }
 };
 
 /// Applies a function of a body's state that returns (x, y, torque).
 void apply_function(const WorldPointer& held, const std::function<py::object(HeldLawBody)>& law, double dt,
                     bool wakes) {
+  const WorldReference world = held;
   held->visit([&](auto& w) {
     plumb::apply_law(w,
                      [&](const LawBody& body) {
                        const auto [x, y, torque] = returned<std::tuple<double, double, double>>(
-                           law(HeldLawBody{{held, body.id}, body}), "a law", "(x, y, torque), three numbers");
+                           law(HeldLawBody{{world, body.id}, body}), "a law",
+                           "(x, y, torque), three numbers");
                        return Wrench<double>{{x, y}, torque};
                      },
                      {wakes, dt});
@@ -40,7 +46,8 @@ void apply_function(const WorldPointer& held, const std::function<py::object(Hel
 
 void bind_law_body(py::module_& module) {
   const auto state = [](auto member) { return [member](const HeldLawBody& b) { return b.state.*member; }; };
-  py::class_<HeldLawBody>(module, "LawBody", "State of a body, as passed to a law: SI units, angles in rad.")
+  py::class_<HeldLawBody>(module, "LawBody", traversed<HeldLawBody>(),
+                          "State of a body, as passed to a law: SI units, angles in rad.")
       .def_readonly("body", &HeldLawBody::body)
       .def_property_readonly("centre", state(&LawBody::centre), "m, of mass, (x, y).")
       .def_property_readonly("angle", state(&LawBody::angle))

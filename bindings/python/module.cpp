@@ -1,3 +1,4 @@
+#include "bindings/python/collected.h"
 #include "bindings/python/conversion.h"
 #include "engine/world/definitions.h"
 
@@ -87,6 +88,16 @@ void bind_definitions(py::module_& module) {
       .def_readwrite("user_data", &ShapeDefinition::user_data);
 }
 
+/// Refuses calls of objects that were made by `__new__` alone: pybind11 would pass memory that nothing has
+/// written.
+void refuse_uninitialised_objects(const py::module_& module) {
+  for (const auto& [name, each] : py::dict(module.attr("__dict__"))) {
+    if (!PyType_Check(each.ptr())) continue;
+    auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(each.ptr()));
+    if (info != nullptr) info->operator_new = [](std::size_t) -> void* { refuse_uninitialised(); };
+  }
+}
+
 }  // namespace plumb::python
 
 PYBIND11_MODULE(_plumb, module) {
@@ -98,4 +109,5 @@ PYBIND11_MODULE(_plumb, module) {
   bind_joint_kinds(module);
   bind_world(module);
   bind_simulation(module);
+  refuse_uninitialised_objects(module);
 }

@@ -40,7 +40,7 @@ void bind_query(HeldWorldClass& type, const char* name, Query query, const char*
       about);
 }
 
-py::dict hit_of(const WorldPointer& held, const auto& hit) {
+py::dict hit_of(const WorldReference& held, const auto& hit) {
   return py::dict(arg("shape") = HeldShape{held, hit.shape}, arg("body") = HeldBody{held, hit.body},
                   arg("point") = hit.point, arg("normal") = hit.normal);
 }
@@ -152,9 +152,11 @@ void bind_queries(HeldWorldClass& world) {
             return h->visit([&](auto& w) {
               const MoverResult r = move(w, capsule, position, velocity, dt, o);
               if (push) apply_pushes(w, r);
+              const bool stands = w.valid(r.ground);
+              const py::object ground = stands ? py::cast(HeldBody{h, r.ground}) : py::none();
               return py::dict(arg("position") = r.position, arg("velocity") = r.velocity,
                               arg("on_ground") = r.on_ground, arg("squeezed") = r.squeezed,
-                              arg("ground_normal") = r.ground_normal, arg("ground") = HeldBody{h, r.ground},
+                              arg("ground_normal") = r.ground_normal, arg("ground") = ground,
                               arg("ground_velocity") = r.ground_velocity);
             });
           },
@@ -163,7 +165,7 @@ void bind_queries(HeldWorldClass& world) {
           arg("skin") = 0.0, arg("mass") = 0.0, arg("push_force") = MoverOptions{}.push_force,
           arg("push") = true,
           "Moves a character, a capsule, by its velocity (m/s) for dt (s), stopped by bodies. Call it before "
-          "the step.");
+          "the step. In the dict, `ground` is the body that it stands on, or None.");
 }
 
 }  // namespace plumb::python

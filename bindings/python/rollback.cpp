@@ -10,8 +10,8 @@ using py::arg;
 /// The last states of a world, which it keeps alive.
 class HeldRollback {
  public:
-  HeldRollback(WorldPointer world, int frames)
-      : world_(std::move(world)), states_(world_->visit([&]<class Real>(BasicWorld<Real>& w) {
+  HeldRollback(const WorldPointer& world, int frames)
+      : world_(world), states_(world_->visit([&]<class Real>(BasicWorld<Real>& w) {
           return std::variant<Rollback<float>, Rollback<double> >(Rollback<Real>(w, frames));
         })) {}
 
@@ -22,23 +22,27 @@ class HeldRollback {
     world_->leave_views();
     std::visit([&](auto& states) { states.back_to(step); }, states_);
   }
+  template <class Visit>
+  void traverse(Visit&& visit) const {
+    world_.traverse(visit);
+  }
   template <class Read>
   auto read(Read&& read) const {
     return std::visit(std::forward<Read>(read), states_);
   }
 
  private:
-  WorldPointer world_;
+  WorldReference world_;
   std::variant<Rollback<float>, Rollback<double> > states_;
 };
 
 }  // namespace
 
 void bind_rollback(py::module_& module) {
-  py::class_<HeldRollback>(module, "Rollback",
+  py::class_<HeldRollback>(module, "Rollback", traversed<HeldRollback>(),
                            "The last states of a world in memory, for inputs that arrive late: go back, and "
                            "take the steps since then again. Keeps up to `frames` states, 1 to 10000.")
-      .def(py::init<WorldPointer, int>(), arg("world"), arg("frames"))
+      .def(py::init<const WorldPointer&, int>(), arg("world"), arg("frames"))
       .def(
           "save", [](HeldRollback& r) { r.save(); },
           "Saves the present state under its step count, instead of the oldest one if it is full.")

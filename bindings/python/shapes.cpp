@@ -9,7 +9,7 @@ using py::arg;
 }  // namespace
 
 void bind_shapes(py::module_& module) {
-  py::class_<HeldShape> shape(module, "Shape", "A shape of a body.");
+  py::class_<HeldShape> shape(module, "Shape", traversed<HeldShape>(), "A shape of a body.");
   shape.def_property_readonly("body", PLUMB_READ(HeldShape, (HeldBody{h.world, w.body(h.id)})))
       .def_property_readonly("valid", PLUMB_READ(HeldShape, w.valid(h.id)))
       .def_property_readonly("definition", PLUMB_READ(HeldShape, w.definition(h.id)),
@@ -99,14 +99,15 @@ void bind_shapes(py::module_& module) {
           "64 bits each: shapes touch if each one's category is in the other's mask; an equal group other "
           "than 0 decides.")
       .def("destroy", [](const HeldShape& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
-  bind_common(shape, "Shape");
+  bind_common(shape, "Shape",
+              "Its number among the world's shapes, as in World.contacts; used again once it is destroyed.");
 
-  py::class_<HeldChain> chain(module, "Chain", "A chain of segments of a body.");
+  py::class_<HeldChain> chain(module, "Chain", traversed<HeldChain>(), "A chain of segments of a body.");
   chain.def_property_readonly("valid", PLUMB_READ(HeldChain, w.valid(h.id)))
       .def_property_readonly("body", PLUMB_READ(HeldChain, (HeldBody{h.world, w.body(h.id)})))
       .def_property_readonly("segments", PLUMB_READ(HeldChain, handles(h.world, w.segments(h.id))))
       .def("destroy", [](const HeldChain& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
-  bind_common(chain, "Chain");
+  bind_common(chain, "Chain", "Its number among the world's chains; used again once it is destroyed.");
 }
 
 }  // namespace plumb::python

@@ -1,10 +1,12 @@
 #include "engine/simulation/simulation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <thread>
 
 #include "bindings/python/held_world.h"
+#include "bindings/python/interrupt.h"
 #include "engine/scene/json.h"
 #include "engine/world/snapshot.h"
 
@@ -37,7 +39,7 @@ struct HeldSimulation {
 
 std::string text_of(const py::object& scene) {
   if (py::isinstance<py::str>(scene)) return scene.cast<std::string>();
-  return py::module_::import("json").attr("dumps")(scene).cast<std::string>();
+  return py::module_::import("plumb._json").attr("text")(scene).cast<std::string>();
 }
 
 HeldSimulation compiled(const py::object& scene, const Accuracy& accuracy) {
@@ -58,16 +60,21 @@ class Batch {
   Batch(const WorldPointer& world, int count, const std::vector<HeldBody>& bodies, int threads)
       : threads_(threads) {
     require_count("batch", "count", count, 1), require_count("batch", "threads", threads, 1);
+    if (world->has_hooks()) {
+      throw Error(Error::Kind::Unsupported, "batch", "hooks", "",
+                  "of the world are not copied; take them off before (None), and give each copy its own hook "
+                  "by batch.world(index)");
+    }
     world->visit([&](auto& w) { initial_ = save(w); });
     for (const HeldBody& body : bodies) {
-      if (body.world != world)
+      if (!(body.world == world))
         throw Error(Error::Kind::Name, "batch", "bodies", std::to_string(body.id.index),
                     "is of another world");
       world->visit([&](auto& w) { w.position(body.id); });  // throws for the handle of a destroyed body
       ids_.push_back(body.id);
     }
     for (int i = 0; i < count; ++i) {
-      worlds_.push_back(world->visit([&]<class Real>(BasicWorld<Real>&) {
+      worlds_.emplace_back(world->visit([&]<class Real>(BasicWorld<Real>&) {
         BasicWorld<Real> copy;
         restore(copy, initial_);
         return std::make_shared<HeldWorld>(std::move(copy));
@@ -75,15 +82,20 @@ class Batch {
     }
   }
 
+  template <class Visit>
+  void traverse(Visit&& visit) const {
+    for (const WorldReference& world : worlds_) world.traverse(visit);
+  }
+
   int size() const { return static_cast<int>(worlds_.size()); }
   WorldPointer world(int index) const {
-    if (index >= 0 && index < size()) return worlds_[static_cast<std::size_t>(index)];
+    if (index >= 0 && index < size()) return worlds_[static_cast<std::size_t>(index)].pointer();
     throw Error(Error::Kind::Name, "batch", "index", std::to_string(index),
                 "the batch has " + std::to_string(size()) + " worlds, from 0");
   }
   std::vector<std::uint64_t> hashes() const {
     std::vector<std::uint64_t> all;
-    for (const WorldPointer& world : worlds_) all.push_back(world->visit([](auto& w) { return w.hash(); }));
+    for (const WorldReference& world : worlds_) all.push_back(world->visit([](auto& w) { return w.hash(); }));
     return all;
   }
 
@@ -100,10 +112,21 @@ class Batch {
     const double* given = actions ? actions->data() : nullptr;
     {
       const py::gil_scoped_release released;
+      std::atomic<bool> stopped = false;
       share([&](std::size_t first, std::size_t last) {
+        // Python runs handlers of signals on the calling thread, which has the first part.
+        InterruptCheck interrupted;
+        const auto check = [&] {
+          try {
+            if (first == 0) interrupted();
+          } catch (...) {
+            stopped = true;
+            throw;
+          }
+        };
         for (std::size_t i = first; i < last; ++i) {
           worlds_[i]->visit([&](auto& w) {
-            for (int k = 0; k < count; ++k) {
+            for (int k = 0; k < count && !stopped; ++k, check()) {
               for (std::size_t body = 0; given != nullptr && body < ids_.size(); ++body) {
                 const double* row = given + i * width + 3 * body;
                 w.apply_force(ids_[body], Vec2d{row[0], row[1]});
@@ -122,7 +145,7 @@ class Batch {
     py::array_t<double> out(
         {static_cast<py::ssize_t>(size()), static_cast<py::ssize_t>(ids_.size()), py::ssize_t{6}});
     double* to = out.mutable_data();
-    for (const WorldPointer& world : worlds_) {
+    for (const WorldReference& world : worlds_) {
       world->visit([&](auto& w) {
         for (const BodyId body : ids_) {
           const Vec2d position = w.position(body), velocity = w.velocity(body);
@@ -172,7 +195,7 @@ class Batch {
   int threads_;
   std::vector<std::byte> initial_;
   std::vector<BodyId> ids_;
-  std::vector<WorldPointer> worlds_;
+  std::vector<WorldReference> worlds_;
 };
 
 }  // namespace
@@ -213,7 +236,9 @@ void bind_simulation(py::module_& module) {
           "step",
           [](HeldSimulation& s, int count) {
             const py::gil_scoped_release released;
-            s.simulation.step(count);
+            InterruptCheck interrupted;
+            if (count < 1) return s.simulation.step(count);  // refuses negative ones
+            for (int i = 0; i < count; ++i) s.simulation.step(1), interrupted();
           },
           arg("count") = 1)
       .def_property_readonly(
@@ -305,9 +330,9 @@ void bind_simulation(py::module_& module) {
           },
           "The first missed bound as a sentence, or None.");
 
-  py::class_<Batch>(module, "Batch",
+  py::class_<Batch>(module, "Batch", traversed<Batch>(),
                     "Copies of a world that step side by side: `bodies` feel actions and are observed; "
-                    "`threads` share the worlds.")
+                    "`threads` share the worlds. Hooks are not copied: a world that has one is refused.")
       .def(py::init<const WorldPointer&, int, const std::vector<HeldBody>&, int>(), arg("world"),
            arg("count"), arg("bodies"), py::kw_only(), arg("threads") = 1)
       .def("__len__", [](const Batch& b) { return b.size(); })

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bindings/python/handles.h"
+#include "bindings/python/interrupt.h"
 #include "engine/driver/accuracy.h"
 #include "engine/scene/json.h"
 #include "engine/world/add_scene.h"
@@ -28,14 +29,15 @@ std::vector<ShapeDefinition> definitions_of(const Shapes& shapes) {
 
 std::string scene_text(const py::object& scene) {
   if (py::isinstance<py::str>(scene)) return scene.cast<std::string>();
-  return py::module_::import("json").attr("dumps")(scene).cast<std::string>();
+  return py::module_::import("plumb._json").attr("text")(scene).cast<std::string>();
 }
 
 py::dict events_of(const WorldPointer& held) {
   return held->visit([&](auto& w) {
     const Events& e = w.events();
-    const auto shape = [&](ShapeId id) { return HeldShape{held, id}; };
-    const auto body = [&](BodyId id) { return HeldBody{held, id}; };
+    const WorldReference world = held;
+    const auto shape = [&](ShapeId id) { return HeldShape{world, id}; };
+    const auto body = [&](BodyId id) { return HeldBody{world, id}; };
     const auto touches = [&](const std::vector<TouchEvent>& all) {
       py::list list;
       for (const TouchEvent& t : all) list.append(py::make_tuple(shape(t.shape_a), shape(t.shape_b)));
@@ -56,7 +58,7 @@ py::dict events_of(const WorldPointer& held) {
     for (const JointEvent& j : e.broken) broken.push_back(j.joint);
     py::list loaded;
     for (const JointLoadEvent& j : e.loaded) {
-      loaded.append(py::dict(arg("joint") = HeldJoint{held, j.joint}, arg("force") = j.force,
+      loaded.append(py::dict(arg("joint") = HeldJoint{world, j.joint}, arg("force") = j.force,
                              arg("torque") = j.torque));
     }
     for (const QuarantineEvent& q : e.quarantined) {
@@ -66,8 +68,8 @@ py::dict events_of(const WorldPointer& held) {
     }
     return py::dict(arg("begin") = touches(e.begin), arg("end") = touches(e.end), arg("hits") = hits,
                     arg("sensor_begin") = sensed(e.sensor_begin), arg("sensor_end") = sensed(e.sensor_end),
-                    arg("broken") = handles(held, broken), arg("loaded") = loaded,
-                    arg("fell_asleep") = handles(held, e.fell_asleep), arg("woke") = handles(held, e.woke),
+                    arg("broken") = handles(world, broken), arg("loaded") = loaded,
+                    arg("fell_asleep") = handles(world, e.fell_asleep), arg("woke") = handles(world, e.woke),
                     arg("quarantined") = quarantined);
   });
 }
@@ -96,10 +98,10 @@ WorldPointer make_world(Vec2d gravity, const std::string& precision, const std::
 }  // namespace
 
 void bind_world(py::module_& module) {
-  bind_bodies(module), bind_shapes(module), bind_joints(module);
+  bind_shapes(module), bind_bodies(module), bind_joints(module);
   const WorldDefinition d;
   HeldWorldClass bound(
-      module, "World",
+      module, "World", collected<HeldWorld>(),
       "A world of bodies, shapes and joints that advances in fixed steps. SI units, y up, angles in rad.\n\n"
       "Arrays of all bodies have a row for each index of a body (`Body.index`). `centres`, `angles`, "
       "`velocities` and "
@@ -122,7 +124,8 @@ void bind_world(py::module_& module) {
             require_count("step", "count", count, 0);
             h.visit([&](auto& w) {
               const py::gil_scoped_release released;
-              for (int i = 0; i < count; ++i) w.step(dt, substeps);
+              InterruptCheck interrupted;
+              for (int i = 0; i < count; ++i) w.step(dt, substeps), interrupted();
             });
           },
           arg("dt") = 1.0 / 60, arg("substeps") = 4, arg("count") = 1,
@@ -254,34 +257,34 @@ void bind_world(py::module_& module) {
           "woke (bodies).")
       .def(
           "on_pre_solve",
-          [](HeldWorld& h, std::optional<std::function<py::object(py::dict)>> hook) {
-            const std::weak_ptr<HeldWorld> world = h.weak_from_this();
+          [](HeldWorld& h, const std::optional<py::function>& hook) {
             h.visit([&](auto& w) {
               if (!hook) return w.on_pre_solve({});
-              w.on_pre_solve([hook = *hook, world](const ContactReading& c) {
+              w.on_pre_solve([&h](const ContactReading& c) {
                 const py::gil_scoped_acquire held;
-                return returned<bool>(hook(reading_of(world.lock(), c)), "the hook of on_pre_solve",
-                                      kTrueOrFalse);
+                return returned<bool>(h.pre_solve(reading_of(h.shared_from_this(), c)),
+                                      "the hook of on_pre_solve", kTrueOrFalse);
               });
             });
+            h.pre_solve = hook ? py::object(*hook) : py::object();
           },
-          arg("hook"),
+          arg("hook").none(true),
           "Calls hook(contact) for contacts of shapes with pre_solve; False disables one in this step.")
       .def(
           "on_filter",
-          [](HeldWorld& h, std::optional<std::function<py::object(HeldShape, HeldShape)>> filter) {
-            const std::weak_ptr<HeldWorld> world = h.weak_from_this();
+          [](HeldWorld& h, const std::optional<py::function>& filter) {
             h.visit([&](auto& w) {
               if (!filter) return w.on_filter({});
-              w.on_filter([filter = *filter, world](ShapeId a, ShapeId b) {
+              w.on_filter([&h](ShapeId a, ShapeId b) {
                 const py::gil_scoped_acquire held;
-                const WorldPointer own = world.lock();
-                return returned<bool>(filter(HeldShape{own, a}, HeldShape{own, b}), "the filter of on_filter",
-                                      kTrueOrFalse);
+                const WorldReference own = h.shared_from_this();
+                return returned<bool>(h.filter(HeldShape{own, a}, HeldShape{own, b}),
+                                      "the filter of on_filter", kTrueOrFalse);
               });
             });
+            h.filter = filter ? py::object(*filter) : py::object();
           },
-          arg("filter"),
+          arg("filter").none(true),
           "Calls filter(a, b) for shapes that come near each other and that their filters let touch; False: "
           "they do "
           "not collide. It must depend on the world's state alone.");

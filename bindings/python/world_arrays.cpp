@@ -11,15 +11,12 @@ using py::arg;
 
 /// Returns the object that keeps viewed memory alive: one for all arrays that are there at a time.
 py::object base_of(HeldWorld& held) {
-  struct Base {
-    std::shared_ptr<ViewedMemory> memory;
-    WorldPointer world;
-  };
+  using Owner = std::shared_ptr<ViewedMemory>;
   if (const std::shared_ptr<ViewedMemory> memory = held.viewed.lock())
     return py::reinterpret_borrow<py::object>(static_cast<PyObject*>(memory->base));
   const auto memory = std::make_shared<ViewedMemory>();
-  py::object base = py::capsule(new Base{memory, held.shared_from_this()},
-                                [](void* pointer) { delete static_cast<Base*>(pointer); });
+  py::object base =
+      py::capsule(new Owner(memory), [](void* pointer) { delete static_cast<Owner*>(pointer); });
   memory->base = base.ptr();
   held.viewed = memory;
   return base;

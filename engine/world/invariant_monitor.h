@@ -35,14 +35,16 @@ struct MonitorBounds {
 template <class Real>
 class InvariantMonitor {
  public:
-  /// Monitors a world, which must outlive the monitor.
+  /// Monitors a world, which must outlive the monitor. Throws Error (Value) for a bound that is negative or
+  /// NaN.
   explicit InvariantMonitor(const BasicWorld<Real>& world, const MonitorBounds& bounds = {});
 
   /// Records the state before a step: call it after the forces of the step were applied.
   void begin_step();
 
   /// Returns the first bound that was exceeded for `lasting` consecutive steps: `Error` (Run) names the body
-  /// or the joint's bodies, the value and the bound.
+  /// or the joint's bodies, the value and the bound. Throws Error (Unsupported) if `begin_step` was not called
+  /// before.
   std::optional<Error> end_step();
 
   /// Accepts the current state as a new start: call it after bodies were moved, or a snapshot was restored.
@@ -73,6 +75,7 @@ class InvariantMonitor {
   MonitorBounds bounds_;
   std::vector<State> before_;  // by body
   std::vector<Violation> gaps_, overlaps_, previous_;
+  bool in_step_ = false;           // begun, and not ended
   double energy_gain_ = 0;         // J, above the lowest balance since the start
   double max_kinetic_energy_ = 0;  // J, the largest kinetic energy so far
   int energy_violation_steps_ = 0;

@@ -38,6 +38,13 @@ TEST(Usage, AFullMediumIsAnErrorForEveryKindOfOutput) {
   }
 }
 
+TEST(Usage, AFullMediumIsAnErrorForTheBenchmarksToo) {
+  if (!std::filesystem::exists(std::filesystem::path(PLUMB_PROGRAM).parent_path() / "plumb_bench"))
+    GTEST_SKIP() << "plumb_bench is not built";
+  const int status = std::system("\"" PLUMB_PROGRAM "\" bench --benchmark_list_tests >/dev/full 2>/dev/null");
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+}
+
 // Runs the examples of each --help for half a second, as a shell does, in one folder for each subcommand: an
 // error of usage, or of a folder that another example uses, comes at once. Their files need not exist.
 TEST(Usage, ExamplesInHelpTextsRunAsPrinted) {

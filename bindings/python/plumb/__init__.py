@@ -5,6 +5,7 @@ Batch steps copies of a world side by side. compare, tune and hunt call the harn
 matplotlib.
 """
 
+from ._contact import Contact
 from ._errors import (Error, FileError, InvalidValue, RunError, SceneSyntaxError, UnknownName, Unsupported)
 from ._plumb import (Batch, Body, Box, Capsule, Chain, Circle, Distance, Friction, Gear, Joint, LawBody, Motor, Mouse,
                      Polygon, Prismatic, Pulley, Ratchet, Revolute, Rollback, Segment, Shape, ShapeDefinition, Simulation, Weld,
@@ -12,7 +13,7 @@ from ._plumb import (Batch, Body, Box, Capsule, Chain, Circle, Distance, Frictio
 from .harness import compare, hunt, tune
 
 __all__ = [
-    "Batch", "Body", "Box", "Capsule", "Chain", "Circle", "Distance", "Error", "FileError", "Friction", "Gear",
+    "Batch", "Body", "Box", "Capsule", "Chain", "Circle", "Contact", "Distance", "Error", "FileError", "Friction", "Gear",
     "InvalidValue", "Joint", "LawBody", "Motor", "Mouse", "Polygon", "Prismatic", "Pulley", "Ratchet", "Revolute",
     "Rollback", "RunError", "SceneSyntaxError", "Segment", "Shape", "ShapeDefinition", "Simulation", "UnknownName", "Unsupported", "Weld",
     "Wheel", "World", "__version__", "compare", "hunt", "scene_from_json", "tune",

@@ -11,7 +11,9 @@ import shutil
 import signal
 import subprocess
 import tempfile
+from collections.abc import Mapping
 
+from . import _json
 from ._errors import Error, FileError
 
 # Exit codes of the program: what it was asked for is in its output with both of these.
@@ -106,9 +108,11 @@ def _named(cases, folder):
         if isinstance(case, (str, os.PathLike)):
             names.append(os.fspath(case))
             continue
+        if not isinstance(case, Mapping):
+            raise TypeError(f"a case is a name, a path or a dict, not {case!r}")
         path = pathlib.Path(folder) / f"{number}" / f"{case.get('name') or 'case'}.json".replace("/", "_")
         path.parent.mkdir()
-        path.write_text(json.dumps(case))
+        path.write_text(_json.text(case))
         names.append(str(path))
     return names
 

@@ -20,6 +20,19 @@ constexpr double kRoundings = 64;
 /// in the step before.
 constexpr double kShrinking = 0.998;
 
+void validate(const MonitorBounds& bounds) {
+  const auto require_bound = [](const char* field, double value) {
+    if (value >= 0) return;  // infinity: never missed
+    throw Error(Error::Kind::Value, "monitor", field, shortest(value), "must be a number from 0");
+  };
+  require_bound("joint_gap", bounds.joint_gap), require_bound("overlap", bounds.overlap);
+  require_bound("energy", bounds.energy);
+  if (bounds.lasting < 1) {
+    throw Error(Error::Kind::Value, "monitor", "lasting", std::to_string(bounds.lasting),
+                "must be at least 1 step");
+  }
+}
+
 template <class Kind>
 constexpr bool kHasSpring = requires(const Kind& kind) {
   kind.spring.has_value();
@@ -46,7 +59,9 @@ bool is_drive(const JointKind& kind) {
 
 template <class Real>
 InvariantMonitor<Real>::InvariantMonitor(const BasicWorld<Real>& world, const MonitorBounds& bounds)
-    : world_(&world), bounds_(bounds) {}
+    : world_(&world), bounds_(bounds) {
+  validate(bounds);
+}
 
 template <class Real>
 void InvariantMonitor<Real>::reset() {
@@ -58,6 +73,7 @@ void InvariantMonitor<Real>::reset() {
 template <class Real>
 void InvariantMonitor<Real>::begin_step() {
   const WorldData<Real>& w = world_->data();
+  in_step_ = true;
   before_.assign(static_cast<std::size_t>(w.bodies.size()), State{});
   for (const int body : w.awake) {
     const BodyRecord<Real>& record = w.bodies[body];
@@ -78,6 +94,11 @@ void InvariantMonitor<Real>::begin_step() {
 
 template <class Real>
 std::optional<Error> InvariantMonitor<Real>::end_step() {
+  if (!in_step_) {
+    throw Error(Error::Kind::Unsupported, "monitor", "", "",
+                "cannot end a step that it has not begun; begin it before each step");
+  }
+  in_step_ = false;
   if (auto error = check_joints()) return error;
   if (auto error = check_overlaps()) return error;
   return check_energy();

@@ -8,6 +8,7 @@
 #include "engine/math/trigonometry.h"
 #include "engine/world/forces/law_bodies.h"
 #include "engine/world/state/lock.h"
+#include "engine/world/state/validate.h"
 
 namespace plumb {
 namespace {
@@ -187,6 +188,7 @@ void SceneForces<Real>::add_drag() {
 
 template <class Real>
 void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
+  require_positive("scene forces", "dt", dt);
   if (empty()) return;
   const double start = world.time(), end = start + dt;
   read_states(world);
@@ -204,6 +206,7 @@ void SceneForces<Real>::apply(BasicWorld<Real>& world, double dt) {
 
 template <class Real>
 void SceneForces<Real>::apply_at_start(BasicWorld<Real>& world, double dt) {
+  require_positive("scene forces", "dt", dt);
   if (empty()) return;
   read_states(world);
   laws_.add(world.time(), world.time() + dt, poses_.data(), twists_.data(), wrenches_.data());

@@ -214,6 +214,13 @@ TEST_F(C, PosesBetweenTwoStepsAreThoseOfTheOrigins) {
   plumb_pose poses[2];
   ASSERT_EQ(plumb_past_poses_between(past, world, 0.5, poses, 2), 2u);
   EXPECT_NEAR(poses[1].position.x, plumb_body_position(world, late).x, 1e-6);
+  plumb_clear_error();
+  EXPECT_EQ(plumb_past_poses_between(past, world, std::nan(""), poses, 2), 0u);
+  EXPECT_STREQ(plumb_last_error().field, "fraction");
+  plumb_clear_error();
+  const plumb_debug_draw draw{};
+  EXPECT_EQ(plumb_world_draw_between(world, past, std::nan(""), &draw, nullptr), PLUMB_VALUE);
+  EXPECT_STREQ(plumb_last_error().field, "fraction");
   plumb_past_poses_destroy(past);
 }
 

@@ -274,6 +274,13 @@ TEST_F(C, ScenesBringTheirForceLaws) {
     cpp.step(kDt, 4);
   }
   EXPECT_EQ(plumb_world_hash(world), cpp.hash());
+  const uint64_t before = plumb_world_full_hash(world);
+  for (const double dt : {-kDt, 0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(plumb_scene_apply_forces(scene, dt), PLUMB_VALUE) << dt;
+    EXPECT_STREQ(plumb_last_error().field, "dt");
+  }
+  EXPECT_EQ(plumb_world_full_hash(world), before);
+  EXPECT_EQ(plumb_world_quarantined(world, nullptr, 0), 0u);
   plumb_scene_destroy(scene);
   EXPECT_TRUE(plumb_body_valid(world, ball));
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -139,6 +140,30 @@ TEST_F(C, TheMonitorNamesTheBoundThatIsMissed) {
   strict.lasting = 1;
   EXPECT_EQ(run(&strict), PLUMB_RUN);
   EXPECT_THAT(plumb_last_error().message, HasSubstr("overlap"));
+}
+
+TEST_F(C, TheMonitorRefusesBoundsThatNothingMeetsAndStepsThatWereNotBegun) {
+  for (double plumb_monitor_bounds::*bound :
+       {&plumb_monitor_bounds::joint_gap, &plumb_monitor_bounds::overlap, &plumb_monitor_bounds::energy}) {
+    for (const double value : {-1.0, std::nan("")}) {
+      plumb_monitor_bounds bounds = plumb_default_monitor();
+      bounds.*bound = value;
+      EXPECT_EQ(plumb_monitor_create(world, &bounds), nullptr) << value;
+      EXPECT_EQ(plumb_last_error().status, PLUMB_VALUE);
+    }
+  }
+  plumb_monitor_bounds bounds = plumb_default_monitor();
+  bounds.lasting = 0;
+  EXPECT_EQ(plumb_monitor_create(world, &bounds), nullptr);
+  EXPECT_STREQ(plumb_last_error().field, "lasting");
+
+  plumb_monitor* monitor = plumb_monitor_create(world, nullptr);
+  EXPECT_EQ(plumb_monitor_end_step(monitor), PLUMB_UNSUPPORTED);
+  EXPECT_EQ(plumb_monitor_begin_step(monitor), PLUMB_OK);
+  plumb_world_step(world, kDt, 4);
+  EXPECT_EQ(plumb_monitor_end_step(monitor), PLUMB_OK);
+  EXPECT_EQ(plumb_monitor_end_step(monitor), PLUMB_UNSUPPORTED);
+  plumb_monitor_destroy(monitor);
 }
 
 TEST_F(C, SettingsAndStatesReadBack) {

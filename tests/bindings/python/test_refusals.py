@@ -1,8 +1,11 @@
 """The Python module: wrong arguments and wrong results of hooks and laws raise typed errors, and nothing crashes."""
 
+import ast
+import pathlib
 import subprocess
 import sys
 
+import numpy
 import plumb
 import pytest
 
@@ -24,6 +27,39 @@ def test_none_where_an_object_belongs_is_a_type_error(call):
     program = f"import plumb\ntry:\n    {call}\nexcept TypeError:\n    print('refused')"
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (run.returncode, run.stdout) == (0, "refused\n"), run.stderr
+
+
+def test_signatures_and_stubs_name_what_python_has():
+    for name, made in vars(plumb).items():
+        for member, value in vars(made).items() if isinstance(made, type) else ():
+            assert "plumb::" not in (getattr(value, "__doc__", None) or ""), f"{name}.{member}"
+    stub = ast.parse(pathlib.Path(plumb.__file__).with_name("__init__.pyi").read_text())
+    missing = [each.name for each in stub.body if isinstance(each, (ast.ClassDef, ast.FunctionDef)) and not hasattr(plumb, each.name)]
+    assert missing == []
+    assert all("array" not in made.index.__doc__ for made in (plumb.Shape, plumb.Chain, plumb.Joint))
+
+
+def test_a_character_in_the_air_has_no_ground():
+    world = plumb.World()
+    floor = world.create_body(plumb.Box(20, 2), type="static", position=(0, -1))
+    capsule = plumb.Capsule((0, 0.3), (0, 1), 0.3)
+    assert world.move(capsule, (0, 9), (0, 0), 1 / 60)["ground"] is None
+    assert world.move(capsule, (0, 0.01), (0, -1), 1 / 60)["ground"] == floor
+
+
+def test_scenes_may_have_numbers_and_arrays_of_numpy():
+    scene = {"gravity": numpy.array([0, -4.0]), "bodies": [{"name": "a", "position": numpy.ones(2), "mass": numpy.float32(2),
+                                                           "shapes": [{"type": "circle", "radius": numpy.float64(0.5)}]}]}
+    assert plumb.World().add_scene(scene)["a"].position == (1, 1)
+    assert plumb.Simulation.realtime(scene).state("a")["position"] == (1, 1)
+    with pytest.raises(TypeError, match="scene"):
+        plumb.World().add_scene({"bodies": [object()]})
+
+
+def test_cases_that_are_none_are_a_type_error():
+    for call in (lambda: plumb.compare(None), lambda: plumb.compare(5), lambda: plumb.tune(None)):
+        with pytest.raises(TypeError, match="a case is"):
+            call()
 
 
 def two_bodies():
