@@ -43,8 +43,8 @@ class InvariantMonitor {
   void begin_step();
 
   /// Returns the first bound that was exceeded for `lasting` consecutive steps: `Error` (Run) names the body
-  /// or the joint's bodies, the value and the bound. Throws Error (Unsupported) if `begin_step` was not called
-  /// before.
+  /// or the joint's bodies, the value and the bound. Throws Error (Unsupported) if `begin_step` was not
+  /// called before.
   std::optional<Error> end_step();
 
   /// Accepts the current state as a new start: call it after bodies were moved, or a snapshot was restored.

@@ -138,16 +138,13 @@ class WarmStartedBodies {
   std::size_t count_ = 0;
 };
 
-// Returns true if two bodies move relative to each other at a contact by more than `tolerance`, m/s.
+// Returns true if points of a contact approach or part by more than `tolerance`, m/s.
 template <class Real>
-bool is_moving(const ContactConstraint<Real>& c, const SolverBody<Real>& a, const SolverBody<Real>& b,
-               Real tolerance) {
-  const Vec2<Real> n = c.normal, t{n.y, -n.x}, relative = b.velocity - a.velocity;
-  const Real slip = dot(t, relative) + c.arm_tangent_b * b.angular_velocity -
-                    c.arm_tangent_a * a.angular_velocity - c.surface_speed;
-  if (std::abs(slip) > tolerance) return true;
+bool closes_or_opens(const ContactConstraint<Real>& c, const SolverBody<Real>& a, const SolverBody<Real>& b,
+                     Real tolerance) {
   for (int i = 0; i < c.count; ++i) {
-    const Real rate = dot(n, relative) + c.arm_b[i] * b.angular_velocity - c.arm_a[i] * a.angular_velocity;
+    const Real rate = dot(c.normal, b.velocity - a.velocity) + c.arm_b[i] * b.angular_velocity -
+                      c.arm_a[i] * a.angular_velocity;
     if (std::abs(rate) > tolerance) return true;
   }
   return false;
@@ -184,8 +181,8 @@ bool needs_one_system(const WorldData<Real>& w, const DirectIsland<Real>& island
   return std::any_of(island.contacts.begin(), island.contacts.end(), [&](const ContactConstraint<Real>* c) {
     const int a = c->body_a, b = c->body_b;
     return (is_near(w, *c, 0, dt) || (c->count == 2 && is_near(w, *c, 1, dt))) &&
-           (is_moving(*c, w.motion[a], w.motion[b], fall) ||
-            is_moving(*c, warm_started[a], warm_started[b], fall));
+           (closes_or_opens(*c, w.motion[a], w.motion[b], fall) ||
+            closes_or_opens(*c, warm_started[a], warm_started[b], fall));
   });
 }
 

@@ -865,13 +865,14 @@ typedef struct plumb_monitor_bounds {
   int lasting;      /* successive steps for which a bound must be missed */
 } plumb_monitor_bounds;
 PLUMB_API plumb_monitor_bounds plumb_default_monitor(void);
-/* `bounds` may be NULL; negative ones are refused. The world must outlive it. Create it after `plumb_world_record`, if at all. */
+/* `bounds` may be NULL; negative ones are refused. The world must outlive it. Create it after
+ * `plumb_world_record`, if at all. */
 PLUMB_API plumb_monitor* plumb_monitor_create(const plumb_world* world, const plumb_monitor_bounds* bounds);
 PLUMB_API void plumb_monitor_destroy(plumb_monitor* monitor);
 /* Before a step, after the forces of it were applied. */
 PLUMB_API plumb_status plumb_monitor_begin_step(plumb_monitor* monitor);
-/* After a step that was begun: PLUMB_RUN if a bound was missed for `lasting` steps on end, and the error names
- * it. */
+/* After a step that was begun: PLUMB_RUN if a bound was missed for `lasting` steps on end, and the error
+ * names it. */
 PLUMB_API plumb_status plumb_monitor_end_step(plumb_monitor* monitor);
 /* Accepts the present state: after bodies were moved, or a snapshot was restored. */
 PLUMB_API plumb_status plumb_monitor_reset(plumb_monitor* monitor);
@@ -884,9 +885,8 @@ typedef struct plumb_past_poses plumb_past_poses;
 PLUMB_API plumb_past_poses* plumb_past_poses_create(void);
 PLUMB_API void plumb_past_poses_destroy(plumb_past_poses* past);
 PLUMB_API plumb_status plumb_past_poses_keep(plumb_past_poses* past, const plumb_world* world);
-/* The poses at `fraction` between the kept ones (0) and the present ones (1), like `plumb_world_poses`; beyond
- * 0 to 1 motions are continued.
- * Bodies created since have their present pose. */
+/* The poses at `fraction` between the kept ones (0) and the present ones (1), like `plumb_world_poses`;
+ * beyond 0 to 1 motions are continued. Bodies created since have their present pose. */
 PLUMB_API size_t plumb_past_poses_between(const plumb_past_poses* past, const plumb_world* world,
                                           double fraction, plumb_pose* out, size_t capacity);
 
