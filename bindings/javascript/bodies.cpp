@@ -1,29 +1,41 @@
+#include "bindings/c/handle.h"
 #include "bindings/javascript/buffer.h"
 
+using namespace plumb::c;
 using namespace plumb::javascript;
 
 extern "C" {
 
+/// Reads the definition from the numbers, and the name from the bytes.
 PLUMB_EXPORT("body_create") double* js_body_create(plumb_world* w) {
+  // Kept from call to call: nothing would free them when the world refuses one of them.
+  static plumb::BodyDefinition d;
+  static std::vector<plumb::ShapeDefinition> shapes;
+  static ShapeInput input;
   Reader r;
-  plumb_body_definition d = plumb_default_body();
-  d.type = static_cast<plumb_body_type>(r.integer());
-  d.position = r.point(), d.angle = r.number();
-  d.velocity = r.point(), d.angular_velocity = r.number();
-  d.mass_given = r.flag(), d.mass.mass = r.number(), d.mass.centre = r.point(), d.mass.inertia = r.number();
+  d.type = static_cast<plumb::BodyType>(r.integer());
+  d.position = in(r.point()), d.angle = r.number();
+  d.velocity = in(r.point()), d.angular_velocity = r.number();
+  const bool mass_given = r.flag();
+  const double mass = r.number();
+  const plumb_vec2 centre = r.point();
+  const double inertia = r.number();
+  d.mass.reset();
+  if (mass_given) d.mass = {mass, in(centre), inertia};
   d.gravity_scale = r.number(), d.linear_damping = r.number(), d.angular_damping = r.number();
   d.lock_x = r.flag(), d.lock_y = r.flag(), d.lock_rotation = r.flag();
   d.may_sleep = r.flag(), d.awake = r.flag(), d.continuous = r.flag();
   d.user_data = r.wide();
   bytes.push_back(0);
   d.name = reinterpret_cast<const char*>(bytes.data());
-  std::vector<ShapeInput> inputs(r.bits());
-  std::vector<plumb_shape_definition> shapes;
-  for (ShapeInput& input : inputs) {
+  shapes.clear();
+  const std::uint32_t count = r.bits();
+  for (std::uint32_t i = 0; i < count; ++i) {
     read(r, input);
-    shapes.push_back(input.definition);
+    shapes.push_back(in(input.definition));
   }
-  return Writer().id(plumb_body_create(w, &d, shapes.data(), shapes.size())).done();
+  const plumb_body made = change(w, [&](auto& world) { return out(world.create_body(d, shapes)); });
+  return Writer().id(made).done();
 }
 
 #define PLUMB_BODY_CALL(name, call, ...)                                                              \

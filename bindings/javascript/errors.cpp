@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <string>
 #include <typeinfo>
 
 #include "bindings/javascript/buffer.h"
@@ -13,12 +14,16 @@ void js_fail(int kind, const char* sentence, const char* subject, const char* fi
 void* __cxa_allocate_exception(std::size_t size) throw() { return std::malloc(size); }
 
 // Debian's C++ runtime for WebAssembly cannot unwind: no `catch` runs, so nothing adds to the message on the
-// way out.
+// way out, and nothing destroys the exception. Its texts are kept until the next one instead.
 [[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*)(void*)) {
   if (*type == typeid(plumb::Error)) {
-    const auto& error = *static_cast<const plumb::Error*>(thrown);
-    js_fail(static_cast<int>(error.kind()), error.what(), error.subject().c_str(), error.field().c_str(),
-            error.value().c_str());
+    auto& error = *static_cast<plumb::Error*>(thrown);
+    static std::string sentence, subject, field, value;
+    const int kind = static_cast<int>(error.kind());
+    sentence = error.what(), subject = error.subject(), field = error.field(), value = error.value();
+    error.~Error();  // by name: in WebAssembly the function that is passed has another signature
+    std::free(thrown);
+    js_fail(kind, sentence.c_str(), subject.c_str(), field.c_str(), value.c_str());
   } else {
     js_fail(-1, type->name(), "", "", "");
   }

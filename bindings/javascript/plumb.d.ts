@@ -258,7 +258,7 @@ export interface QueryFilter {
   sensors?: boolean;
   ignore?: Body;
   /** tested last; must not change the world */
-  condition?: (shape: Shape) => boolean;
+  condition?: (shape: Shape) => boolean | void;
 }
 export interface Hit { shape: Shape; body: Body; point: Vec2; normal: Vec2 }
 export interface MoverOptions {
@@ -415,12 +415,14 @@ export class World {
   readonly quarantined: {body: Body; field: string; value: number; step: number}[];
   readonly contacts: Contact[];
   readonly events: Events;
-  onPreSolve(hook: ((contact: Contact) => boolean) | null): void;
+  /** Asked about contacts of shapes with `preSolve`, in a step; false drops one in this step, and no result keeps it. An
+   * error of a hook is thrown by `step` once the step is finished; in this one nothing more is asked, and all act. */
+  onPreSolve(hook: ((contact: Contact) => boolean | void) | null): void;
   /** Asked about shapes that come near each other and that their filters let touch; false: they do not collide. It
-   * must depend on the world's state alone. */
-  onFilter(filter: ((a: Shape, b: Shape) => boolean) | null): void;
+   * must depend on the world's state alone. Errors are thrown as by `onPreSolve`. */
+  onFilter(filter: ((a: Shape, b: Shape) => boolean | void) | null): void;
   save(): Uint8Array;
-  restore(bytes: Uint8Array): void;
+  restore(bytes: Uint8Array | ArrayBuffer): void;
   rayCast(origin: Vec2, translation: Vec2, filter?: QueryFilter): (Hit & {fraction: number}) | null;
   /** all hits, sorted by fraction */
   rayCastAll(origin: Vec2, translation: Vec2, filter?: QueryFilter): (Hit & {fraction: number})[];

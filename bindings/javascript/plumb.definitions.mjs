@@ -43,55 +43,99 @@ function known(fields, object, subject) {
 export function listed(list, field) {
   return Array.isArray(list) ? list : refuse(field, list, "must be an array");
 }
-/// Refuses a handle of another world than `world`: its numbers would name another object.
-export function own(world, handle, field) {
-  if (handle?.world !== world) refuse(field, handle?.world ? "of another world" : handle, "must be of this world");
+/// Refuses a handle of another kind, or of another world than `world`: its numbers would name another object.
+export function own(world, handle, field, kind = "Body") {
+  if (handle?._kind !== kind) refuse(field, handle?._kind ? `a ${handle._kind}` : handle, `must be a ${kind}`);
+  if (handle.world !== world) refuse(field, "of another world", "must be of this world");
   return handle;
 }
 
-export const flag = (value) => (value ? 1 : 0);
-function wide(value = 0) {
-  const bits = BigInt.asUintN(64, BigInt(value));
-  return [Number(bits & 0xFFFFFFFFn), Number(bits >> 32n)];
+// WebAssembly and `BigInt` take almost anything for a number: what is none is refused here. Ranges are the engine's.
+export function number(value, field) {
+  return typeof value === "number" ? value : refuse(field, value, "must be a number");
+}
+/// Returns an integer of 32 bits.
+export function whole(value, field, least = -(2 ** 31), most = 2 ** 31 - 1) {
+  if (Number.isInteger(value) && value >= least && value <= most) return value;
+  return refuse(field, value, `must be a whole number from ${least} to ${most}`);
+}
+export function flag(value, field) {
+  return typeof value === "boolean" ? Number(value) : refuse(field, value, "must be true or false");
+}
+/// Returns the flag that `field` of `object` has, or `otherwise`.
+const flagOf = (object, field, otherwise = false) => flag(object[field] ?? otherwise, field);
+/// Returns 64 bits of a whole number; a negative one stands for the same bits, as -1 for all.
+export function bits(value, field) {
+  const ok = typeof value === "bigint" || Number.isInteger(value), wanted = ok ? BigInt(value) : 0n;
+  if (!ok || wanted < -(2n ** 63n) || wanted >= 2n ** 64n)
+    refuse(field, value, "must be a whole number of 64 bits: a bigint, or a number");
+  return BigInt.asUintN(64, wanted);
+}
+function wide(value, field) {
+  const all = bits(value ?? 0, field);
+  return [Number(all & 0xFFFFFFFFn), Number(all >> 32n)];
 }
 export function pair(p, field = "position") {
   if (typeof p?.x !== "number" || typeof p?.y !== "number") refuse(field, p, "must be {x, y}");
   return [p.x, p.y];
 }
+/// Returns a function, or null for none.
+export function called(value, field) {
+  return value == null || typeof value === "function" ? value ?? null : refuse(field, value, "must be a function or null");
+}
+/// Returns a hook's answer: nothing is yes.
+export function answered(value, field) {
+  return value === undefined || typeof value === "boolean" ? value !== false
+    : refuse(field, value, "must return true, false or nothing");
+}
+/// Returns the bytes of a buffer or of a view of one.
+export function bytesOf(value, field) {
+  if (value instanceof Uint8Array) return value;
+  if (value instanceof ArrayBuffer) return new Uint8Array(value);
+  return ArrayBuffer.isView(value) ? new Uint8Array(value.buffer, value.byteOffset, value.byteLength)
+    : refuse(field, value, "must be a Uint8Array or an ArrayBuffer");
+}
+/// Returns a text.
+export function textOf(value, field) {
+  return typeof value === "string" ? value : refuse(field, value, "must be a string");
+}
+/// Returns the numbers that `object` has in fields, or those that stand here for missing ones.
+const numbersOf = (object, otherwise) => Object.keys(otherwise).map((field) => number(object[field] ?? otherwise[field], field));
 const kGeometryFields = {
   circle: new Set(["radius"]), box: new Set(["width", "height"]), capsule: new Set(["start", "end", "radius"]),
   polygon: new Set(["points", "radius"]), segment: new Set(["start", "end"]),
 };
 export function geometryOf(shape) {
+  if (shape === null || typeof shape !== "object") refuse("shape", shape, `must have one of ${kNames.shape.join(", ")}`);
   const given = kNames.shape.filter((kind) => shape[kind] !== undefined);
   if (given.length !== 1) refuse("shape", given.join(" and ") || "empty", `must have one of ${kNames.shape.join(", ")}`);
   const kind = given[0], g = known(kGeometryFields[kind], shape[kind], `a ${kind}`), zero = {x: 0, y: 0};
   const points = listed(g.points ?? [], "points");
-  return [named("shape", kind), g.radius ?? 0, g.width ?? 0, g.height ?? 0, ...pair(g.start ?? zero, "start"),
+  return [named("shape", kind), ...numbersOf(g, {radius: 0, width: 0, height: 0}), ...pair(g.start ?? zero, "start"),
     ...pair(g.end ?? zero, "end"), points.length, ...points.flatMap((p) => pair(p, "points"))];
 }
 const kMaterialFields = new Set(["friction", "restitution", "rollingResistance", "surfaceSpeed"]);
 export const knownMaterial = (m) => known(kMaterialFields, m, "a material");
 const kChainFields = new Set(["points", "closed", "filter", "sensor", "hitEvents", "preSolve", "userData", ...kMaterialFields]);
 export function chainOf(chain) {
-  const {points, closed, filter, sensor, hitEvents, preSolve, userData} = known(kChainFields, chain, "a chain");
-  return [flag(closed), ...materialOf(chain), ...filterOf(filter), flag(sensor), flag(hitEvents), flag(preSolve),
-    ...wide(userData), listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
+  const {points, filter, userData} = known(kChainFields, chain, "a chain");
+  return [flagOf(chain, "closed"), ...materialOf(chain), ...filterOf(filter), flagOf(chain, "sensor"),
+    flagOf(chain, "hitEvents"), flagOf(chain, "preSolve"), ...wide(userData, "userData"),
+    listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
 }
 export function materialOf(m) {
-  return [m.friction ?? 0.6, m.restitution ?? 0, m.rollingResistance ?? 0, m.surfaceSpeed ?? 0];
+  return numbersOf(m, {friction: 0.6, restitution: 0, rollingResistance: 0, surfaceSpeed: 0});
 }
 const kFilterFields = new Set(["category", "mask", "group"]);
 export function filterOf(f = {}) {
   known(kFilterFields, f, "a filter");
-  return [...wide(f.category ?? 1), ...wide(f.mask ?? -1), f.group ?? 0];
+  return [...wide(f.category ?? 1, "category"), ...wide(f.mask ?? -1, "mask"), whole(f.group ?? 0, "group")];
 }
 const wideAt = (n, at) => BigInt(n[at]) | BigInt(n[at + 1]) << 32n;
 export const filterAt = (n) => ({category: wideAt(n, 0), mask: wideAt(n, 2), group: n[4]});
 const kThresholds = new Set(["hit", "bounce", "sleep"]);
 export function thresholdsOf(t) {
-  const {hit = -1, bounce = -1, sleep = -1} = known(kThresholds, t, "the thresholds");
-  return [hit, bounce, sleep];
+  return numbersOf(known(kThresholds, t, "the thresholds"), {hit: -1, bounce: -1, sleep: -1});
 }
 const kWorldFields = new Set(["precision", "gravity", "combineFriction", "combineRestitution", "sleeping", "continuous",
   "solver", "integrator", "iterations", "directIslands", "quarantine", "thresholds"]);
@@ -102,8 +146,9 @@ export function worldOf(definition) {
     thresholds = {}} = known(kWorldFields, definition, "a world");
   return [named("precision", precision), ...pair(gravity, "gravity"),
     named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
-    flag(sleeping), flag(continuous), named("solver", solver), named("integrator", integrator), iterations,
-    flag(directIslands), flag(quarantine), ...thresholdsOf(thresholds)];
+    flag(sleeping, "sleeping"), flag(continuous, "continuous"), named("solver", solver), named("integrator", integrator),
+    whole(iterations, "iterations"), flag(directIslands, "directIslands"), flag(quarantine, "quarantine"),
+    ...thresholdsOf(thresholds)];
 }
 /// Returns the definition of which `worldOf` makes these numbers.
 export function definitionOfWorld(n) {
@@ -124,64 +169,69 @@ const kShapeFields = new Set([...kNames.shape, "position", "angle", "density", "
   "rollingResistance", "surfaceSpeed", "filter", "sensor", "hitEvents", "preSolve", "userData"]);
 export function shapeOf(s) {
   known(kShapeFields, s, "a shape");
-  return [...geometryOf(s), ...pair(s.position ?? {x: 0, y: 0}), s.angle ?? 0, s.density ?? 1, ...materialOf(s),
-    ...filterOf(s.filter), flag(s.sensor), flag(s.hitEvents), flag(s.preSolve), ...wide(s.userData)];
+  return [...geometryOf(s), ...pair(s.position ?? {x: 0, y: 0}), ...numbersOf(s, {angle: 0, density: 1}), ...materialOf(s),
+    ...filterOf(s.filter), flagOf(s, "sensor"), flagOf(s, "hitEvents"), flagOf(s, "preSolve"),
+    ...wide(s.userData, "userData")];
 }
 const kBodyFields = new Set(["type", "position", "angle", "velocity", "angularVelocity", "mass", "gravityScale",
   "linearDamping", "angularDamping", "lockX", "lockY", "lockRotation", "maySleep", "awake", "continuous", "userData",
   "name", "shapes"]);
 const kMassFields = new Set(["mass", "inertia", "centre"]);
-export const knownMass = (mass) => known(kMassFields, mass, "a mass");
+/// Returns mass, centre and inertia.
+export function massOf(given) {
+  const {mass, inertia, centre = {x: 0, y: 0}} = known(kMassFields, given, "a mass");
+  return [number(mass, "mass"), ...pair(centre, "centre"), number(inertia, "inertia")];
+}
 export function bodyOf(d) {
   known(kBodyFields, d, "a body");
-  if (d.mass) knownMass(d.mass);
   const zero = {x: 0, y: 0}, shapes = listed(d.shapes ?? [], "shapes").map(shapeOf);
-  return [named("type", d.type ?? "dynamic"), ...pair(d.position ?? zero), d.angle ?? 0,
-    ...pair(d.velocity ?? zero, "velocity"), d.angularVelocity ?? 0, flag(d.mass), d.mass?.mass ?? 1,
-    ...pair(d.mass?.centre ?? zero, "centre"), d.mass?.inertia ?? 1, d.gravityScale ?? 1, d.linearDamping ?? 0,
-    d.angularDamping ?? 0, flag(d.lockX), flag(d.lockY), flag(d.lockRotation), flag(d.maySleep ?? true),
-    flag(d.awake ?? true), flag(d.continuous ?? true), ...wide(d.userData), shapes.length, ...shapes.flat()];
+  return [named("type", d.type ?? "dynamic"), ...pair(d.position ?? zero), number(d.angle ?? 0, "angle"),
+    ...pair(d.velocity ?? zero, "velocity"), number(d.angularVelocity ?? 0, "angularVelocity"), Number(d.mass != null),
+    ...massOf(d.mass ?? {mass: 1, inertia: 1}), ...numbersOf(d, {gravityScale: 1, linearDamping: 0, angularDamping: 0}),
+    flagOf(d, "lockX"), flagOf(d, "lockY"), flagOf(d, "lockRotation"), flagOf(d, "maySleep", true), flagOf(d, "awake", true),
+    flagOf(d, "continuous", true), ...wide(d.userData, "userData"), shapes.length, ...shapes.flat()];
 }
 const kQueryFields = new Set(["category", "mask", "sensors", "ignore", "condition"]);
 export function queryOf(world, q = {}) {
   known(kQueryFields, q, "a query's filter");
   if (q.ignore) own(world, q.ignore, "ignore");
-  return [...wide(q.category ?? -1), ...wide(q.mask ?? -1), flag(q.sensors), q.ignore?.index ?? 0xFFFFFFFF,
-    q.ignore?.generation ?? 0, flag(q.condition)];
+  return [...wide(q.category ?? -1, "category"), ...wide(q.mask ?? -1, "mask"), flagOf(q, "sensors"),
+    q.ignore?.index ?? 0xFFFFFFFF, q.ignore?.generation ?? 0, Number(called(q.condition, "condition") !== null)];
 }
 const kLawFields = new Set(["wakes"]), kDragFields = new Set(["linear", "angular"]);
-export const lawOf = (options = {}) => ({wakes: flag(known(kLawFields, options, "a law's options").wakes)});
-export const knownDrag = (rates) => known(kDragFields, rates, "a drag");
+export const lawOf = (options = {}) => ({wakes: flagOf(known(kLawFields, options, "a law's options"), "wakes")});
+export const dragOf = (rates) => numbersOf(known(kDragFields, rates, "a drag"), {linear: 0, angular: 0});
 const kWrenchFields = new Set(["force", "torque"]);
 export function wrenchOf(wrench) {
   const {force = {x: 0, y: 0}, torque = 0} = known(kWrenchFields, wrench ?? {}, "a law's result");
-  return [...pair(force, "force"), torque];
+  return [...pair(force, "force"), number(torque, "torque")];
 }
 const kAttractionFields = new Set(["strength", "falloff", "softening"]);
 export function attractionOf(law) {
   const {strength = 1, falloff = "inverse_square", softening = 0.1} = known(kAttractionFields, law, "an attraction");
-  return [strength, named("falloff", falloff), softening];
+  return [number(strength, "strength"), named("falloff", falloff), number(softening, "softening")];
 }
 const kWindFields = new Set(["velocity", "density"]);
 export function windOf(wind) {
   const {velocity = {x: 0, y: 0}, density = 1.2} = known(kWindFields, wind, "a wind");
-  return [...pair(velocity, "velocity"), density];
+  return [...pair(velocity, "velocity"), number(density, "density")];
 }
 const kWaterFields = new Set(["level", "density", "velocity", "linearDrag", "angularDrag"]);
 export function waterOf(water) {
-  const {level = 0, density = 1, velocity = {x: 0, y: 0}, linearDrag = 0, angularDrag = 0} =
-    known(kWaterFields, water, "a water");
-  return [level, density, ...pair(velocity, "velocity"), linearDrag, angularDrag];
+  const {velocity = {x: 0, y: 0}} = known(kWaterFields, water, "a water");
+  return [...numbersOf(water, {level: 0, density: 1}), ...pair(velocity, "velocity"),
+    ...numbersOf(water, {linearDrag: 0, angularDrag: 0})];
 }
 const kElasticFields = new Set(["stiffness", "damping", "restLength", "pullsOnly"]);
 export function elasticOf(spring) {
-  const {stiffness = 100, damping = 0, restLength = 1, pullsOnly} = known(kElasticFields, spring, "a spring");
-  return [stiffness, damping, restLength, flag(pullsOnly)];
+  known(kElasticFields, spring, "a spring");
+  return [...numbersOf(spring, {stiffness: 100, damping: 0, restLength: 1}), flagOf(spring, "pullsOnly")];
 }
 const kBlastFields = new Set(["centre", "radius", "impulse", "occlusion", "cover"]);
 export function blastOf(world, blast) {
-  const {centre = {x: 0, y: 0}, radius = 5, impulse = 100, occlusion, cover} = known(kBlastFields, blast, "a blast");
-  return [...pair(centre, "centre"), radius, impulse, flag(occlusion), ...queryOf(world, cover)];
+  const {centre = {x: 0, y: 0}, cover} = known(kBlastFields, blast, "a blast");
+  return [...pair(centre, "centre"), ...numbersOf(blast, {radius: 5, impulse: 100}), flagOf(blast, "occlusion"),
+    ...queryOf(world, cover)];
 }
 /// Meanings of drawn items, by the C interface's numbers.
 export const kRoles = ["static", "kinematic", "awake", "asleep", "sensor", "contact", "normal", "impulse", "box", "centre",
@@ -190,17 +240,22 @@ const kDrawFields = new Set(["shapes", "joints", "contacts", "normals", "impulse
   "normalLength", "impulseLength", "bounds"]);
 export function drawOf(options = {}) {
   const o = known(kDrawFields, options, "what is drawn"), zero = {x: 0, y: 0};
-  return [flag(o.shapes ?? true), flag(o.joints ?? true), flag(o.contacts), flag(o.normals), flag(o.impulses),
-    flag(o.boxes), flag(o.centres), flag(o.names), o.normalLength ?? 0.2, o.impulseLength ?? 0.1, flag(o.bounds),
+  return [flagOf(o, "shapes", true), flagOf(o, "joints", true),
+    ...["contacts", "normals", "impulses", "boxes", "centres", "names"].map((field) => flagOf(o, field)),
+    ...numbersOf(o, {normalLength: 0.2, impulseLength: 0.1}), Number(o.bounds != null),
     ...pair(o.bounds?.lower ?? zero, "lower"), ...pair(o.bounds?.upper ?? zero, "upper")];
 }
 const kMoverFields = new Set(["up", "maxSlope", "stepHeight", "skin", "mass", "pushForce", "push", "filter"]);
-export const knownMover = (options) => known(kMoverFields, options, "the mover's options");
+export function moverOf(options) {
+  const {up = {x: 0, y: 1}} = known(kMoverFields, options, "the mover's options");
+  return {push: flagOf(options, "push", true), input: [...pair(up, "up"),
+    ...numbersOf(options, {maxSlope: 0.8, stepHeight: 0.3, skin: 0, mass: 0, pushForce: 1e12})]};
+}
 const kSpringFields = new Set(["hertz", "dampingRatio"]), kLimitFields = new Set(["lower", "upper"]);
 const kMotorFields = new Set(["speed", "maxForce"]);
 function spring(s) {
-  if (s) known(kSpringFields, s, "a spring");
-  return [flag(s), s?.hertz ?? 0, s?.dampingRatio ?? 1];
+  if (s != null) known(kSpringFields, s, "a spring");
+  return [Number(s != null), ...numbersOf(s ?? {}, {hertz: 0, dampingRatio: 1})];
 }
 const kJointFields = new Set(["collide", "breakForce", "breakTorque", "reportForce", "reportTorque", "userData",
   "anchorA", "anchorB", "axis", "referenceAngle", "spring", "linearSpring", "angularSpring", "limits", "motor", "length",
@@ -208,21 +263,21 @@ const kJointFields = new Set(["collide", "breakForce", "breakTorque", "reportFor
   "groundB"]);
 export function jointOf(kind, d) {
   known(kJointFields, d, "a joint");
-  if (d.limits) known(kLimitFields, d.limits, "limits");
-  if (d.motor) known(kMotorFields, d.motor, "a motor");
+  if (d.limits != null) known(kLimitFields, d.limits, "limits");
+  if (d.motor != null) known(kMotorFields, d.motor, "a motor");
   const zero = {x: 0, y: 0};
   const axis = d.axis ?? (kind === "wheel" ? {x: 0, y: 1} : {x: 1, y: 0});
   const drive = kind === "motor" ? {hertz: 2, dampingRatio: 1} : kind === "mouse" ? {hertz: 5, dampingRatio: 0.7} : null;
-  const ratio = d.ratio ?? (kind === "gear" ? -1 : 1);
-  return [named("joint", kind), flag(d.collide), d.breakForce ?? 0, d.breakTorque ?? 0, ...wide(d.userData),
-    d.reportForce ?? 0, d.reportTorque ?? 0,
+  return [named("joint", kind), flagOf(d, "collide"), ...numbersOf(d, {breakForce: 0, breakTorque: 0}),
+    ...wide(d.userData, "userData"), ...numbersOf(d, {reportForce: 0, reportTorque: 0}),
     ...pair(d.anchorA ?? zero, "anchorA"), ...pair(d.anchorB ?? zero, "anchorB"), ...pair(axis, "axis"),
-    d.referenceAngle ?? 0, ...spring(d.spring ?? drive), ...spring(d.linearSpring), ...spring(d.angularSpring),
-    flag(d.limits), d.limits?.lower ?? -Infinity, d.limits?.upper ?? Infinity,
-    flag(d.motor), d.motor?.speed ?? 0, d.motor?.maxForce ?? 0,
-    d.length ?? (kind === "pulley" ? -1 : 1), d.targetAngle ?? 0, d.targetTranslation ?? 0,
-    ...pair(d.targetPosition ?? zero, "targetPosition"), d.maxForce ?? 0, d.maxTorque ?? 0, ratio, d.phase ?? 0,
-    d.tooth ?? 0.1, ...pair(d.groundA ?? zero, "groundA"), ...pair(d.groundB ?? zero, "groundB")];
+    number(d.referenceAngle ?? 0, "referenceAngle"), ...spring(d.spring ?? drive), ...spring(d.linearSpring),
+    ...spring(d.angularSpring), Number(d.limits != null), ...numbersOf(d.limits ?? {}, {lower: -Infinity, upper: Infinity}),
+    Number(d.motor != null), ...numbersOf(d.motor ?? {}, {speed: 0, maxForce: 0}),
+    ...numbersOf(d, {length: kind === "pulley" ? -1 : 1, targetAngle: 0, targetTranslation: 0}),
+    ...pair(d.targetPosition ?? zero, "targetPosition"),
+    ...numbersOf(d, {maxForce: 0, maxTorque: 0, ratio: kind === "gear" ? -1 : 1, phase: 0, tooth: 0.1}),
+    ...pair(d.groundA ?? zero, "groundA"), ...pair(d.groundB ?? zero, "groundB")];
 }
 /// Returns the definition of which `jointOf` makes these numbers.
 export function definitionOfJoint(n) {

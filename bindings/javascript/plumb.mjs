@@ -1,9 +1,9 @@
 // plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
-import {PlumbError, attractionOf, blastOf, bodyOf, chainOf, definitionOfJoint, definitionOfShape, definitionOfWorld, drawOf,
-  elasticOf, filterAt, filterOf, flag, geometryOf, jointOf, kNames, kRoles, knownDrag, knownMass, knownMaterial, knownMover,
-  lawOf, listed, materialOf, named, own, pair, queryOf, shapeOf, thresholdsOf, waterOf, windOf, worldOf, wrenchOf}
-  from "./plumb.definitions.mjs";
+import {PlumbError, answered, attractionOf, bits, blastOf, bodyOf, bytesOf, called, chainOf, definitionOfJoint,
+  definitionOfShape, definitionOfWorld, dragOf, drawOf, elasticOf, filterAt, filterOf, flag, geometryOf, jointOf, kNames,
+  kRoles, knownMaterial, lawOf, massOf, materialOf, moverOf, named, number, own, pair, queryOf, shapeOf, textOf, thresholdsOf,
+  waterOf, whole, windOf, worldOf, wrenchOf} from "./plumb.definitions.mjs";
 import packed from "./plumb.wasm.mjs";
 
 export {PlumbError};
@@ -17,29 +17,21 @@ async function unpack() {
 
 const kKinds = ["SyntaxError", "InvalidValue", "UnknownName", "Unsupported", "RunError", "FileError"];
 const kNoSystem = 52;  // WASI's ENOSYS: there are no files and no processes
-const hooks = new Map(), filters = new Map();  // of worlds, by their address
 
 const imports = {
   plumb: {
     fail(kind, ...parts) {
       throw new PlumbError(kKinds[kind] ?? "InternalError", ...parts.map(text));
     },
-    pre_solve(world) {
-      return hooks.get(world)(readContact()) === false ? 0 : 1;
-    },
-    filter(world) {
-      const n = new Float64Array(calls.memory.buffer, calls.numbers(4), 4);
-      const a = new Shape(hooked, n[0], n[1]), b = new Shape(hooked, n[2], n[3]);
-      return filters.get(world)(a, b) === false ? 0 : 1;
+    pre_solve() { return asked.ask("onPreSolve", () => asked.world._preSolve(readContact(asked.world))); },
+    filter() {
+      return asked.ask("onFilter", () => {
+        const n = new Float64Array(calls.memory.buffer, calls.numbers(4), 4);
+        return asked.world._filter(new Shape(asked.world, n[0], n[1]), new Shape(asked.world, n[2], n[3]));
+      });
     },
     condition(index, generation) {
-      // An error would leave the query half-done: it is thrown after it.
-      try {
-        return asked.condition(new Shape(asked.world, index >>> 0, generation >>> 0)) === false ? 0 : 1;
-      } catch (error) {
-        asked.error ??= {error};
-        return 0;
-      }
+      return asked.ask("condition", () => asked.condition(new Shape(asked.world, index >>> 0, generation >>> 0)));
     },
     shortest(value, to) {
       const text = encoder.encode(Number.isFinite(value) ? String(value) : Number.isNaN(value) ? "nan" : value < 0 ? "-inf" : "inf");
@@ -115,9 +107,45 @@ function contactsOf(world, place) {
   const n = result(place).slice();
   return Array.from({length: n.length / kContact}, (_, i) => contactAt(world, n, i * kContact));
 }
-let hooked = null;  // the world whose hook is being called
-function readContact() {
-  return contactAt(hooked, new Float64Array(calls.memory.buffer, calls.numbers(kContact), kContact), 0);
+function readContact(world) {
+  return contactAt(world, new Float64Array(calls.memory.buffer, calls.numbers(kContact), kContact), 0);
+}
+
+/// A call during which the engine asks the user's functions. An error of theirs must not leave by way of the engine, whose
+/// stack nothing unwinds: it is kept, further questions are answered with yes, and it is thrown when the call has ended.
+class Asking {
+  constructor(world, condition = null) {
+    this.world = world;
+    this.condition = condition;
+    this.thrown = null;
+  }
+  ask(field, question) {
+    if (this.thrown !== null) return 1;
+    try {
+      return answered(question(), field) ? 1 : 0;
+    } catch (error) {
+      this.thrown = {error};
+      return 1;
+    }
+  }
+}
+let asked = null;  // the call that asks now
+/// Calls the engine; it asks `world` or `condition`. An error of the engine's leaves no lock behind.
+function asking(world, condition, name, args, input) {
+  const before = asked, mine = new Asking(world, condition), address = world._address;
+  const locks = calls.world_locks(address), stepping = calls.world_stepping(address);
+  asked = mine;
+  let made;
+  try {
+    made = call(name, args, input);
+  } catch (error) {
+    if (world._alive) calls.world_unlock(address, locks, stepping);
+    throw error;
+  } finally {
+    asked = before;
+  }
+  if (mine.thrown !== null) throw mine.thrown.error;
+  return made;
 }
 
 // ---- Objects --------------------------------------------------------------------------------------------------------
@@ -140,47 +168,50 @@ const handles = (Type, world, numbers) =>
   Array.from({length: numbers.length / 2}, (_, i) => new Type(world, numbers[2 * i], numbers[2 * i + 1]));
 
 export class Body extends Handle {
-  get valid() { return this._call("body_valid") !== 0; }
+  get _kind() { return "Body"; }  // a bundler may rename classes
+  get valid() { return this.world._alive && this._call("body_valid") !== 0; }
   get position() { return point(result(this._call("body_position"))); }
   set position(p) { this._call("body_set_pose", ...pair(p), this.angle); }
   get centre() { return point(result(this._call("body_centre"))); }
   get angle() { return this._call("body_angle"); }
-  set angle(value) { this._call("body_set_pose", ...pair(this.position), value); }
+  set angle(value) { this._call("body_set_pose", ...pair(this.position), number(value, "angle")); }
   get velocity() { return point(result(this._call("body_velocity"))); }
   set velocity(v) { this._call("body_set_velocity", ...pair(v, "velocity")); }
   get angularVelocity() { return this._call("body_angular_velocity"); }
-  set angularVelocity(value) { this._call("body_set_angular_velocity", value); }
+  set angularVelocity(value) { this._call("body_set_angular_velocity", number(value, "angularVelocity")); }
   get type() { return kNames.type[this._call("body_type")]; }
   set type(name) { this._call("body_set_type", named("type", name)); }
   get mass() { return this._call("body_mass"); }
   get inertia() { return this._call("body_inertia"); }
   get gravityScale() { return this._call("body_gravity_scale"); }
-  set gravityScale(value) { this._call("body_set_gravity_scale", value); }
+  set gravityScale(value) { this._call("body_set_gravity_scale", number(value, "gravityScale")); }
   get linearDamping() { return this._call("body_linear_damping"); }
-  set linearDamping(value) { this._call("body_set_damping", value, this.angularDamping); }
+  set linearDamping(value) { this._call("body_set_damping", number(value, "linearDamping"), this.angularDamping); }
   get angularDamping() { return this._call("body_angular_damping"); }
-  set angularDamping(value) { this._call("body_set_damping", this.linearDamping, value); }
+  set angularDamping(value) { this._call("body_set_damping", this.linearDamping, number(value, "angularDamping")); }
   get locks() {
     const bits = this._call("body_locks");
     return {x: (bits & 1) !== 0, y: (bits & 2) !== 0, rotation: (bits & 4) !== 0};
   }
-  set locks({x = false, y = false, rotation = false}) { this._call("body_set_locks", flag(x), flag(y), flag(rotation)); }
+  set locks({x = false, y = false, rotation = false}) {
+    this._call("body_set_locks", flag(x, "x"), flag(y, "y"), flag(rotation, "rotation"));
+  }
   get awake() { return this._call("body_awake") !== 0; }
-  set awake(on) { this._call("body_set_awake", flag(on)); }
+  set awake(on) { this._call("body_set_awake", flag(on, "awake")); }
   get maySleep() { return this._call("body_may_sleep") !== 0; }
-  set maySleep(on) { this._call("body_set_may_sleep", flag(on)); }
+  set maySleep(on) { this._call("body_set_may_sleep", flag(on, "maySleep")); }
   get userData() { return BigInt.asUintN(64, this._call("body_user_data")); }
-  set userData(data) { this._call("body_set_user_data", BigInt.asUintN(64, BigInt(data))); }
+  set userData(data) { this._call("body_set_user_data", bits(data, "userData")); }
   get name() { return text(this._call("body_name")); }
   set name(name) {
-    const letters = encoder.encode(name);
+    const letters = encoder.encode(textOf(name, "name"));
     new Uint8Array(calls.memory.buffer, calls.bytes(letters.length), letters.length).set(letters);
     this._call("body_set_name");
   }
   get continuous() { return this._call("body_continuous") !== 0; }
-  set continuous(on) { this._call("body_set_continuous", flag(on)); }
+  set continuous(on) { this._call("body_set_continuous", flag(on, "continuous")); }
   get enabled() { return this._call("body_enabled") !== 0; }
-  set enabled(on) { this._call("body_set_enabled", flag(on)); }
+  set enabled(on) { this._call("body_set_enabled", flag(on, "enabled")); }
   get box() { return box(result(this._call("body_box"))); }
   get quarantined() { return this._call("body_quarantined") !== 0; }
   get shapes() { return handles(Shape, this.world, result(this._call("body_shapes"))); }
@@ -190,24 +221,23 @@ export class Body extends Handle {
   worldPoint(local) { return point(result(this._call("body_world_point", ...pair(local, "point")))); }
   localPoint(at) { return point(result(this._call("body_local_point", ...pair(at, "point")))); }
 
-  setPose(position, angle) { this._call("body_set_pose", ...pair(position), angle); }
-  setMass(given) {
-    const {mass, inertia, centre = {x: 0, y: 0}} = knownMass(given);
-    this._call("body_set_mass", mass, ...pair(centre, "centre"), inertia);
-  }
+  setPose(position, angle) { this._call("body_set_pose", ...pair(position), number(angle, "angle")); }
+  setMass(mass) { this._call("body_set_mass", ...massOf(mass)); }
   useDensities() { this._call("body_use_densities"); }
   setLocks(locks) { this.locks = locks; }
-  moveTowards(position, angle, dt) { this._call("body_move_towards", ...pair(position), angle, dt); }
+  moveTowards(position, angle, dt) {
+    this._call("body_move_towards", ...pair(position), number(angle, "angle"), number(dt, "dt"));
+  }
   applyForce(force, at = null) {
     if (at === null) this._call("body_apply_force", ...pair(force, "force"));
     else this._call("body_apply_force_at", ...pair(force, "force"), ...pair(at, "point"));
   }
-  applyTorque(torque) { this._call("body_apply_torque", torque); }
+  applyTorque(torque) { this._call("body_apply_torque", number(torque, "torque")); }
   applyImpulse(impulse, at = null) {
     if (at === null) this._call("body_apply_impulse", ...pair(impulse, "impulse"));
     else this._call("body_apply_impulse_at", ...pair(impulse, "impulse"), ...pair(at, "point"));
   }
-  applyAngularImpulse(impulse) { this._call("body_apply_angular_impulse", impulse); }
+  applyAngularImpulse(impulse) { this._call("body_apply_angular_impulse", number(impulse, "impulse")); }
   createShape(shape) {
     const made = result(call("shape_create", [this.world._address, this.index, this.generation], shapeOf(shape)));
     return new Shape(this.world, made[0], made[1]);
@@ -221,21 +251,22 @@ export class Body extends Handle {
 }
 
 export class Shape extends Handle {
-  get valid() { return this._call("shape_valid") !== 0; }
+  get _kind() { return "Shape"; }
+  get valid() { return this.world._alive && this._call("shape_valid") !== 0; }
   get body() {
     const n = result(this._call("shape_body"));
     return new Body(this.world, n[0], n[1]);
   }
   get userData() { return BigInt.asUintN(64, this._call("shape_user_data")); }
-  set userData(data) { this._call("shape_set_user_data", BigInt.asUintN(64, BigInt(data))); }
+  set userData(data) { this._call("shape_set_user_data", bits(data, "userData")); }
   get density() { return this._call("shape_density"); }
-  set density(value) { this._call("shape_set_density", value); }
+  set density(value) { this._call("shape_set_density", number(value, "density")); }
   get sensor() { return this._call("shape_sensor") !== 0; }
-  set sensor(on) { this._call("shape_set_sensor", flag(on)); }
+  set sensor(on) { this._call("shape_set_sensor", flag(on, "sensor")); }
   get hitEvents() { return this._call("shape_hit_events") !== 0; }
-  set hitEvents(on) { this._call("shape_set_hit_events", flag(on)); }
+  set hitEvents(on) { this._call("shape_set_hit_events", flag(on, "hitEvents")); }
   get preSolve() { return this._call("shape_pre_solve") !== 0; }
-  set preSolve(on) { this._call("shape_set_pre_solve", flag(on)); }
+  set preSolve(on) { this._call("shape_set_pre_solve", flag(on, "preSolve")); }
   get box() { return box(result(this._call("shape_box"))); }
   rayCast(origin, translation) {
     const hit = result(this._call("shape_ray_cast", ...pair(origin, "origin"), ...pair(translation, "translation")));
@@ -269,7 +300,8 @@ export class Shape extends Handle {
 }
 
 export class Chain extends Handle {
-  get valid() { return this._call("chain_valid") !== 0; }
+  get _kind() { return "Chain"; }
+  get valid() { return this.world._alive && this._call("chain_valid") !== 0; }
   get body() {
     const n = result(this._call("chain_body"));
     return new Body(this.world, n[0], n[1]);
@@ -279,13 +311,14 @@ export class Chain extends Handle {
 }
 
 export class Joint extends Handle {
-  get valid() { return this._call("joint_valid") !== 0; }
+  get _kind() { return "Joint"; }
+  get valid() { return this.world._alive && this._call("joint_valid") !== 0; }
   get bodies() { return handles(Body, this.world, result(this._call("joint_bodies"))); }
   get kind() { return kNames.joint[result(this._call("joint_definition"))[0]]; }
   /// The present definition, without its kind.
   get definition() { return definitionOfJoint(result(this._call("joint_definition"))); }
   get userData() { return BigInt.asUintN(64, this._call("joint_user_data")); }
-  set userData(data) { this._call("joint_set_user_data", BigInt.asUintN(64, BigInt(data))); }
+  set userData(data) { this._call("joint_set_user_data", bits(data, "userData")); }
   change(kind, definition = {}) {
     call("joint_change", [this.world._address, this.index, this.generation], jointOf(kind, definition));
   }
@@ -298,50 +331,44 @@ export class Joint extends Handle {
     const [linear, angular, linearDamping, angularDamping] = result(this._call("joint_stiffness"));
     return {linear, angular, linearDamping, angularDamping};
   }
-  setLoadEvents({force = 0, torque = 0}) { this._call("joint_set_load_events", force, torque); }
+  setLoadEvents({force = 0, torque = 0}) {
+    this._call("joint_set_load_events", number(force, "force"), number(torque, "torque"));
+  }
   destroy() { this._call("joint_destroy"); }
 }
 
-// A query's condition while the query runs, and what it threw.
-let asked = null;
 function query(name, args, input, world, filter) {
-  if (!filter?.condition) return call(name, args, input);
-  const before = asked, mine = {world, condition: filter.condition, error: null};
-  asked = mine;
-  try {
-    return call(name, args, input);
-  } finally {
-    asked = before;
-    if (mine.error) throw mine.error.error;
-  }
+  return filter?.condition ? asking(world, filter.condition, name, args, input) : call(name, args, input);
 }
 
-const collected = new FinalizationRegistry((address) => {
-  hooks.delete(address), filters.delete(address);
-  calls.world_destroy(address);
-});
+const collected = new FinalizationRegistry((address) => calls.world_destroy(address));
 
 export class World {
   constructor(definition = {}) {
-    this._address = call("world_create", [], worldOf(definition));
-    collected.register(this, this._address, this);
+    this.#address = call("world_create", [], worldOf(definition));
+    collected.register(this, this.#address, this);
   }
+  #address;
+  // The user's hooks. They are the world's alone: a list of all hooks would keep every world that its hook knows.
+  _preSolve = null;
+  _filter = null;
+  get _address() {
+    if (this.#address === 0) throw new PlumbError("UnknownName", "world: was destroyed", "world");
+    return this.#address;
+  }
+  /// False once it was destroyed.
+  get _alive() { return this.#address !== 0; }
   /// Frees the world's memory now; without it that happens when the object is collected.
   destroy() {
+    if (!this._alive) return;
     collected.unregister(this);
-    hooks.delete(this._address), filters.delete(this._address);
-    calls.world_destroy(this._address);
-    this._address = 0;
+    calls.world_destroy(this.#address);
+    this.#address = 0;
   }
 
   step(dt = 1 / 60, substeps = 4, count = 1) {
-    const before = hooked;
-    hooked = this;
-    try {
-      call("world_step", [this._address, dt, substeps, count]);
-    } finally {
-      hooked = before;
-    }
+    number(dt, "dt"), whole(substeps, "substeps"), whole(count, "count", 0);
+    for (let i = 0; i < count; ++i) asking(this, null, "world_step", [this._address, dt, substeps]);
   }
   get stepCount() { return call("world_step_count", [this._address]); }
   /// The settings as they are now; a world could be made of them again.
@@ -353,15 +380,15 @@ export class World {
   get gravity() { return point(result(call("world_gravity", [this._address]))); }
   set gravity(g) { call("world_set_gravity", [this._address, ...pair(g, "gravity")]); }
   get sleeping() { return this.definition.sleeping; }
-  set sleeping(on) { call("world_set_sleeping", [this._address, flag(on)]); }
+  set sleeping(on) { call("world_set_sleeping", [this._address, flag(on, "sleeping")]); }
   get continuous() { return this.definition.continuous; }
-  set continuous(on) { call("world_set_continuous", [this._address, flag(on)]); }
+  set continuous(on) { call("world_set_continuous", [this._address, flag(on, "continuous")]); }
   get directIslands() { return this.definition.directIslands; }
-  set directIslands(on) { call("world_set_direct_islands", [this._address, flag(on)]); }
+  set directIslands(on) { call("world_set_direct_islands", [this._address, flag(on, "directIslands")]); }
   get quarantine() { return this.definition.quarantine; }
-  set quarantine(on) { call("world_set_quarantine", [this._address, flag(on)]); }
+  set quarantine(on) { call("world_set_quarantine", [this._address, flag(on, "quarantine")]); }
   get iterations() { return this.definition.iterations; }
-  set iterations(count) { call("world_set_iterations", [this._address, count]); }
+  set iterations(count) { call("world_set_iterations", [this._address, whole(count, "iterations")]); }
   get solver() { return this.definition.solver; }
   set solver(name) { call("world_set_solver", [this._address, named("solver", name)]); }
   get thresholds() {
@@ -369,7 +396,7 @@ export class World {
     return {hit, bounce, sleep};
   }
   set thresholds(t) { call("world_set_thresholds", [this._address], thresholdsOf(t)); }
-  set profiling(on) { call("world_set_profiling", [this._address, flag(on)]); }
+  set profiling(on) { call("world_set_profiling", [this._address, flag(on, "profiling")]); }
   get profile() {
     const [broadPhase, narrowPhase, solver, finalize, continuous, events, sleep, steps] =
       result(call("world_profile", [this._address]));
@@ -381,8 +408,7 @@ export class World {
   }
 
   createBody(definition = {}) {
-    const name = encoder.encode(definition.name ?? "");
-    const input = bodyOf(definition), place = calls.bytes(name.length);
+    const input = bodyOf(definition), name = encoder.encode(textOf(definition.name ?? "", "name")), place = calls.bytes(name.length);
     new Uint8Array(calls.memory.buffer, place, name.length).set(name);
     const made = result(call("body_create", [this._address], input));
     return new Body(this, made[0], made[1]);
@@ -441,21 +467,22 @@ export class World {
     };
   }
   onPreSolve(hook) {
-    if (hook) hooks.set(this._address, hook);
-    else hooks.delete(this._address);
-    call("world_on_pre_solve", [this._address, flag(hook)]);
+    const on = called(hook, "hook") !== null;
+    call("world_on_pre_solve", [this._address, Number(on)]);
+    this._preSolve = hook ?? null;
   }
   onFilter(filter) {
-    if (filter) filters.set(this._address, filter);
-    else filters.delete(this._address);
-    call("world_on_filter", [this._address, flag(filter)]);
+    const on = called(filter, "filter") !== null;
+    call("world_on_filter", [this._address, Number(on)]);
+    this._filter = filter ?? null;
   }
 
   save() {
     const size = call("world_save", [this._address]);
     return new Uint8Array(calls.memory.buffer, calls.bytes(size), size).slice();
   }
-  restore(bytes) {
+  restore(saved) {
+    const bytes = bytesOf(saved, "bytes");
     new Uint8Array(calls.memory.buffer, calls.bytes(bytes.length), bytes.length).set(bytes);
     call("world_restore", [this._address]);
   }
@@ -471,12 +498,12 @@ export class World {
     return Array.from({length: n.length / 9}, (_, i) => this.#hit(n.subarray(9 * i, 9 * i + 9), "fraction"));
   }
   castShape(shape, position, angle, translation, filter) {
-    const input = [...geometryOf(shape), ...pair(position), angle, ...pair(translation, "translation"),
+    const input = [...geometryOf(shape), ...pair(position), number(angle, "angle"), ...pair(translation, "translation"),
       ...queryOf(this, filter)];
     return this.#hit(result(query("cast_shape", [this._address], input, this, filter)), "fraction");
   }
   overlapShape(shape, position, angle = 0, filter = {}) {
-    const input = [...geometryOf(shape), ...pair(position), angle, ...queryOf(this, filter)];
+    const input = [...geometryOf(shape), ...pair(position), number(angle, "angle"), ...queryOf(this, filter)];
     return handles(Shape, this, result(query("overlap_shape", [this._address], input, this, filter)));
   }
   overlapBox({lower, upper}, filter) {
@@ -485,7 +512,7 @@ export class World {
   }
   /// The distance of two shapes, negative where they overlap.
   distance(a, b) {
-    own(this, a, "a"), own(this, b, "b");
+    own(this, a, "a", "Shape"), own(this, b, "b", "Shape");
     const n = result(call("distance", [this._address, a.index, a.generation, b.index, b.generation]));
     return {pointA: point(n), pointB: point(n, 2), normal: point(n, 4), distance: n[6]};
   }
@@ -494,15 +521,13 @@ export class World {
       this, filter)));
   }
   nearest(at, maxDistance, filter) {
-    return this.#hit(result(query("nearest", [this._address], [...pair(at, "point"), maxDistance, ...queryOf(this, filter)],
+    return this.#hit(result(query("nearest", [this._address], [...pair(at, "point"), number(maxDistance, "maxDistance"), ...queryOf(this, filter)],
       this, filter)), "distance");
   }
   move(capsule, position, velocity, dt, options = {}) {
-    const {up = {x: 0, y: 1}, maxSlope = 0.8, stepHeight = 0.3, skin = 0, mass = 0, pushForce = 1e12, push = true,
-      filter} = knownMover(options);
-    const n = result(query("move", [this._address, flag(push)], [...geometryOf({capsule}), ...pair(position),
-      ...pair(velocity, "velocity"), dt, ...pair(up, "up"), maxSlope, stepHeight, skin, mass, pushForce,
-      ...queryOf(this, filter)], this, filter));
+    const {push, input} = moverOf(options), {filter} = options;
+    const n = result(query("move", [this._address, push], [...geometryOf({capsule}), ...pair(position),
+      ...pair(velocity, "velocity"), number(dt, "dt"), ...input, ...queryOf(this, filter)], this, filter));
     return {position: point(n), velocity: point(n, 2), onGround: n[4] !== 0, squeezed: n[5] !== 0,
       groundNormal: point(n, 6), ground: new Body(this, n[8], n[9]), groundVelocity: point(n, 10)};
   }
@@ -511,38 +536,40 @@ export class World {
   /// Applies a law of your own: it returns {force, torque} for each body, or nothing. It sees bodies as at the middle of
   /// the step, which keeps the energy of springs and orbits; with dt = 0 as they are.
   applyLaw(law, dt, options) {
-    const {wakes} = lawOf(options), n = result(call("law_bodies", [this._address, dt, wakes])).slice();
+    called(law, "law");
+    const {wakes} = lawOf(options), n = result(call("law_bodies", [this._address, number(dt, "dt"), wakes])).slice();
     const wrenches = [];
     for (let i = 0; i < n.length; i += 12) {
       const userData = BigInt(n[i + 10]) | BigInt(n[i + 11]) << 32n;
       wrenches.push(...wrenchOf(law({body: new Body(this, n[i], n[i + 1]), centre: point(n, i + 2), angle: n[i + 4],
         velocity: point(n, i + 5), angularVelocity: n[i + 7], mass: n[i + 8], inertia: n[i + 9], userData})));
     }
-    call("apply_wrenches", [this._address, wakes], wrenches);
+    asking(this, null, "apply_wrenches", [this._address, wakes], wrenches);
   }
   applyLinearDrag(rates, dt, options) {
-    const {linear = 0, angular = 0} = knownDrag(rates);
-    call("apply_linear_drag", [this._address, linear, angular, dt, lawOf(options).wakes]);
+    call("apply_linear_drag", [this._address, ...dragOf(rates), number(dt, "dt"), lawOf(options).wakes]);
   }
   applyQuadraticDrag(coefficient, dt, options) {
-    call("apply_quadratic_drag", [this._address, coefficient, dt, lawOf(options).wakes]);
+    call("apply_quadratic_drag", [this._address, number(coefficient, "coefficient"), number(dt, "dt"),
+      lawOf(options).wakes]);
   }
   /// Attracts to a point, or to a body: the reaction acts on a dynamic one.
   applyAttraction(centre, law, dt, options) {
     const {wakes} = lawOf(options), input = attractionOf(law);
     if (centre instanceof Body) {
       own(this, centre, "centre");
-      call("apply_attraction_to", [this._address, centre.index, centre.generation, dt, wakes], input);
+      call("apply_attraction_to", [this._address, centre.index, centre.generation, number(dt, "dt"), wakes], input);
     } else {
-      call("apply_attraction", [this._address, dt, wakes], [...input, ...pair(centre, "centre")]);
+      call("apply_attraction", [this._address, number(dt, "dt"), wakes], [...input, ...pair(centre, "centre")]);
     }
   }
-  applyWind(wind, dt, options) { call("apply_wind", [this._address, ...windOf(wind), dt, lawOf(options).wakes]); }
-  applyWater(water, dt, options) { call("apply_water", [this._address, dt, lawOf(options).wakes], waterOf(water)); }
+  applyWind(wind, dt, options) { call("apply_wind", [this._address, ...windOf(wind), number(dt, "dt"), lawOf(options).wakes]); }
+  applyWater(water, dt, options) { call("apply_water", [this._address, number(dt, "dt"), lawOf(options).wakes], waterOf(water)); }
   /// Pulls between points of two bodies, in the bodies' frames, without a joint.
   applySpring(a, pointA, b, pointB, spring, dt, options) {
     own(this, a, "a"), own(this, b, "b");
-    call("apply_spring", [this._address, a.index, a.generation, b.index, b.generation, dt, lawOf(options).wakes],
+    call("apply_spring", [this._address, a.index, a.generation, b.index, b.generation, number(dt, "dt"),
+      lawOf(options).wakes],
       [...pair(pointA, "pointA"), ...pair(pointB, "pointB"), ...elasticOf(spring)]);
   }
   /// Applies impulses at once to all dynamic bodies in reach.
@@ -589,18 +616,19 @@ export class World {
 const forgotten = new FinalizationRegistry((address) => calls.rollback_destroy(address));
 
 /// The last states of a world in memory, for network play: a late input is taken by going back and stepping again.
+const kFarStep = Number.MAX_SAFE_INTEGER;
 export class Rollback {
   #world;  // which stays as long as this does
   constructor(world, frames) {
     this.#world = world;
-    this._address = call("rollback_create", [world._address, frames]);
+    this._address = call("rollback_create", [world._address, whole(frames, "frames")]);
     forgotten.register(this, this._address, this);
   }
   /// Saves the present state under its step count, instead of the oldest one if it is full.
   save() { this.#call("rollback_save"); }
   /// Restores the state after `step` steps, and drops later ones.
-  backTo(step) { this.#call("rollback_back_to", step); }
-  holds(step) { return this.#call("rollback_holds", step) !== 0; }
+  backTo(step) { this.#call("rollback_back_to", whole(step, "step", -kFarStep, kFarStep)); }
+  holds(step) { return this.#call("rollback_holds", whole(step, "step", -kFarStep, kFarStep)) !== 0; }
   get oldest() { return result(this.#call("rollback_range"))[0]; }
   get latest() { return result(this.#call("rollback_range"))[1]; }
   get size() { return result(this.#call("rollback_range"))[2]; }
@@ -610,7 +638,7 @@ export class Rollback {
     this._address = 0;
   }
   #call(name, ...args) {
-    if (this._address === 0 || this.#world._address === 0)
+    if (this._address === 0 || !this.#world._alive)
       throw new PlumbError("UnknownName", "the rollback or its world was destroyed", "rollback");
     return call(name, [this._address, ...args]);
   }

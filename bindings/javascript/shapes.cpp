@@ -1,27 +1,34 @@
+#include "bindings/c/handle.h"
 #include "bindings/javascript/buffer.h"
 
+using namespace plumb::c;
 using namespace plumb::javascript;
 
 extern "C" {
 
+// Definitions are kept from call to call: nothing would free them when the world refuses one.
 PLUMB_EXPORT("shape_create")
 double* js_shape_create(plumb_world* w, std::uint32_t index, std::uint32_t generation) {
+  static ShapeInput input;
+  static plumb::ShapeDefinition d;
   Reader r;
-  ShapeInput input;
   read(r, input);
-  return Writer().id(plumb_shape_create(w, {index, generation}, &input.definition)).done();
+  d = in(input.definition);
+  const plumb::BodyId body{index, generation};
+  return Writer().id(change(w, [&](auto& world) { return out(world.create_shape(body, d)); })).done();
 }
 PLUMB_EXPORT("chain_create")
 double* js_chain_create(plumb_world* w, std::uint32_t index, std::uint32_t generation) {
+  static plumb::ChainDefinition d;
   Reader r;
-  plumb_chain_definition d = plumb_default_chain();
   d.closed = r.flag();
-  d.material = material(r), d.filter = filter(r);
+  d.material = in(material(r)), d.filter = in(filter(r));
   d.sensor = r.flag(), d.hit_events = r.flag(), d.pre_solve = r.flag();
   d.user_data = r.wide();
-  const std::vector<plumb_vec2> points = r.points();
-  d.points = points.data(), d.point_count = points.size();
-  return Writer().id(plumb_chain_create(w, {index, generation}, &d)).done();
+  d.points.clear();
+  for (std::uint32_t count = r.bits(); count > 0; --count) d.points.push_back(in(r.point()));
+  const plumb::BodyId body{index, generation};
+  return Writer().id(change(w, [&](auto& world) { return out(world.create_chain(body, d)); })).done();
 }
 PLUMB_EXPORT("shape_destroy") void js_shape_destroy(PLUMB_HANDLE) {
   plumb_shape_destroy(w, {index, generation});

@@ -1,4 +1,7 @@
+#include "bindings/c/handle.h"
 #include "bindings/javascript/buffer.h"
+#include "engine/world/step/step.h"
+#include "engine/world/world_data.h"
 
 using namespace plumb::javascript;
 
@@ -41,8 +44,23 @@ PLUMB_EXPORT("world_create") plumb_world* js_world_create() {
   return plumb_world_create(&d);
 }
 PLUMB_EXPORT("world_destroy") void js_world_destroy(plumb_world* w) { plumb_world_destroy(w); }
-PLUMB_EXPORT("world_step") void js_world_step(plumb_world* w, double dt, int substeps, int count) {
-  for (int i = 0; i < count; ++i) plumb_world_step(w, dt, substeps);
+PLUMB_EXPORT("world_step") void js_world_step(plumb_world* w, double dt, int substeps) {
+  plumb_world_step(w, dt, substeps);
+}
+// Nothing unwinds the stack of a call that throws, so its locks stay. JavaScript notes them before calls that
+// may lock the world, and puts them back after an error.
+PLUMB_EXPORT("world_locks") int js_locks(plumb_world* w) {
+  return plumb::c::read(w, [](const auto& world) { return world.data().active_callbacks.load(); });
+}
+PLUMB_EXPORT("world_stepping") int js_stepping(plumb_world* w) {
+  return plumb::c::read(w, [](const auto& world) { return world.data().stepping ? 1 : 0; });
+}
+PLUMB_EXPORT("world_unlock") void js_unlock(plumb_world* w, int locks, int stepping) {
+  plumb::c::change(w, [&](auto& world) {
+    auto& data = world.data();
+    data.active_callbacks = locks;
+    if (data.stepping && stepping == 0) plumb::end_interrupted_step(data);
+  });
 }
 PLUMB_EXPORT("world_time") double js_world_time(plumb_world* w) { return plumb_world_time(w); }
 PLUMB_EXPORT("world_set_gravity") void js_set_gravity(plumb_world* w, double x, double y) {

@@ -14,7 +14,7 @@ namespace plumb {
 namespace {
 
 [[noreturn]] void throw_invalid(const std::string& subject, const std::string& field, double value,
-                                const std::string& problem) {
+                                const char* problem) {
   throw Error(Error::Kind::Value, subject, field, shortest(value), problem);
 }
 
@@ -205,9 +205,9 @@ void require_float_mass(double density, const ConvexMass& part) {
   const bool fits_float = part.mass >= kSmallestFloatMass && part.mass <= kLargestFloatMass &&
                           part.inertia >= kSmallestFloatMass && whole <= kLargestFloatMass;
   if (fits_float) return;
-  throw_invalid("shape", "density", density,
-                "gives a mass of " + shortest(part.mass) + " kg and an inertia of " + shortest(whole) +
-                    " kg m^2, of which single precision holds 1e-36 to 1e36");
+  throw Error(Error::Kind::Value, "shape", "density", shortest(density),
+              "gives a mass of " + shortest(part.mass) + " kg and an inertia of " + shortest(whole) +
+                  " kg m^2, of which single precision holds 1e-36 to 1e36");
 }
 
 }  // namespace plumb

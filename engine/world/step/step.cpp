@@ -33,6 +33,7 @@ struct StepGuard {
   explicit StepGuard(WorldData<Real>& world) : w(world) {
     std::swap(w.events, w.pending);
     w.pending.clear();
+    forget_motion(w);
     w.stepping = true;
   }
   ~StepGuard() {
@@ -75,6 +76,14 @@ void restore_consistency(WorldData<Real>& w) {
       }
     }
   }
+}
+
+// Moves the bodies of an interrupted step back, if their motion was kept, into a consistent state.
+template <class Real>
+void undo_motion(WorldData<Real>& w) {
+  restore_motion(w);
+  restore_consistency(w);
+  restore_motion(w);  // rotations too, which are those of the angles but for rounding
 }
 
 // Returns the number of substeps, increased if the step is longer than the last. Warm starting scales
@@ -141,7 +150,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   substeps = substeps_of(w, dt, substeps);
   const double h = dt / substeps;
   update_contacts(w, static_cast<Real>(dt), static_cast<Real>(h)), clock.end(WorldStage::NarrowPhase);
-  StepRollback<Real> rollback(w);
+  keep_motion(w);
   try {
     w.scheduler.session([&] { solve_motion(w, h, substeps); });
     clock.end(WorldStage::Solver);
@@ -160,9 +169,7 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
     }
     clock.end(WorldStage::Continuous);
   } catch (...) {
-    rollback.restore();
-    restore_consistency(w);
-    rollback.restore();  // rotations too, which are those of the angles but for rounding
+    undo_motion(w);
     throw;
   }
   break_joints(w);
@@ -172,7 +179,15 @@ void step_world(WorldData<Real>& w, double dt, int substeps) {
   ++w.steps, w.profile.steps += w.profiled ? 1 : 0;
 }
 
+template <class Real>
+void end_interrupted_step(WorldData<Real>& w) {
+  undo_motion(w);
+  w.stepping = false;
+}
+
 template void step_world(WorldData<float>&, double, int);
 template void step_world(WorldData<double>&, double, int);
+template void end_interrupted_step(WorldData<float>&);
+template void end_interrupted_step(WorldData<double>&);
 
 }  // namespace plumb

@@ -9,6 +9,11 @@ namespace plumb {
 template <class Real>
 void step_world(WorldData<Real>& w, double dt, int substeps);
 
+/// Does what an exception does on its way out of `step_world`, for a step that was left where nothing
+/// unwinds: in WebAssembly.
+template <class Real>
+void end_interrupted_step(WorldData<Real>& w);
+
 /// Broad phase: creates contacts for shapes whose fat AABBs started to overlap.
 template <class Real>
 void find_pairs(WorldData<Real>& w, Real dt);

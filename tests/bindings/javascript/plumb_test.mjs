@@ -454,3 +454,134 @@ test("numbers in messages are JavaScript's", () => {
   for (const [value, text] of [[-1e21, "-1e+21"], [-0.1, "-0.1"], [NaN, "nan"], [-Infinity, "-inf"]])
     assert.throws(() => world.createBody({shapes: [{circle: {radius: value}}]}), {value: text});
 });
+
+function overlapping(definition = {}) {
+  const world = new World(definition);
+  const shapes = [{circle: {radius: 1}, preSolve: true}];
+  const a = world.createBody({shapes}), b = world.createBody({position: {x: 1, y: 0}, shapes});
+  return {world, a, b};
+}
+
+test("an error in a hook is thrown when its step is finished, and the world goes on", () => {
+  for (const on of ["onFilter", "onPreSolve"]) {
+    const {world} = overlapping(), saved = world.save(), rollback = new Rollback(world, 2);
+    rollback.save();
+    let asked = 0;
+    world[on](() => { ++asked; throw new RangeError("mine"); });
+    assert.throws(() => world.step(1 / 60, 4, 5), (error) => error instanceof RangeError && error.message === "mine", on);
+    assert.deepEqual([world.stepCount, asked], [1, 1], on);  // of five: none after the error
+    const other = overlapping().world;
+    other.step();
+    assert.equal(world.fullHash(), other.fullHash(), on);  // as if the hook had said yes
+    world[on](null);
+    world.step();
+    rollback.backTo(0);
+    world.restore(saved);
+    world.step();
+    assert.equal(world.hash(), other.hash(), on);
+  }
+});
+
+test("an error of a step or a law leaves the world free, and a saved state comes back", () => {
+  for (const condition of [false, true]) {
+    const {world, a} = overlapping({quarantine: false});
+    world.onPreSolve(() => true);
+    const saved = world.save(), before = world.hash();
+    assert.throws(() => world.applyLaw(() => ({force: {x: NaN, y: 0}}), 1 / 60), {kind: "InvalidValue", field: "force"});
+    assert.equal(world.hash(), before);
+    a.setMass({mass: 1e-12, inertia: 1e-12});
+    for (let i = 0; i < 100; ++i) a.applyForce({x: 1e12, y: 0});
+    assert.throws(() => world.step(1e12), {kind: "RunError"});
+    if (condition) world.rayCast({x: -9, y: 0}, {x: 18, y: 0}, {condition: () => true});
+    world.gravity = {x: 0, y: -1};
+    world.restore(saved);
+    assert.equal(world.hash(), before);
+    world.step();
+    assert.equal(world.stepCount, 1);
+  }
+});
+
+test("a hook without a result keeps contacts; other results are refused", () => {
+  const {world} = overlapping();
+  world.onFilter(() => {}), world.onPreSolve(() => {});
+  world.step();
+  assert.equal(world.counts.touching, 1);
+  for (const wrong of [null, 0, 1, "no"]) {
+    world.onPreSolve(() => wrong);
+    assert.throws(() => world.step(), {kind: "InvalidValue", field: "onPreSolve", value: String(wrong)});
+  }
+  assert.throws(() => world.onFilter(5), {field: "filter"});
+  assert.throws(() => world.rayCast({x: 0, y: 5}, {x: 0, y: -9}, {condition: 5}), {field: "condition"});
+});
+
+test("values of another type are refused by field and value", () => {
+  const {world, a, b} = overlapping();
+  const [shape] = a.shapes, before = world.fullHash();
+  const refused = (field, value, work) => assert.throws(work, (error) => error instanceof PlumbError &&
+    error.kind === "InvalidValue" && error.field === field && error.value === value, `${field} ${value}`);
+  refused("group", "1.5", () => { shape.filter = {group: 1.5}; });
+  refused("group", String(2 ** 40), () => { shape.filter = {group: 2 ** 40}; });
+  refused("mask", "1.5", () => { shape.filter = {mask: 1.5}; });
+  refused("userData", String(2n ** 64n), () => { a.userData = 2n ** 64n; });
+  refused("userData", "1", () => { a.userData = "1"; });
+  refused("userData", "0.5", () => world.createBody({userData: 0.5}));
+  refused("angle", "true", () => { a.angle = true; });
+  refused("angle", "1", () => world.createBody({angle: "1"}));
+  refused("radius", "1", () => world.createBody({shapes: [{circle: {radius: "1"}}]}));
+  refused("sensor", "1", () => { shape.sensor = 1; });
+  refused("lockX", "yes", () => world.createBody({lockX: "yes"}));
+  refused("name", "7", () => world.createBody({name: 7}));
+  refused("mass", "undefined", () => a.setMass({inertia: 1}));
+  refused("dt", "a", () => world.step("a"));
+  refused("substeps", "1.5", () => world.step(1 / 60, 1.5));
+  refused("count", "-1", () => world.step(1 / 60, 4, -1));
+  refused("count", "2.7", () => world.step(1 / 60, 4, 2.7));
+  refused("iterations", "2.5", () => { world.iterations = 2.5; });
+  refused("a", "a Shape", () => world.createJoint(shape, b, "weld"));
+  refused("ignore", "a Shape", () => world.nearest({x: 0, y: 0}, 1, {ignore: shape}));
+  refused("hertz", "2", () => world.createJoint(a, b, "weld", {linearSpring: {hertz: "2"}}));
+  refused("result", "5", () => world.applyLaw(() => 5, 1 / 60));
+  refused("torque", "true", () => world.applyLaw(() => ({torque: true}), 1 / 60));
+  refused("bytes", "abc", () => world.restore("abc"));
+  refused("frames", "1.5", () => new Rollback(world, 1.5));
+  refused("maxSlope", "1", () => world.move({start: {x: 0, y: 0}, end: {x: 0, y: 1}, radius: 0.3}, {x: 0, y: 9},
+    {x: 0, y: 0}, 1 / 60, {maxSlope: "1"}));
+  assert.equal(world.fullHash(), before);
+  world.restore(world.save().buffer);
+  shape.filter = {mask: -1, group: -(2 ** 31)};
+  assert.deepEqual(shape.filter, {category: 1n, mask: 2n ** 64n - 1n, group: -(2 ** 31)});
+});
+
+test("a destroyed world says so", () => {
+  const {world, a} = overlapping();
+  const [shape] = a.shapes;
+  world.destroy();
+  world.destroy();
+  for (const work of [() => world.step(), () => a.position, () => shape.density, () => new Rollback(world, 2)])
+    assert.throws(work, {kind: "UnknownName", message: /destroyed/});
+  assert.equal(a.valid, false);
+});
+
+test("refusals leave no memory behind, nor do worlds that their hooks know", async () => {
+  const {world, a} = overlapping(), bytes = () => world.poses.buffer.byteLength;  // of the program's memory
+  const refusals = [() => world.createBody({name: "a name of some length", shapes: [{circle: {radius: -1}}]}),
+    () => a.createShape({box: {width: 1, height: NaN}}), () => world.step(-1), () => world.restore(new Uint8Array(99)),
+    () => a.createChain({points: [{x: 0, y: 0}, {x: 0, y: 0}]}), () => { a.velocity = {x: NaN, y: 0}; }];
+  for (const refusal of refusals) {
+    const run = (count) => { for (let i = 0; i < count; ++i) assert.throws(refusal, PlumbError); };
+    run(500);
+    const start = bytes();
+    run(20000);
+    assert.ok(bytes() - start < 20000 * 8, `${refusal}: ${(bytes() - start) / 20000} bytes each`);
+  }
+  if (!globalThis.gc) return;
+  const gone = Array.from({length: 20}, () => {
+    const {world, a} = overlapping();
+    world.onPreSolve(() => a.valid && world.time >= 0);
+    world.step();
+    return new WeakRef(world);
+  });
+  await new Promise((done) => setTimeout(done, 0));
+  globalThis.gc();
+  assert.ok(gone.filter((each) => each.deref() === undefined).length >= 19);
+});
