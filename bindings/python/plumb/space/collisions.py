@@ -73,7 +73,7 @@ class Collisions:
         self._handlers[types] = Handler(types, *new, told)
         for shape in self._shapes:
             if shape._held and self._asks(shape):
-                shape._do(lambda shape=shape: setattr(shape._held, "pre_solve", True))
+                shape._do(lambda shape=shape: shape._tell_callbacks())
 
     def _asks(self, shape):
         return any(shape.collision_type in types or None in types for types in self._handlers)
@@ -133,7 +133,8 @@ class Collisions:
         fall *= dt * (1 if fall < 0 else 0.5)
         for point, apart in zip(contact["points"], contact["separations"]):
             closing = (Vec2d(*b.velocity_at(point)) - a.velocity_at(point)).dot(normal)
-            if apart + (closing + fall) * dt <= 0:
+            # An impact at the very end of the step is one of it: the world's velocities are single numbers.
+            if apart + (closing + fall) * dt <= 1e-5 * abs(closing) * dt:
                 return True
         return False
 
@@ -164,6 +165,16 @@ class Collisions:
                 contacts.setdefault(self._pair_of(contact["shape_a"], contact["shape_b"]), contact)
         return contacts
 
+    def _impacts(self, contacts):
+        """Returns the impacts within the step whose contacts no longer have an impulse, as contacts, by pair."""
+        impacts = {}
+        for hit in self._world.events["hits"]:
+            pair = self._pair_of(hit["shape_a"], hit["shape_b"])
+            if pair is not None and not contacts.get(pair, {"step_impulse": 0})["step_impulse"] > 0:
+                impacts[pair] = {"shape_a": hit["shape_a"], "shape_b": hit["shape_b"], "normal": hit["normal"],
+                                 "points": [hit["point"]], "separations": [0.0], "step_impulse": hit["impulse"]}
+        return impacts
+
     def _report(self):
         events = self._world.events
         calls = any(any(handler[1:5]) for handler in self._handlers.values())
@@ -182,7 +193,7 @@ class Collisions:
                     if name == "begin":
                         self._call("pre_solve", pair, state, contact, True)
                 state.held, state.sensor = True, name != "begin"
-        for pair, contact in contacts.items():
+        for pair, contact in {**contacts, **self._impacts(contacts)}.items():
             state = self._touching.get(pair)
             if state is not None and contact["step_impulse"] > 0:
                 self._call("post_solve", pair, state, contact)

@@ -64,13 +64,18 @@ class Shape(InSpace):
 
     friction = _quality("_friction", lambda self: setattr(self._held, "friction", self._friction))
     elasticity = _quality("_elasticity", lambda self: self._pass_elasticity())
-    collision_type = _quality("_collision_type", lambda self: setattr(self._held, "pre_solve", self._space._asks(self)))
+    collision_type = _quality("_collision_type", lambda self: self._tell_callbacks())
     sensor = _quality("_sensor", lambda self: setattr(self._held, "sensor", bool(self._sensor)))
     del _quality
 
     def _pass_elasticity(self):
         self._held.restitution = min(self._elasticity, 1.0)
-        self._held.hit_events = self._elasticity > 1
+        self._tell_callbacks()
+
+    def _tell_callbacks(self):
+        """Lets the world ask before it resolves contacts, and tell the impulses of impacts within the step."""
+        asks = self._space._asks(self)
+        self._held.pre_solve, self._held.hit_events = asks, asks or self._elasticity > 1
 
     @property
     def surface_velocity(self):
@@ -183,7 +188,7 @@ class Shape(InSpace):
             self._geometry(), position=self._place(), density=0, friction=self._friction,
             restitution=min(self._elasticity, 1.0),
             category=f.categories, mask=f.mask, group=-f.group, sensor=bool(self._sensor),
-            pre_solve=self._space._asks(self), hit_events=self._elasticity > 1))
+            pre_solve=self._space._asks(self), hit_events=self._elasticity > 1 or self._space._asks(self)))
         self._space._of[self._held.index] = self
         self._space._note_belt(self)
 
