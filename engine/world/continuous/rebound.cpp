@@ -20,12 +20,12 @@
 namespace plumb {
 namespace {
 
-// Returns true if no joint or loaded contact acts on the body.
+// Returns true if no joint, locked axis or loaded contact acts on the body.
 template <class Real>
 bool is_free(const WorldData<Real>& w, int body, double dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
-  if (!record.awake || record.first_joint != kNone) return false;
+  if (!record.awake || record.first_joint != kNone || record.lock_x || record.lock_y) return false;
   if (record.constraints == 0) return true;
   // Most contacts of a body in a crowd are too far away to support it, whatever its velocity.
   if (w.scratch.narrow_phase.has_contact_load[body] != kMayHold)

@@ -47,12 +47,13 @@ bool moves_far(const WorldData<Real>& w, int body, Real dt) {
          dt * speed > Real(tuning::kFastFraction) * w.bodies[body].half_width;
 }
 
-// Returns true if a body is in free flight until its impact, or is not dynamic.
+// Returns true if a body is in free flight until its impact, without locked axes, or is not dynamic.
 template <class Real>
 bool is_in_free_flight(const WorldData<Real>& w, int body, Real dt) {
   const BodyRecord<Real>& record = w.bodies[body];
   if (record.type != BodyType::Dynamic) return true;
   if (w.scratch.narrow_phase.is_loaded[body] || record.first_joint != kNone) return false;
+  if (record.lock_x || record.lock_y) return false;
   return !any_edge(w.contacts, record.first_contact, [&](const ContactRecord& contact) {
     return contact.home == ContactHome::Sleeping ||
            (contact.home == ContactHome::Graph &&
