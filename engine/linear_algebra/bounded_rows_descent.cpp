@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "engine/linear_algebra/bounded_rows.h"
@@ -119,6 +120,7 @@ double BoundedRows::best_step_fraction() {
     const double reach = from_[next].reach;
     if (!stops_.empty() && !(slope - reach * curvature > 0)) return std::max(fraction, slope / curvature);
     fraction = reach, from_[next].reach = kNever;
+    assert(fraction >= 0 && fraction <= 1);
     Stop stop{next, reach, x_[next], change_of(next)};
     moving -= stop.step * from_[next].residual, moving_change -= stop.step * stop.change;
     for (Stop& other : stops_) {
@@ -138,10 +140,16 @@ double BoundedRows::best_step_fraction() {
 // Steps to the minimum over the rows that are between their bounds, or towards it for as long as the energy
 // falls. Returns false if bounds limited the step; the rows that reached them are now there.
 bool BoundedRows::minimise_on_face() {
-  for (BoundedRow& row : rows)
+  for (BoundedRow& row : rows) {
+    // Pivots leave impulses beyond bounds by what they tolerate. A row of the factors that is held there
+    // would reach its bound at an infinite fraction of its step, 0.
+    const double within = std::min(std::max(row.impulse, row.lower), row.upper);
+    apply_impulse(row, within - row.impulse);
+    row.impulse = within;
     row.state = row.impulse <= row.lower   ? BoundedRow::kLower
                 : row.impulse >= row.upper ? BoundedRow::kUpper
                                            : BoundedRow::kFree;
+  }
   factorise();
   x_.resize(free_.size()), from_.resize(free_.size());
   for (int refinement = 0; refinement <= kRefinements; ++refinement) {

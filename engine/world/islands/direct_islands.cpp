@@ -255,11 +255,15 @@ void prepare_direct_islands(WorldData<Real>& w, Real dt) {
 }
 
 template <class Real>
-void assemble_again(WorldData<Real>& w, const ContactConstraint<Real>& c) {
-  Scratch<Real>& s = w.scratch;
+void renew_island_of(WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  IslandScratch<Real>& s = w.scratch.islands;
+  if (s.direct_count == 0 && s.jointed_count == 0) return;
+  const int root = s.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b], index = s.island_index[root];
+  if (index == kNone) return;
+  if (index < s.jointed_count && s.jointed_islands[index].root == root)
+    return load_impulses(s.jointed_islands[index]);
   if (c.hardness != ContactHardness::Rigid) return;
-  const int index = s.islands.island_index[s.islands.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b]];
-  DirectIsland<Real>& island = s.islands.direct_islands[index];
+  DirectIsland<Real>& island = s.direct_islands[index];
   if (!add_rows(w, island, Real(0), true)) return solve_by_iterations(w, island);
   island.system.assemble(w.motion.data());
 }
@@ -310,7 +314,7 @@ void finish_direct_islands(WorldData<Real>& w) {
 
 #define PLUMB_FOR(Real)                                                                 \
   template void prepare_direct_islands(WorldData<Real>&, Real);                         \
-  template void assemble_again(WorldData<Real>&, const ContactConstraint<Real>&);       \
+  template void renew_island_of(WorldData<Real>&, const ContactConstraint<Real>&);      \
   template void solve_direct_islands(WorldData<Real>&, const ContactStep<Real>&, bool); \
   template void hand_over_all(WorldData<Real>&);                                        \
   template void finish_direct_islands(WorldData<Real>&);

@@ -12,10 +12,10 @@ namespace plumb {
 template <class Real>
 void prepare_direct_islands(WorldData<Real>& w, Real dt);
 
-/// Assembles the system of a contact's island again, after its points have changed within the step. Does
-/// nothing unless the contact is solved directly.
+/// Renews the rows of a contact's island, or the impulses that they start from, after its points have changed
+/// within the step. Does nothing if the island is solved by iterations.
 template <class Real>
-void assemble_again(WorldData<Real>& w, const ContactConstraint<Real>& c);
+void renew_island_of(WorldData<Real>& w, const ContactConstraint<Real>& c);
 
 /// Finds impulses that satisfy all rows of each island: with depenetration before bodies move (`push`),
 /// without it afterwards.

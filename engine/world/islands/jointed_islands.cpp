@@ -353,15 +353,20 @@ double order_jointed_island(WorldData<Real>& w, JointedIsland<Real>& island) {
 }
 
 template <class Real>
+void load_impulses(JointedIsland<Real>& island) {
+  island.impulses.clear(), island.last_impulses.clear();
+  for (const ContactConstraint<Real>* c : island.contacts)
+    island.last_impulses.push_back(
+        {{c->normal_impulse[0], c->normal_impulse[1]}, c->tangent_impulse, c->rolling_impulse});
+}
+
+template <class Real>
 void prepare_jointed_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.islands.jointed_islands[i];
     find_links(w, island);
     find_rigid_groups(w, island);
-    island.impulses.clear(), island.last_impulses.clear();
-    for (const ContactConstraint<Real>* c : island.contacts)
-      island.last_impulses.push_back(
-          {{c->normal_impulse[0], c->normal_impulse[1]}, c->tangent_impulse, c->rolling_impulse});
+    load_impulses(island);
   }
 }
 
@@ -457,6 +462,7 @@ void relax_jointed_islands(WorldData<Real>& w, const ContactStep<Real>& step, bo
 
 #define PLUMB_FOR(Real)                                                            \
   template double order_jointed_island(WorldData<Real>&, JointedIsland<Real>&);    \
+  template void load_impulses(JointedIsland<Real>&);                               \
   template void prepare_jointed_islands(WorldData<Real>&);                         \
   template void begin_jointed_substep(WorldData<Real>&);                           \
   template void save_free_velocities(WorldData<Real>&);                            \

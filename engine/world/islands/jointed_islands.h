@@ -20,6 +20,10 @@ namespace plumb {
 template <class Real>
 double order_jointed_island(WorldData<Real>& w, JointedIsland<Real>& island);
 
+/// Loads the impulses from which an island's next solution starts: those that its joints and contacts store.
+template <class Real>
+void load_impulses(JointedIsland<Real>& island);
+
 /// Finds the bodies of the islands at the start of a step. Islands must be chosen and ordered before.
 template <class Real>
 void prepare_jointed_islands(WorldData<Real>& w);

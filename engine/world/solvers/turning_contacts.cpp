@@ -223,7 +223,7 @@ bool renew_turning_contacts(WorldData<Real>& w, Real h) {
   }
   if (!any) return false;
   for (const int id : w.scratch.narrow_phase.turning_contacts)
-    if (has_turned(w, w.contacts[id], h)) assemble_again(w, constraint_of(w, w.contacts[id]));
+    if (has_turned(w, w.contacts[id], h)) renew_island_of(w, constraint_of(w, w.contacts[id]));
   return true;
 }
 
@@ -258,7 +258,7 @@ void solve_turning_contacts(WorldData<Real>& w, const ContactStep<Real>& step) {
       solve_without_push(w, c, step);
       changed = true;
     }
-    if (changed) assemble_again(w, c);
+    if (changed) renew_island_of(w, c);
   }
 }
 
