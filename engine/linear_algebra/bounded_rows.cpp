@@ -83,7 +83,7 @@ void BoundedRows::compute_mobility() {
   mobility_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     mobility_[i] = mobility_of(bodies, rows[i]);
-    assert(mobility_[i] >= 0);
+    assert(!(mobility_[i] < 0));  // NaN, after an overflow: quarantined later
   }
 }
 
@@ -426,7 +426,9 @@ double BoundedRows::best_load_fraction(std::span<const double> impulses, double 
   for (BoundedBody& body : bodies) body.velocity = {}, body.spin = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) apply_impulse(rows[i], impulses[i]);
   const double own = work() + cost;
-  return own > 0 ? std::clamp(-on_load / own, 0.0, 1.0) : 1;
+  if (!(own > 0)) return 1;
+  const double fraction = -on_load / own;
+  return fraction > 0 ? std::min(fraction, 1.0) : 0;  // 0 after an overflow, which must not last
 }
 
 void BoundedRows::correct(double softening) {

@@ -120,7 +120,7 @@ double BoundedRows::best_step_fraction() {
     const double reach = from_[next].reach;
     if (!stops_.empty() && !(slope - reach * curvature > 0)) return std::max(fraction, slope / curvature);
     fraction = reach, from_[next].reach = kNever;
-    assert(fraction >= 0 && fraction <= 1);
+    assert(!(fraction < 0 || fraction > 1));  // NaN, after an overflow: quarantined later
     Stop stop{next, reach, x_[next], change_of(next)};
     moving -= stop.step * from_[next].residual, moving_change -= stop.step * stop.change;
     for (Stop& other : stops_) {
