@@ -7,10 +7,6 @@ namespace plumb {
 namespace narrow {
 namespace {
 
-/// Minus the sine of 45 degrees: steeper normals point into the ground.
-template <class Real>
-constexpr Real kInto = Real(0.70710678118654752);
-
 /// Admits the normals that belong to a segment: its own, and at an end that bends away from the front those
 /// between its own and the neighbour's.
 template <class Real>
@@ -18,7 +14,8 @@ struct AdmitOwn {
   static constexpr bool kOpen = false;
   Vec2<Real> tangent;
   ChainNeighbour<Real> before, after;
-  Real slack;  // m, against rounding: no gap between segments
+  Real slack;               // m, against rounding: no gap between segments
+  Vec2<Real> edge, centre;  // m, the second vertex and the shape's centre, from the first vertex
 
   Normal operator()(Vec2<Real> normal) const {
     const bool at_first = dot(normal, tangent) < 0;
@@ -26,9 +23,13 @@ struct AdmitOwn {
     if (end.open) return Normal::Admit;
     if (!end.convex) return Normal::Snap;
     if (is_within_bend(end, normal, at_first)) return Normal::Admit;
-    // For normals that point into the ground rather than along it: a penetration this deep must be resolved
-    // by this segment.
-    return cross(normal, tangent) < -kInto<Real> ? Normal::Snap : Normal::Skip;
+    return is_nearer(end, at_first) ? Normal::Snap : Normal::Skip;
+  }
+  // Returns true if the shape's centre is on the segment's side of the bend's bisector. Of a shape that is
+  // deeper in than wide neither segment has a normal within the bend; this one then pushes it out.
+  bool is_nearer(const ChainNeighbour<Real>& end, bool at_first) const {
+    const Vec2<Real> across = tangent + perpendicular(end.normal);
+    return at_first ? dot(across, centre) > 0 : dot(across, centre - edge) <= 0;
   }
   void widen(FacingEdges<Real>& edges) const {
     edges.slack_before = before.convex ? Real(0) : slack;
@@ -91,10 +92,13 @@ ContactManifold<Real> collide_chain_segment(const Convex<Real>& segment, Vec2<Re
   for (int i = 0; i < hull_b.count; ++i) sum += hull_b.point(i);
   if (dot(normal, sum) < 0) return {};
 
-  const AdmitOwn<Real> admit{perpendicular(normal), chain_neighbour(first, before, normal, true),
+  const AdmitOwn<Real> admit{perpendicular(normal),
+                             chain_neighbour(first, before, normal, true),
                              chain_neighbour(second, after, normal, false),
                              32 * std::numeric_limits<Real>::epsilon() *
-                                 (taxicab(first) + taxicab(second) + taxicab(b_in_a.position))};
+                                 (taxicab(first) + taxicab(second) + taxicab(b_in_a.position)),
+                             second - first,
+                             Real(1) / static_cast<Real>(hull_b.count) * sum};
   return collide_hulls<kAny, kAny>(
       hull_a, hull_b, [&] { return smaller_size(segment, b); }, max_separation, first, pivot - first, admit);
 }
