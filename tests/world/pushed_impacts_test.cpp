@@ -91,5 +91,36 @@ TYPED_TEST(PushedImpacts, OfBodiesThatAttractEachOtherKeepTheirMomentum) {
   }
 }
 
+// Six discs, of which two overlap by 0.2 mm: their contact pushes them apart while one of them is struck in
+// flight and then stopped. Its displacement by the push is not the work of a force.
+TYPED_TEST(PushedImpacts, KeepTheMomentumOfDiscsThatAreBeingPushedApart) {
+  struct Disc {
+    Vec2d position, velocity;
+    double spin;
+  };
+  const Disc discs[] = {
+      {{-1.7794661880920157, -1.2402850280286748}, {5.3195099830627441, 3.9697408676147461}, 20.68117904663},
+      {{-0.9239543708690352, -0.74409907375335105}, {-3.2247190475463867, 4.3054337501525879}, -6.7281208038},
+      {{-0.20351878311463956, -0.1350938939471473},
+       {-0.53092467784881592, 1.3468253612518311},
+       -1.7606386945},
+      {{0.67239891938000829, 0.20762902703416747}, {-0.1029554307460785, 0.3731037080287933}, -0.52745312452},
+      {{1.6147704587877201, 0.19324500897158897}, {-0.1065277606248856, -0.8032177090644836}, -1.9693151712},
+      {{2.5392495759319735, 0.32186391876637649}, {-0.2851080298423767, 0.6154173612594605}, 5.0473470687},
+  };
+  BasicWorld<TypeParam> world({.gravity = {0, 0}, .sleeping = false});
+  double scale = 0;
+  for (const Disc& disc : discs) {
+    const BodyId body = world.create_body(
+        {.position = disc.position, .velocity = disc.velocity, .angular_velocity = disc.spin},
+        {.geometry = Circle{0.471356988}, .material = {.friction = 0, .restitution = 0.148}});
+    scale += world.mass(body) * std::sqrt(length_squared(disc.velocity));
+  }
+  const Vec2d start = momentum_of(world);
+  world.step(kStep);
+  const Vec2d drift = momentum_of(world) - start;
+  EXPECT_LT(std::sqrt(length_squared(drift)), rounding_of<TypeParam>(scale, 1));
+}
+
 }  // namespace
 }  // namespace plumb

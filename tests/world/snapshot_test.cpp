@@ -274,6 +274,21 @@ TYPED_TEST(Snapshot, PlacesFartherThanAnyCallAllowsAreRefused) {
   }
 }
 
+// Impulses on such a body would gain energy without bound.
+TYPED_TEST(Snapshot, NegativeInverseMassesAndInertiasAreRefused) {
+  BusyWorld<TypeParam> busy = make_busy_world<TypeParam>(16);
+  run(busy, 20);
+  const std::vector<std::byte> sound = save(busy.world);
+  for (const bool of_rotation : {false, true}) {
+    restore(busy.world, sound);
+    SolverBody<TypeParam>& motion = busy.world.data().motion[busy.pile[0].index];
+    TypeParam& inverse = of_rotation ? motion.inverse_inertia : motion.inverse_mass;
+    inverse = -inverse;
+    BasicWorld<TypeParam> other;
+    EXPECT_THROW(restore(other, save(busy.world)), Error) << "of rotation: " << of_rotation;
+  }
+}
+
 // The middle box of three has a contact above and one below, of two colours: contacts of one are solved side
 // by side. The world is told that both are of the first, as no run of it leaves them.
 TEST(SnapshotBytes, RefusesContactsOfOneColourThatShareABody) {

@@ -37,11 +37,15 @@ bool is_free(const WorldData<Real>& w, int body, double dt) {
   });
 }
 
-// Sets the parabola of a body under constant acceleration, whose displacement is (v0 + v1) dt / 2. An
-// acceleration below rounding error counts as zero.
+// Sets the parabola of a body under the acceleration by gravity and loads. That of a damped body follows from
+// its displacement (v0 + v1) dt / 2. Others' does not: contacts that push overlaps apart displace bodies too,
+// and an impact would take that motion of one of two bodies for an acceleration, which ends where it stops.
 template <class Real>
-void set_parabola(const SolverBody<Real>& motion, SweptBody& swept, double dt) {
-  const Vec2d end = motion.velocity.template as<double>(), gain = 2 * (end - (1 / dt) * swept.displacement);
+void set_parabola(const WorldData<Real>& w, SweptBody& swept, double dt) {
+  const VelocityIncrement<Real> increment = velocity_increment_of(w, swept.body, dt);
+  const Vec2d end = w.motion[swept.body].velocity.template as<double>();
+  const Vec2d gain = increment.damping_factor == 1 ? increment.velocity.template as<double>()
+                                                   : 2 * (end - (1 / dt) * swept.displacement);
   const double rounding =
       8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (std::abs(end.x) + std::abs(end.y));
   if (std::abs(gain.x) + std::abs(gain.y) <= rounding) return;
@@ -235,7 +239,7 @@ SweptBody swept_body_of(const WorldData<Real>& w, int body, double dt) {
   const Rotation<double> q{static_cast<double>(w.rotation[body].c), static_cast<double>(w.rotation[body].s)};
   const Rotation<double> back = rotation_of(-swept.delta_angle);
   swept.rotation = {q.c * back.c - q.s * back.s, q.s * back.c + q.c * back.s};
-  if (w.is_dynamic(body) && is_free(w, body, dt)) set_parabola(motion, swept, dt);
+  if (w.is_dynamic(body) && is_free(w, body, dt)) set_parabola(w, swept, dt);
   return swept;
 }
 

@@ -344,6 +344,8 @@ class Check {
         ++count, require(listed.has(body), "bodies", "whose shapes changed are not listed");
       require(record.mass >= 0 || own_type(w_, body) == BodyType::Static || record.half_width < 0, "bodies",
               "have a negative mass");
+      require(w_.motion[body].inverse_mass >= 0 && w_.motion[body].inverse_inertia >= 0, "bodies",
+              "have a negative inverse mass or inertia");
     }
     require(count == listed.count(), "bodies", "whose shapes changed are not listed");
   }
