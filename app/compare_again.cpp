@@ -12,11 +12,13 @@
 #include "app/output.h"
 #include "app/progress_line.h"
 #include "app/result_log.h"
+#include "app/source.h"
 #include "app/usage.h"
 #include "engine/scene/error.h"
 #include "harness/interrupt.h"
 #include "harness/sweep/again.h"
 #include "harness/sweep/difference.h"
+#include "harness/sweep/own_limit.h"
 #include "harness/sweep/rows.h"
 
 namespace plumb::app {
@@ -32,22 +34,44 @@ std::vector<scenarios::Instance> instances_of(const std::vector<Result>& rows) {
     try {
       out.push_back(chosen_instances({scene.front().label}, 0).front());
     } catch (const Error&) {
-      throw Error(
-          Error::Kind::Name, "the results", "scene", scene.front().label,
-          "is not a scenario; after --again DIR, name the case files or folders that the results come from");
+      throw Error(Error::Kind::Name, "the results", "scene", scene.front().label,
+                  "is not a scenario; after --again DIR, name the scene files, case files or folders that "
+                  "the results "
+                  "come from");
     }
   }
   return out;
 }
 
-// Keeps the runs that can be made again: of these scenes and engines, not stopped for their time.
+// Returns the scenes that `names` select, those of scene files with the duration that they have in `rows`.
+std::vector<scenarios::Instance> named_instances(const AgainRequest& request, const std::vector<Result>& rows,
+                                                 std::vector<std::unique_ptr<scenarios::Scenario>>& files) {
+  std::vector<scenarios::Instance> out;
+  for (const std::string& name : request.names) {
+    if (!is_file(name) || !case_files(name).empty()) {
+      for (scenarios::Instance& instance : chosen_instances({name}, request.size))
+        out.push_back(std::move(instance));
+      continue;
+    }
+    scenarios::Instance instance = file_instance(name, "", files);
+    const auto row = std::ranges::find(rows, instance.label(), &Result::label);
+    if (row == rows.end())
+      throw Error(Error::Kind::Name, fmt::format("'{}'", request.results), "scene", instance.label(),
+                  fmt::format("is in file '{}', but has no results", name));
+    out.push_back(file_instance(name, fmt::format("{}", row->duration), files));
+  }
+  return out;
+}
+
+// Keeps the runs that can be made again: of these scenes and engines, not stopped for their time, and not
+// left out because the engine's own limit was not found in time.
 void keep_possible(std::vector<Result>& rows, const sweep::AgainOptions& options) {
   std::set<std::string, std::less<>> labels, engines;
   for (const scenarios::Instance& instance : options.instances) labels.insert(instance.label());
   for (const reference::Backend* engine : options.engines) engines.emplace(engine->name());
   std::erase_if(rows, [&](const Result& row) {
-    return row.status == harness::Status::Timeout || !labels.contains(row.label) ||
-           !engines.contains(row.engine);
+    return row.status == harness::Status::Timeout || row.reason.starts_with(sweep::kNoLimit) ||
+           !labels.contains(row.label) || !engines.contains(row.engine);
   });
 }
 
@@ -61,8 +85,8 @@ int compare_again(const AgainRequest& request) {
   std::vector<Result> rows = sweep::read_all_costs(request.results);
   const std::size_t there = rows.size();
   sweep::AgainOptions options{.jobs = request.jobs, .seconds_a_run = request.seconds_a_run};
-  options.instances =
-      request.names.empty() ? instances_of(rows) : chosen_instances(request.names, request.size);
+  std::vector<std::unique_ptr<scenarios::Scenario>> files;
+  options.instances = request.names.empty() ? instances_of(rows) : named_instances(request, rows, files);
   std::vector<std::unique_ptr<reference::Backend>> programs;
   EngineOptions wanted = request.engines;
   if (wanted.names.empty() && wanted.commands.empty()) wanted.names = sweep::engines_of(rows);
@@ -101,8 +125,8 @@ int compare_again(const AgainRequest& request) {
     print(sweep::difference_table(differences, harness::Style::of_file(STDOUT_FILENO)));
     if (there > rows.size())
       print(
-          fmt::format("{} runs were not repeated: they exceeded the time limit, or their scenes or engines "
-                      "are not available\n",
+          fmt::format("{} runs were not repeated: they exceeded the time limit, had no limit to be compared "
+                      "with, or their scenes or engines are not available\n",
                       there - rows.size()));
     print(sweep::all_same(differences) ? "all runs are identical to the bit\n"
                                        : "not all runs are the same\n");

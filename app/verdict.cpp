@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <thread>
@@ -109,6 +110,14 @@ std::vector<Result> judge_all(const std::vector<scenarios::Instance>& cases, con
   return results;
 }
 
+// Says of a miss that its bound is what an order of 2 promises: that impacts are located within the step.
+void name_promise(Result& result, const scenarios::Instance& instance, int order) {
+  if (order < 2 || harness::ruling_on(result) != harness::Ruling::Misses || !result.reason.empty()) return;
+  const scenarios::Problem problem = instance.build();
+  if (problem.truth.impacts.empty() || std::isnan(problem.second_order.position)) return;
+  result.reason = fmt::format("order {} promises that impacts are located within the step", order);
+}
+
 int start_verdict(const VerdictOptions& options) {
   if (options.command.empty() == options.engine.empty())
     throw UsageError(
@@ -123,6 +132,8 @@ int start_verdict(const VerdictOptions& options) {
   harness::catch_interrupts();
   std::vector<Result> results = judge_all(cases, engine, parse_positive("--budget", options.budget));
   for (Result& result : results) harness::judge(result, true, {});  // foreign engines have no declared limits
+  const int order = engine.method({}).order;
+  for (std::size_t i = 0; i < results.size(); ++i) name_promise(results[i], cases[i], order);
   print(options.format == "json" ? harness::verdict_json(results)
                                  : harness::verdict_text(results, harness::Style::of_file(STDOUT_FILENO)));
   flush();

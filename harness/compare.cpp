@@ -32,6 +32,7 @@ void measure_costs(const Case& scene_case, const CompareOptions& options, std::v
                                                       expected, options.cost, options.seconds_a_run);
       if (cost.interrupted) return;
       if (cost.sample) entrant.samples.push_back(*cost.sample);
+      entrant.run.result.cost_reason = cost.problem;
     }
   }
 }
@@ -104,7 +105,10 @@ std::vector<Result> compare_on(const scenarios::Instance& instance, const Compar
   std::vector<Result> results;
   for (Entrant& entrant : entrants) {
     Result& result = entrant.run.result;
-    if (!entrant.samples.empty()) result.cost = summarise(entrant.samples, options.settings.dt);
+    if (!entrant.samples.empty()) {
+      result.cost = summarise(entrant.samples, options.settings.dt);
+      result.cost_reason.clear();
+    }
     judge(result, is_default(options.settings));
     results.push_back(std::move(result));
   }

@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <stdio_ext.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -75,15 +76,6 @@ void limit_memory(std::size_t bytes) {
 #endif
 }
 
-// Ends in the same way as the engine's program, so that the work is repeated as if this process had been
-// killed.
-[[noreturn]] void die_with_it(const char* why) {
-  std::fprintf(stderr, "%s\n", why);
-  std::fflush(stderr);
-  raise(SIGKILL);
-  _exit(1);
-}
-
 [[noreturn]] void run_child(const std::function<std::string()>& work, std::size_t memory, const Pipe& answer,
                             const Pipe& output) {
   setpgid(0, 0);
@@ -96,12 +88,14 @@ void limit_memory(std::size_t bytes) {
   if (nothing >= 0) dup2(nothing, STDIN_FILENO);
   dup2(output.write, STDOUT_FILENO);
   dup2(output.write, STDERR_FILENO);
-  // The first character is the outcome: + for a result, - for an error.
+  __fpurge(stdout);  // drops what the parent has printed and writes itself
+  // The first character is the outcome: + for a result, - for an error, ! if the
+  // engine's own program was killed.
   try {
     write_all(answer.write, "+" + work());
   } catch (const reference::ProcessError& error) {
-    if (error.fault() == reference::ProcessError::Fault::Killed) die_with_it(error.what());
-    write_all(answer.write, fmt::format("-{}", error.what()));
+    const bool killed = error.fault() == reference::ProcessError::Fault::Killed;
+    write_all(answer.write, fmt::format("{}{}", killed ? '!' : '-', error.what()));
   } catch (const std::exception& error) {
     write_all(answer.write, fmt::format("-{}", error.what()));
   } catch (...) {
@@ -221,9 +215,11 @@ Outcome how_it_ended(Child& child, int status) {
   if (child.open) return {Outcome::Kind::Timeout, fmt::format("no end within {:g} s", child.limits.seconds)};
   while (child.output.read >= 0 && poll_now(child.output.read) && drain(child.output.read, child.printed)) {
   }
-  if (child.text.empty()) {
-    child.killed = WIFSIGNALED(status) && reference::comes_from_outside(WTERMSIG(status));
-    std::string text = how_it_died(status, child.printed);
+  const bool engine_killed = child.text.starts_with('!');
+  if (child.text.empty() || engine_killed) {
+    child.killed =
+        engine_killed || (WIFSIGNALED(status) && reference::comes_from_outside(WTERMSIG(status)));
+    std::string text = engine_killed ? child.text.substr(1) : how_it_died(status, child.printed);
     if (child.killed) text += fmt::format(", in each of {} attempts", child.attempt);
     return {Outcome::Kind::Crashed, std::move(text)};
   }

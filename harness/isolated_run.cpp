@@ -165,7 +165,7 @@ IsolatedCost measure_cost_isolated(const Case& scene_case, const reference::Back
       [&] { return as_text(measure_cost(scene_case, backend, settings, expected_ns_per_step, budget)); },
       seconds);
   if (outcome.kind == Outcome::Kind::Interrupted) return {.sample = {}, .interrupted = true};
-  if (outcome.kind != Outcome::Kind::Done) return {};
+  if (outcome.kind != Outcome::Kind::Done) return {.problem = outcome.text};
   return {.sample = sample_from(outcome.text)};
 }
 

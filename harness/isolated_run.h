@@ -38,8 +38,9 @@ IsolatedRun run_isolated(const Case& scene_case, const reference::Backend& backe
 
 /// Result of `measure_cost` in a process of its own.
 struct IsolatedCost {
-  std::optional<CostSample> sample;  ///< none if the process failed
+  std::optional<CostSample> sample{};  ///< none if the process failed
   bool interrupted = false;
+  std::string problem{};  ///< why the process failed
 };
 IsolatedCost measure_cost_isolated(const Case& scene_case, const reference::Backend& backend,
                                    const reference::StepSettings& settings, double expected_ns_per_step,

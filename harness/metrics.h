@@ -26,13 +26,14 @@ struct MetricField {
   std::string_view name;
   std::string_view unit;  ///< empty: relative
   std::optional<double> Metrics::*value;
+  bool against_truth = false;  ///< a distance from the truth, not from a law
 };
 
 inline constexpr std::array<MetricField, 10> kMetricFields{{
-    {"position_error", "m", &Metrics::position_error},
-    {"angle_error", "rad", &Metrics::angle_error},
-    {"velocity_error", "m/s", &Metrics::velocity_error},
-    {"angular_velocity_error", "rad/s", &Metrics::angular_velocity_error},
+    {"position_error", "m", &Metrics::position_error, true},
+    {"angle_error", "rad", &Metrics::angle_error, true},
+    {"velocity_error", "m/s", &Metrics::velocity_error, true},
+    {"angular_velocity_error", "rad/s", &Metrics::angular_velocity_error, true},
     {"energy_drift", "", &Metrics::energy_drift},
     {"momentum_drift", "", &Metrics::momentum_drift},
     {"angular_momentum_drift", "", &Metrics::angular_momentum_drift},

@@ -101,6 +101,11 @@ Json result_json(const Result& result) {
             {"agrees_with", result.agrees_with},
             {"disagrees_with", result.disagrees_with},
             {"unexpected", result.unexpected}};
+  for (const MetricField& field : kMetricFields)
+    if (const auto& value = result.truth_within.*field.value)
+      json["truth_within"][std::string(field.name)] = *value;
+  if (result.truth_asked) json["truth_asked"] = asked_json(*result.truth_asked);
+  if (!result.cost_reason.empty()) json["cost_reason"] = result.cost_reason;
   if (result.foreign_cost) json["foreign_cost"] = true;
   if (!result.excused.empty()) json["excused"] = result.excused;
   return json;
@@ -141,6 +146,11 @@ Result result_from(const Json& json) {
         json.at("metrics").value(std::string(field.name), Json());  // older results lack the newest
     if (!value.is_null()) result.metrics.*field.value = value.get<double>();
   }
+  if (const auto within = json.find("truth_within"); within != json.end())
+    for (const MetricField& field : kMetricFields)
+      if (const auto value = within->find(std::string(field.name)); value != within->end())
+        result.truth_within.*field.value = number(*value);
+  if (json.contains("truth_asked")) result.truth_asked = asked_from(json.at("truth_asked"));
   if (!json.at("cost").is_null()) result.cost = cost_from(json.at("cost"));
   for (const Json& check : json.at("checks")) {
     result.checks.push_back({check.at("name"), parse<Oracle>(check.at("oracle"), kOracles),
@@ -152,6 +162,7 @@ Result result_from(const Json& json) {
   result.unexpected = json.at("unexpected").get<std::vector<std::string>>();
   if (const auto where = json.find("environment"); where != json.end() && where->is_object())
     result.machine = where->value("machine", where->value("cpu", ""));
+  result.cost_reason = json.value("cost_reason", "");
   result.foreign_cost = json.value("foreign_cost", false);
   result.excused = json.value("excused", "");
   return result;

@@ -46,12 +46,16 @@ struct Result {
   double sample = 0;                ///< s, interval between measured states: dt or a multiple of it
   double duration = 0;              ///< s
   std::string truth;                ///< source of the exact answer
+  Metrics truth_within{};           ///< accuracy of a truth that is an engine's own limit; smaller errors are
+                                    ///< not known
+  std::optional<reference::StepSettings> truth_asked{};  ///< settings of the run that is such a truth
   reference::StepSettings asked{};  ///< requested settings, which reproduce the run
   reference::Settings settings;
   Status status = Status::Ok;
   std::string reason;  ///< why it is not ok
   Metrics metrics;
   std::optional<Cost> cost;
+  std::string cost_reason{};  ///< why a cost that was to be measured is not known
   std::vector<Check> checks;
   std::vector<std::string> agrees_with, disagrees_with;  ///< other engines, within the sum of both bounds
   std::vector<std::string> unexpected;                   ///< reasons for which the run fails, as sentences

@@ -31,7 +31,8 @@ std::string said_of(const Result& result) {
     case Ruling::Agrees:
       return "";
     case Ruling::Misses:
-      return result.status == Status::Diverged ? "diverged: " + result.reason : misses_of(result);
+      if (result.status == Status::Diverged) return "diverged: " + result.reason;
+      return misses_of(result) + (result.reason.empty() ? "" : "; " + result.reason);
     case Ruling::Broke:
       return fmt::format("{}: {}", name_of(result.status), result.reason);
     case Ruling::Unsupported:

@@ -23,12 +23,25 @@
 #include "reference/support/plain_scene.h"
 #include "reference/support/range.h"
 #include "reference/support/settings.h"
+#include "reference/support/silence.h"
 
 namespace plumb::reference {
 namespace {
 
 cpVect to_chipmunk(Vec2d v) { return cpv(v.x, v.y); }
 Vec2d from_chipmunk(cpVect v) { return {v.x, v.y}; }
+
+// Returns a new space. A debug build of the library prints a banner when a process makes its first one, so
+// that one is made in silence.
+cpSpace* new_space() {
+  static const bool greeted = [] {
+    const Silence silence;
+    cpSpaceFree(cpSpaceNew());
+    return true;
+  }();
+  static_cast<void>(greeted);
+  return cpSpaceNew();
+}
 
 struct ChipmunkSettings {
   int substeps = 1;
@@ -41,7 +54,7 @@ struct ChipmunkSettings {
 class ChipmunkSimulator final : public Simulator {
  public:
   ChipmunkSimulator(const Scene& scene, const ChipmunkSettings& settings)
-      : scene_(scene), settings_(settings), space_(cpSpaceNew()), forces_(scene_) {
+      : scene_(scene), settings_(settings), space_(new_space()), forces_(scene_) {
     cpSpaceSetGravity(space_, to_chipmunk(scene_.gravity));
     cpSpaceSetIterations(space_, settings.iterations);
     if (settings.equalised) {

@@ -10,6 +10,7 @@
 
 #include "bench/field/adapters.h"
 #include "engine/core/text.h"
+#include "reference/support/silence.h"
 
 namespace plumb::field {
 namespace {
@@ -20,6 +21,18 @@ constexpr double kSlop = 0.005;
 cpVect to_chipmunk(Vec2d v) { return {v.x, v.y}; }
 Vec2d from_chipmunk(cpVect v) { return {v.x, v.y}; }
 cpBody* body_of(BodyHandle handle) { return reinterpret_cast<cpBody*>(handle.bits); }
+
+/// Returns a new space. A debug build of the library prints a banner when a process makes its first one, so
+/// that one is made in silence.
+cpSpace* new_space() {
+  static const bool greeted = [] {
+    const reference::Silence silence;
+    cpSpaceFree(cpSpaceNew());
+    return true;
+  }();
+  static_cast<void>(greeted);
+  return cpSpaceNew();
+}
 
 /// Motion parameters of one body.
 struct OwnMotion {
@@ -44,7 +57,7 @@ void collect_body(cpBody* body, void* out) { static_cast<std::vector<cpBody*>*>(
 
 class ChipmunkWorld final : public FieldWorld {
  public:
-  explicit ChipmunkWorld(const WorldSettings& settings) : settings_(settings), space_(cpSpaceNew()) {
+  explicit ChipmunkWorld(const WorldSettings& settings) : settings_(settings), space_(new_space()) {
     cpSpaceSetGravity(space_, to_chipmunk(settings.gravity));
     cpSpaceSetIterations(space_, settings.iterations);
     cpSpaceSetCollisionSlop(space_, kSlop);

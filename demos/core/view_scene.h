@@ -3,15 +3,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "demos/core/world_demo.h"
+#include "engine/scene/formula.h"
+#include "engine/scene/prescribed_path.h"
 #include "engine/scene/scene.h"
 #include "engine/world/scene/scene_forces.h"
 
 namespace plumb::demos {
 
 /// Any scene as a demo: bodies can be dragged, and the step, the substeps and the solver chosen. Sleep is
-/// off.
+/// off. Until a body is dragged, the motion is to the bit that of a Simulation (Realtime, float) with the
+/// same settings.
 class SceneDemo final : public WorldDemo {
  public:
   /// `view`: the part to show, m; by default the dynamic and kinematic bodies at the start. Throws Error as
@@ -31,13 +35,28 @@ class SceneDemo final : public WorldDemo {
   bool grab_else(Vec2d point) override;
   WorldDefinition definition() const override;
   void fill() override;
-  void before_step() override { forces_->apply(world_, dt_); }
+  bool frame_last() const override { return true; }
+  void advance_world() override;
   void changed(std::string_view control) override;
   void draw_over(DebugDraw& out) const override;
 
   Scene scene_;
   SceneParts parts_;
   std::optional<SceneForces<DemoReal>> forces_;
+  /// A body with a prescribed motion.
+  struct Prescribed {
+    std::size_t body;
+    PrescribedPath path;
+  };
+  /// A joint whose motor has a drive.
+  struct Driven {
+    JointId joint;
+    Formula speed;
+  };
+  void drive(double dt);
+
+  std::vector<Prescribed> prescribed_;
+  std::vector<Driven> driven_;
   Aabb<double> view_{};
   int solver_ = 0, iterations_ = 10;
 };

@@ -17,10 +17,13 @@ void WorldDemo::add_step_controls() {
 void WorldDemo::build() {
   world_ = DemoWorld(definition());
   band_ = {};
-  frame_ = world_.create_body({.name = "frame", .type = BodyType::Static});
+  if (!frame_last()) create_frame();
   fill();
+  if (frame_last()) create_frame();
   keep_past();
 }
+
+void WorldDemo::create_frame() { frame_ = world_.create_body({.name = "frame", .type = BodyType::Static}); }
 
 void WorldDemo::keep_past() {
   before_.keep(world_);
@@ -90,7 +93,7 @@ void WorldDemo::key(char key) {
 void WorldDemo::step() {
   keep_past();
   before_step();
-  world_.step(dt_, substeps_);
+  advance_world();
   after_step();
 }
 

@@ -43,9 +43,13 @@ class WorldDemo : public Demo {
   void add_step_controls();
 
   virtual WorldDefinition definition() const { return {}; }
-  virtual void fill() = 0;       ///< fills the empty world, from the controls
+  virtual void fill() = 0;  ///< fills the empty world, from the controls
+  /// Returns true if the frame comes after what `fill` adds, so that its bodies have the places that they
+  /// have in a world of their own, on which the last bits of a motion depend.
+  virtual bool frame_last() const { return false; }
   virtual void before_step() {}  ///< applies forces for the next step
-  virtual void after_step() {}   ///< handles the events of the step
+  virtual void advance_world() { world_.step(dt_, substeps_); }
+  virtual void after_step() {}  ///< handles the events of the step
   virtual void draw_over(DebugDraw&) const {}
   virtual bool labelled(BodyId) const { return false; }  ///< true if draw_over labels it with its mass
   /// Returns the demo's own state, apart from the world and the controls.
@@ -82,6 +86,7 @@ class WorldDemo : public Demo {
     std::uint32_t generation = 0;
     Vec2d velocity{};  // m/s
   };
+  void create_frame();
   void keep_past();
 
   PastPoses<DemoReal> before_;

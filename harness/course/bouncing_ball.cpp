@@ -50,10 +50,9 @@ Finding falls(const Lab& lab) {
   const auto wall = wall_of_no_scene(lab);
   return judgement.proven_if(wall.has_value(), kWallOfNoScene, wall.value_or(""))
       .proven_if(
-          kept.has_value(), "damping",
-          fmt::format("Each step multiplies the velocity by {:.6g}: nothing here slows the ball, so leave "
-                      "that out.",
-                      kept.value_or(1)))
+          kept.has_value(), kept.value_or(1) > 1 ? "speeding_up" : "damping",
+          fmt::format("Each step multiplies the velocity by {:.6g}: nothing here {}, so leave that out.",
+                      kept.value_or(1), kept.value_or(1) > 1 ? "speeds the ball up" : "slows the ball"))
       .mistake("gravity_hard_coded", {-9.8 * t}, hard_coded("9.8"))
       .mistake("gravity_hard_coded", {-10 * t}, hard_coded("10"))
       .mistake("gravity_hard_coded", {-9.80665 * t}, hard_coded("9.80665"))

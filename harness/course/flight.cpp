@@ -171,15 +171,20 @@ std::optional<Seen> damping_of(const Recorded& run, std::size_t b, std::size_t n
   const Vec2d g = run.scene.gravity;
   const auto x = ratio([](const BodyState& s) { return s.velocity.x; }, forced || g.x != 0);
   const auto y = ratio([](const BodyState& s) { return s.velocity.y; }, forced || g.y != 0);
-  if (const auto kept = x ? x : y)
+  const auto kept = x ? x : y;
+  if (kept && *kept > 1)
+    return Seen{"speeding_up",
+                fmt::format("Each step multiplies the velocity by {:.6g} in free flight: nothing "
+                            "here speeds the ball up, so leave that out.",
+                            *kept)};
+  if (kept)
     return Seen{"damping", fmt::format("Each step multiplies the velocity by {:.6g} in free flight: nothing "
                                        "here slows the ball, so leave that out.",
                                        *kept)};
-  if (const auto kept = ratio([](const BodyState& s) { return s.angular_velocity; }, forced))
-    return Seen{
-        "spin_damped",
-        fmt::format("Each step multiplies the spin by {:.6g}: nothing here slows it, so leave that out.",
-                    *kept)};
+  if (const auto spin = ratio([](const BodyState& s) { return s.angular_velocity; }, forced))
+    return Seen{*spin > 1 ? "spin_grows" : "spin_damped",
+                fmt::format("Each step multiplies the spin by {:.6g}: nothing here {} it, so leave that out.",
+                            *spin, *spin > 1 ? "speeds up" : "slows")};
   return std::nullopt;
 }
 

@@ -242,7 +242,8 @@ Json scene_json(std::span<const Result> rows, const std::map<std::string, std::s
                 std::size_t most, SettingsTable& settings, Motions& motions) {
   const sweep::SceneTrade trade = sweep::trade_of(rows, nullptr);
   Json json{{"label", trade.label},
-            {"truth", rows.front().truth},
+            {"truth", trade.one_truth ? rows.front().truth : std::string(sweep::kOwnLimits)},
+            {"one_truth", trade.one_truth},
             {"duration", rows.front().duration},
             {"metric", trade.metric->name},
             {"runs", runs_json(rows)}};

@@ -48,13 +48,13 @@ Standing standing_of(std::span<const Result> scene, const std::string& rival, co
   Standing out{.dominance = {.label = scene.front().label, .rival = rival}, .metric = &metric};
   for (const sweep::Dominance& dominance : dominances)
     if (dominance.rival == rival && dominance.label == out.dominance.label) out.dominance = dominance;
-  out.worse = out.dominance.points - out.dominance.dominated;
+  out.worse = static_cast<int>(out.dominance.exceptions.size());
   out.clearly_worse =
       static_cast<int>(std::count_if(out.dominance.exceptions.begin(), out.dominance.exceptions.end(),
                                      [](const auto& exception) { return !exception.noise; }));
   std::vector<double> costs, errors;
   for (const sweep::Point& point : sweep::points_of(scene, metric)) {
-    if (point.row->engine != rival) continue;
+    if (point.row->engine != rival || !out.dominance.compared) continue;
     const auto cost = cost_for(plumb, point.error);
     if (cost) {
       costs.push_back(*cost / point.cost);
@@ -66,6 +66,10 @@ Standing standing_of(std::span<const Result> scene, const std::string& rival, co
   out.cost_ratio = median(std::move(costs));
   out.error_ratio = median(std::move(errors));
   if (out.dominance.points == 0) out.why_none = why_none(scene, rival);
+  if (!out.dominance.compared) {
+    out.dominance.points = 0;
+    out.why_none = "not compared: against its own limit, not plumb's truth";
+  }
   return out;
 }
 

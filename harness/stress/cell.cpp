@@ -36,6 +36,7 @@ std::string key_of(const Cell& cell) { return key_of(cell.family, cell.value, ce
 
 std::string to_json(const Cell& cell) {
   const Finding& finding = cell.finding;
+  const bool measured = !finding.measure.empty();  // else the run ended before its figure was known
   const Json json{{"kind", "cell"},
                   {"family", cell.family},
                   {"title", cell.title},
@@ -47,9 +48,9 @@ std::string to_json(const Cell& cell) {
                   {"settings", settings_json(cell)},
                   {"outcome", name_of(finding.verdict)},
                   {"measure", finding.measure},
-                  {"figure", number(finding.figure)},
+                  {"figure", measured ? number(finding.figure) : Json(nullptr)},
                   {"figure_unit", finding.unit},
-                  {"bound", number(finding.bound)},
+                  {"bound", measured ? number(finding.bound) : Json(nullptr)},
                   {"reason", finding.reason},
                   {"steps", cell.steps},
                   {"seconds", cell.seconds},
@@ -79,6 +80,7 @@ Cell cell_from_json(std::string_view text) {
                     .unit = json.at("figure_unit"),
                     .bound = number_from(json.at("bound")),
                     .reason = json.at("reason")};
+    if (cell.finding.measure.empty()) cell.finding.figure = cell.finding.bound = 0;
     cell.steps = json.at("steps");
     cell.seconds = json.at("seconds");
     cell.engine_seconds = json.at("engine_seconds");
@@ -97,10 +99,12 @@ std::string_view csv_columns() {
 
 std::string to_csv(const Cell& cell) {
   const Finding& finding = cell.finding;
+  const bool measured = !finding.measure.empty();
+  const auto text = [&](double value) { return measured ? fmt::format("{}", value) : ""; };
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(cell.family),
                      csv_field(cell.axis), csv_field(cell.unit), cell.value, csv_field(cell.engine),
                      csv_field(cell.setting), name_of(finding.verdict), csv_field(finding.measure),
-                     finding.figure, finding.unit, finding.bound, csv_field(finding.reason), cell.steps,
+                     text(finding.figure), finding.unit, text(finding.bound), csv_field(finding.reason), cell.steps,
                      cell.seconds, cell.engine_seconds, cell.memory);
 }
 

@@ -1,7 +1,10 @@
 #include "harness/sweep/again.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -46,12 +49,27 @@ bool run_again(std::span<const Result> rows, const AgainOptions& options, const 
     std::vector<Result> made;
     if (instance != nullptr) {
       Cases cases(*instance, Ladder{}, options.seconds_a_run);
+      // Runs against the engine's own limit are repeated against the same run; others that have no truth,
+      // against none.
+      std::map<double, std::unique_ptr<Case>> without;  // by sample
       std::vector<RunRequest> requests;
+      std::vector<bool> own;  // by request
       for (const Result& row : scene) {
         const reference::Backend* engine = engine_of(row, options);
         if (engine == nullptr) continue;
+        const bool has_own = !cases.has_truth() && row.truth_asked.has_value();
         try {
-          requests.push_back({&cases.sampled(*engine, row.sample), engine, row.asked});
+          const Case* compared = nullptr;
+          if (has_own) cases.take_limit(*engine, *row.truth_asked);
+          if (has_own || cases.has_truth()) {
+            compared = &cases.sampled(*engine, row.sample);
+          } else {
+            std::unique_ptr<Case>& mine = without[row.sample];
+            if (!mine) mine = std::make_unique<Case>(*instance, row.sample);
+            compared = mine.get();
+          }
+          requests.push_back({compared, engine, row.asked});
+          own.push_back(has_own);
         } catch (const Error& error) {
           if (interrupted()) return false;
           made.push_back(failed_again(row, error));
@@ -64,9 +82,10 @@ bool run_again(std::span<const Result> rows, const AgainOptions& options, const 
         if (events.progress) events.progress(progress);
       };
       show();
-      run_isolated_all(requests, options.jobs, options.seconds_a_run, [&](std::size_t, IsolatedRun run) {
+      run_isolated_all(requests, options.jobs, options.seconds_a_run, [&](std::size_t i, IsolatedRun run) {
         stopped = stopped || run.interrupted;
         if (run.interrupted) return;
+        if (own[i]) hold_against(run.result, cases.limit(*requests[i].backend));
         judge(run.result, is_default(run.result.asked));
         made.push_back(std::move(run.result));
         show();

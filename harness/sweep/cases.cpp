@@ -1,5 +1,6 @@
 #include "harness/sweep/cases.h"
 
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -18,7 +19,9 @@ Cases::Own& Cases::own(const reference::Backend& backend) {
   const auto [place, fresh] = own_.try_emplace(std::string(backend.name()));
   Own& own = place->second;
   if (!fresh) return own;
-  own.limit = find_own_limit(instance_.build(), backend, ladder_, seconds_);
+  std::optional<reference::StepSettings> at;
+  if (const auto taken = taken_.find(place->first); taken != taken_.end()) at = taken->second;
+  own.limit = find_own_limit(instance_.build(), backend, ladder_, seconds_, at);
   own.scenario = *instance_.scenario;
   own.scenario.build = [build = instance_.scenario->build, limit = own.limit](std::string_view variant,
                                                                               int size) {
@@ -28,6 +31,10 @@ Cases::Own& Cases::own(const reference::Backend& backend) {
     return problem;
   };
   return own;
+}
+
+void Cases::take_limit(const reference::Backend& backend, const reference::StepSettings& settings) {
+  taken_[std::string(backend.name())] = settings;
 }
 
 const OwnLimit& Cases::limit(const reference::Backend& backend) { return *own(backend).limit; }

@@ -31,6 +31,9 @@ class Cases {
   /// Returns the reference with states `sample` s apart.
   const Case& sampled(const reference::Backend& backend, double sample);
 
+  /// Sets the settings of the run that is the engine's own limit, instead of searching for them.
+  void take_limit(const reference::Backend& backend, const reference::StepSettings& settings);
+
   /// Returns the engine's own limit; only used if `has_truth` is false.
   const OwnLimit& limit(const reference::Backend& backend);
 
@@ -46,6 +49,7 @@ class Cases {
   double seconds_;
   bool has_truth_;
   std::map<std::string, Own> own_;  // by engine
+  std::map<std::string, reference::StepSettings> taken_;
   std::map<std::pair<std::string, double>, std::unique_ptr<Case>> cases_;
 };
 

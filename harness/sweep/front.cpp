@@ -61,6 +61,11 @@ Dominance compare_with(std::span<const Result> rows, const std::string& rival, c
     return best != nullptr && best->cost <= point.cost;
   };
   out.points = static_cast<int>(points.size());
+  out.compared = std::ranges::all_of(points, [&](const Point& point) {
+    return std::ranges::all_of(
+        plumb, [&](const Point& other) { return comparable(*point.row, *other.row, metric); });
+  });
+  if (!out.compared) return out;
   for (const Point& point : points) {
     if (dominated(point)) {
       ++out.dominated;
@@ -75,6 +80,15 @@ Dominance compare_with(std::span<const Result> rows, const std::string& rival, c
 }
 
 }  // namespace
+
+std::optional<double> known_error(const Result& row, const MetricField& metric) {
+  const auto &error = row.metrics.*metric.value, &least = row.truth_within.*metric.value;
+  return error ? error : least;
+}
+
+bool comparable(const Result& a, const Result& b, const MetricField& metric) {
+  return !metric.against_truth || a.truth == b.truth;
+}
 
 std::vector<Point> points_of(std::span<const Result> rows, const MetricField& metric) {
   std::vector<Point> out;

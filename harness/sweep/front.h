@@ -23,6 +23,14 @@ struct Point {
   double cost = 0;   ///< ns per simulated second
 };
 
+/// Returns the error of a row, or the accuracy of its truth where the error is below that; nullopt if neither
+/// is known.
+std::optional<double> known_error(const Result& row, const MetricField& metric);
+
+/// Returns true if the errors of two rows in `metric` are distances from the same thing, so that they rank
+/// engines: not if each engine has a limit of its own.
+bool comparable(const Result& a, const Result& b, const MetricField& metric);
+
 /// Returns the rows that ran to their end with a known metric and a measured cost.
 std::vector<Point> points_of(std::span<const Result> rows, const MetricField& metric);
 
@@ -54,7 +62,8 @@ std::optional<Order> observed_order(std::span<const Point> points);
 
 inline constexpr double kPlateau = 4;
 
-/// Comparison of plumb's points with those of one rival on one scene.
+/// Comparison of plumb's points with those of one rival on one scene, where both have errors against the same
+/// truth.
 struct Dominance {
   std::string label, rival;
   int points = 0;           ///< the rival's
@@ -62,6 +71,7 @@ struct Dominance {
   int front = 0;            ///< number of points on the rival's own front
   int front_dominated = 0;  ///< of these
   int failed = 0;           ///< runs of the rival that crashed, hung or diverged, and so have no point
+  bool compared = true;     ///< false: its errors are distances from another truth than plumb's
   struct Exception {
     std::string settings;    ///< text of `settings_text`
     std::string metric;      ///< metric by which the scene is judged

@@ -58,6 +58,10 @@ std::string fronts(const SceneTrade& trade, const Style& style) {
         shared += fmt::format("{}{} {}", shared.empty() ? "" : ", ", name, value);
       out += style.paint(pad_right("", 46) + "all with " + shared, Ink::Dim) + "\n";
     }
+    if (!engine.front.empty() && (!trade.one_truth || engine.within > 0))
+      out += style.paint("  " + pad_right("", 20) + wrap("against " + engine.truth, style.width - 22, 22),
+                         Ink::Dim) +
+             "\n";
     if (engine.front.empty())
       out += style.paint("  " + pad_right(engine.engine, 20) + wrap(engine.why_none, style.width - 22, 22),
                          Ink::Dim) +
@@ -66,7 +70,7 @@ std::string fronts(const SceneTrade& trade, const Style& style) {
   return out;
 }
 
-// Formats one column per decade, the best of each coloured.
+// Formats one column per decade, the best of each coloured if errors of different engines can be ranked.
 template <class Value, class Text>
 std::string decades(const SceneTrade& trade, const std::string& title, std::span<const double> columns,
                     const Style& style, Value value, Text heading, Text cell) {
@@ -75,7 +79,7 @@ std::string decades(const SceneTrade& trade, const std::string& title, std::span
   out += "\n";
   std::vector<double> best(columns.size(), INFINITY);
   for (const EngineTrade& engine : trade.engines)
-    for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t i = 0; trade.one_truth && i < columns.size(); ++i)
       if (const auto now = value(engine, columns[i])) best[i] = std::min(best[i], *now);
   for (const EngineTrade& engine : trade.engines) {
     if (engine.front.empty()) continue;
@@ -84,7 +88,7 @@ std::string decades(const SceneTrade& trade, const std::string& title, std::span
       const std::optional<double> now = value(engine, columns[i]);
       const std::string text = now ? cell(*now) : "-";
       out += pad_left("", 10 - static_cast<int>(text.size())) +
-             style.paint(text, now && *now <= best[i] ? Ink::Green : Ink::Plain);
+             style.paint(text, now && trade.one_truth && *now <= best[i] ? Ink::Green : Ink::Plain);
     }
     out += "\n";
   }
@@ -151,6 +155,7 @@ std::string front_table(std::span<const Result> rows, const MetricField* metric,
 double overall_share(std::span<const Dominance> rows) {
   double points = 0, dominated = 0;
   for (const Dominance& row : rows) {
+    if (!row.compared) continue;
     points += row.points;
     dominated += row.dominated;
   }
@@ -192,6 +197,12 @@ std::string dominance_table(std::span<const Dominance> rows, const Style& style)
          "\n";
   Dominance all;
   for (const Dominance& row : rows) {
+    if (!row.compared) {
+      out += fmt::format("  {:<{}}{:<18}not compared: against its own limit, not plumb's truth\n", row.label, width,
+                         row.rival);
+      all.failed += row.failed;
+      continue;
+    }
     out += fmt::format("  {:<{}}{:<18}{:>16}{:>18}{:>8}\n", row.label, width, row.rival,
                        share(row.dominated, row.points), share(row.front_dominated, row.front), row.failed);
     all.points += row.points;

@@ -11,6 +11,7 @@
 
 #include "harness/isolate.h"
 #include "harness/style.h"
+#include "harness/summary.h"
 #include "harness/truth_table.h"
 
 namespace plumb::harness::sweep {
@@ -53,10 +54,19 @@ std::optional<States> run(const scenarios::Problem& problem, const reference::Ba
   return states;
 }
 
-double distance(const States& a, const States& b) {
-  double out = 0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    out = std::max(out, std::hypot(a[i].position.x - b[i].position.x, a[i].position.y - b[i].position.y));
+Metrics distances(const States& a, const States& b) {
+  double position = 0, angle = 0, velocity = 0, spin = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    position = std::max(
+        position, std::hypot(a[i].position.x - b[i].position.x, a[i].position.y - b[i].position.y));
+    angle = std::max(angle, std::abs(a[i].angle - b[i].angle));
+    velocity = std::max(
+        velocity, std::hypot(a[i].velocity.x - b[i].velocity.x, a[i].velocity.y - b[i].velocity.y));
+    spin = std::max(spin, std::abs(a[i].angular_velocity - b[i].angular_velocity));
+  }
+  Metrics out;
+  out.position_error = position, out.angle_error = angle;
+  out.velocity_error = velocity, out.angular_velocity_error = spin;
   return out;
 }
 
@@ -73,6 +83,14 @@ std::vector<reference::StepSettings> refinements(const reference::Backend& backe
   for (int rung = 0; rung < ladder.rungs; ++rung)
     if (ladder.dt(rung) <= kInterval * (1 + 1e-9)) out.push_back({.dt = ladder.dt(rung)});
   return out;
+}
+
+// Returns the last two refinements that lead to `at`; none if they do not.
+std::vector<reference::StepSettings> last_two(const std::vector<reference::StepSettings>& all,
+                                              const reference::StepSettings& at) {
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].dt == at.dt && all[i].tolerance == at.tolerance) return {all[i - 1], all[i]};
+  return {};
 }
 
 BodyState between(const BodyState& a, const BodyState& b, double share, double interval) {
@@ -108,26 +126,31 @@ void OwnLimit::at(double time, std::span<BodyState> out) const {
 
 std::shared_ptr<const OwnLimit> find_own_limit(const scenarios::Problem& problem,
                                                const reference::Backend& backend, const Ladder& ladder,
-                                               double seconds) {
+                                               double seconds,
+                                               const std::optional<reference::StepSettings>& at) {
   using Clock = std::chrono::steady_clock;
   auto out = std::make_shared<OwnLimit>();
   out->interval = kInterval;
   out->bodies = problem.scene.bodies.size();
   const bool adaptive = backend.method({}).scheme == reference::Scheme::Adaptive;
   int runs = 0;
-  for (const reference::StepSettings& settings : refinements(backend, ladder)) {
+  std::vector<reference::StepSettings> all = refinements(backend, ladder);
+  if (at) all = last_two(all, *at);
+  for (const reference::StepSettings& settings : all) {
     const Clock::time_point start = Clock::now();
     std::optional<States> states = run(problem, backend, settings, std::max(1.0, 3 * seconds), out->problem);
     if (!states) break;
     out->problem.clear();
     ++runs;
-    out->distance = runs == 1 ? INFINITY : distance(out->states, *states);
+    if (runs > 1) out->within = distances(out->states, *states);
+    const double distance = out->within.position_error.value_or(INFINITY);
     out->states = std::move(*states);
+    out->settings = settings;
     out->source = fmt::format("{}'s own limit at {}, within {} m of the result at {}", backend.name(),
-                              settings_text(settings), figure(out->distance),
+                              settings_text(settings), figure(distance),
                               adaptive ? "a hundred times the tolerance" : "twice the step");
     const double took = std::chrono::duration<double>(Clock::now() - start).count();
-    if (out->distance < kRounding || 2 * took > seconds) break;
+    if (!at && (distance < kRounding || 2 * took > seconds)) break;
   }
   if (runs >= 2) {
     out->problem.clear();
@@ -135,6 +158,22 @@ std::shared_ptr<const OwnLimit> find_own_limit(const scenarios::Problem& problem
     out->problem = fmt::format("two runs with steps of 1/240 s or less take more than {:g} s", seconds);
   }
   return out;
+}
+
+void hold_against(Result& result, const OwnLimit& limit) {
+  result.truth_within = limit.within;
+  result.truth_asked = limit.settings;
+  for (Check& check : result.checks)
+    if (check.oracle == Oracle::Exact) check.oracle = Oracle::Self;
+  for (const MetricField& metric : kMetricFields) {
+    const auto& least = limit.within.*metric.value;
+    auto& error = result.metrics.*metric.value;
+    if (!least || !error || std::max(*error, kRoundingFloor) >= *least) continue;
+    error.reset();
+    std::erase_if(result.checks, [&](const Check& check) {
+      return check.oracle == Oracle::Self && check.name == metric.name;
+    });
+  }
 }
 
 }  // namespace plumb::harness::sweep

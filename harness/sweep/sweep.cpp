@@ -99,7 +99,7 @@ void InstanceSweep::set_up() {
     const reference::StepSettings plain;
     if (identity.available) reason = backend->unsupported(problem.scene, plain);
     if (reason.empty() && !cases_.has_truth() && !cases_.limit(*backend).problem.empty()) {
-      reason = fmt::format("its solutions do not converge: {}", cases_.limit(*backend).problem);
+      reason = fmt::format("{}{}", kNoLimit, cases_.limit(*backend).problem);
       status = Status::Failed;
     }
     if (reason.empty()) {
@@ -134,7 +134,7 @@ void InstanceSweep::tell_all() {
       if (trial.result.engine != entrant.backend->name()) continue;
       const auto place = entrant.explorer.space().find(trial.result.asked);
       if (!place) continue;
-      const auto& error = trial.result.metrics.*metric.value;
+      const auto error = known_error(trial.result, metric);
       if (trial.result.status == Status::Ok && error && trial.rough.steps > 0) {
         entrant.explorer.tell(*place, *error, trial.rough.ns_per_step / trial.result.dt);
       } else {
@@ -183,12 +183,10 @@ std::vector<RunRequest> InstanceSweep::next_runs() {
 bool InstanceSweep::run(const std::vector<RunRequest>& requests) {
   bool interrupted = false;
   const double seconds = std::min(options_.seconds_a_run, std::max(1.0, 5 * kDearest * seconds_));
-  run_isolated_all(requests, 1, seconds, [&](std::size_t, IsolatedRun run) {
+  run_isolated_all(requests, 1, seconds, [&](std::size_t i, IsolatedRun run) {
     interrupted = interrupted || run.interrupted;
     if (run.interrupted) return;
-    if (!cases_.has_truth())
-      for (Check& check : run.result.checks)
-        if (check.oracle == Oracle::Exact) check.oracle = Oracle::Self;
+    if (!cases_.has_truth()) hold_against(run.result, cases_.limit(*requests[i].backend));
     record_.ran(label_, {std::move(run.result), run.rough.value_or(CostSample{}), {}});
   });
   return !interrupted;

@@ -32,10 +32,15 @@ std::optional<Order> order_of(std::span<const Point> points) {
   return best;
 }
 
-std::string why_none(std::span<const Result> rows, const std::string& engine) {
+std::string why_none(std::span<const Result> rows, const std::string& engine, const MetricField& metric) {
   for (const Result& row : rows)
     if (row.engine == engine && row.status != Status::Ok)
       return fmt::format("{}: {}", name_of(row.status), row.reason);
+  const auto measured = std::ranges::find_if(
+      rows, [&](const Result& row) { return row.engine == engine && row.metrics.*metric.value; });
+  const auto any = std::ranges::find(rows, engine, &Result::engine);
+  if (measured == rows.end() && any != rows.end() && any->truth_within.*metric.value)
+    return fmt::format("no run can be told from {}", any->truth);
   return "no cost was measured";
 }
 
@@ -53,6 +58,7 @@ SceneTrade trade_of(std::span<const Result> rows, const MetricField* metric) {
   SceneTrade out;
   out.metric = metric != nullptr ? metric : &headline_metric(rows);
   out.label = rows.front().label;
+  const Result* first_row = nullptr;
   double least_error = INFINITY, most_error = 0, least_cost = INFINITY, most_cost = 0;
   const std::vector<Point> all = points_of(rows, *out.metric);
   for (const std::string& engine : engines_of(rows)) {
@@ -61,17 +67,24 @@ SceneTrade trade_of(std::span<const Result> rows, const MetricField* metric) {
                  [&](const Point& point) { return point.row->engine == engine; });
     trade.front = front_of(trade.points);
     trade.order = order_of(trade.points);
-    if (trade.front.empty()) trade.why_none = why_none(rows, engine);
+    if (trade.front.empty()) trade.why_none = why_none(rows, engine, *out.metric);
+    if (!trade.front.empty()) {
+      const Result& row = *trade.front.front().row;
+      trade.truth = row.truth;
+      trade.within = (row.truth_within.*out.metric->value).value_or(0);
+      if (first_row == nullptr) out.truth = row.truth, first_row = &row;
+      out.one_truth = out.one_truth && comparable(row, *first_row, *out.metric);
+    }
     for (const Point& point : trade.front) {
       least_error = std::min(least_error, point.error);
       most_error = std::max(most_error, point.error);
       least_cost = std::min(least_cost, point.cost);
       most_cost = std::max(most_cost, point.cost);
-      out.truth = point.row->truth;
       out.duration = point.row->duration;
     }
     out.engines.push_back(std::move(trade));
   }
+  if (!out.one_truth) out.truth = kOwnLimits;
   if (most_error > 0) {
     out.errors = decades(least_error, most_error);
     std::reverse(out.errors.begin(), out.errors.end());

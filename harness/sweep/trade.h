@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/sweep/front.h"
@@ -14,13 +15,19 @@ struct EngineTrade {
   std::string engine;
   std::vector<Point> points{};  ///< all of them
   std::vector<Point> front{};
+  std::string truth{};           ///< that its errors are distances from
+  double within = 0;             ///< accuracy of that truth in the metric: no point has a smaller error
   std::string why_none{};        ///< reason for an empty front: skipped or failed, and why
   std::optional<Order> order{};  ///< order in dt, from the series with the most pairs of steps
 };
 
+inline constexpr std::string_view kOwnLimits = "each engine's own limit";
+
 /// Trade-off in the rows of one scene. Points refer to the rows from which it was computed.
 struct SceneTrade {
-  std::string label, truth;
+  std::string label;
+  std::string truth;      ///< of all engines, or `kOwnLimits`
+  bool one_truth = true;  ///< false: errors of different engines are distances from different truths
   double duration = 0;  ///< s
   const MetricField* metric = nullptr;
   std::vector<EngineTrade> engines;

@@ -99,7 +99,8 @@ void Tuner::enter() {
       const OwnLimit& limit = cases_.limit(*backend);
       why = limit.problem.empty() ? "" : "its solutions do not converge: " + limit.problem;
       // The uncertainty of the limit is also an uncertainty of the errors.
-      if (why.empty() && goal_.error && limit.distance > *goal_.error / 2)
+      const double within = (limit.within.*options_.metric->value).value_or(0);
+      if (why.empty() && goal_.error && within > *goal_.error / 2)
         why = fmt::format("{}: not accurate enough for this tolerance", limit.source);
     }
     entrants_.push_back({.backend = backend, .explorer = Explorer(Space(*backend, ladder_))});
@@ -126,7 +127,8 @@ std::vector<std::pair<Entrant*, RunRequest>> Tuner::next_runs() {
 
 void Tuner::take(Entrant& entrant, IsolatedRun run) {
   const auto place = entrant.explorer.space().find(run.result.asked);
-  const auto& error = run.result.metrics.*options_.metric->value;
+  if (!cases_.has_truth()) hold_against(run.result, cases_.limit(*entrant.backend));
+  const auto error = known_error(run.result, *options_.metric);
   if (run.result.status != Status::Ok || !error || !std::isfinite(*error) || !run.rough) {
     entrant.explorer.fail(*place);
     entrant.last_failure = run.result.status == Status::Ok
@@ -167,7 +169,7 @@ bool Tuner::better(const Trial& a, const Trial& b) const {
   const bool a_meets = meets(a);
   if (a_meets != meets(b)) return a_meets;
   const bool by_cost = options_.tolerance.has_value() == a_meets;
-  return by_cost ? a.ns_a_second() < b.ns_a_second() : a.error < b.error;
+  return by_cost || a.error == b.error ? a.ns_a_second() < b.ns_a_second() : a.error < b.error;
 }
 
 bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
@@ -204,9 +206,10 @@ bool Tuner::measure(const std::function<void(const std::string&)>& progress) {
 // Repeats the answer's run. An answer that misses the goal in the second run is rejected.
 void Tuner::confirm(const Entrant& entrant, TuneAnswer& answer) {
   const Case& scene_case = cases_.at(*entrant.backend, answer.row.dt);
-  const IsolatedRun again =
+  IsolatedRun again =
       run_isolated(scene_case, *entrant.backend, answer.row.asked, nullptr, options_.seconds_a_run);
-  const auto& error = again.result.metrics.*options_.metric->value;
+  if (!cases_.has_truth()) hold_against(again.result, cases_.limit(*entrant.backend));
+  const auto error = known_error(again.result, *options_.metric);
   const bool ran = again.result.status == Status::Ok && error && std::isfinite(*error);
   answer.confirmed =
       ran && std::bit_cast<std::uint64_t>(*error) == std::bit_cast<std::uint64_t>(answer.error);

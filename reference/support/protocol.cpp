@@ -91,6 +91,11 @@ double finite_number(const Json& value, const char* what) {
   return out;
 }
 
+/// Highest order that a method may declare: beyond every method in use, of which extrapolation has the highest.
+constexpr int kHighestOrder = 20;
+/// Largest unit roundoff: that of 16-bit numbers with 8 bits of mantissa is 0.0078.
+constexpr double kLargestEpsilon = 0.01;
+
 bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -110,8 +115,13 @@ Method method_from_json(const Json& message) {
     throw Malformed("its \"scheme\" is " + plumb::quoted(scheme) + ", and not one of " + names);
   }
   out.order = whole_number(message, "order");
+  if (out.order < 0 || out.order > kHighestOrder)
+    throw Malformed("its \"order\" is " + std::to_string(out.order) + ", not 0 to " +
+                    std::to_string(kHighestOrder));
   out.epsilon = member<double>(message, "epsilon");
-  if (!(out.epsilon > 0) || out.order < 0) throw Malformed("its \"method\" is " + printable(message.dump()));
+  if (!(out.epsilon > 0 && out.epsilon <= kLargestEpsilon))
+    throw Malformed("its \"epsilon\" is " + shortest(out.epsilon) + ", not above 0 and at most " +
+                    shortest(kLargestEpsilon));
   return out;
 }
 
@@ -130,6 +140,24 @@ Json method_json(const Method& method, int substeps) {
   out["epsilon"] = method.epsilon;
   out["substeps"] = substeps;
   return out;
+}
+
+/// Returns the member of a line that is not JSON in which a number is not finite: the spellings in Python,
+/// JavaScript and C of numbers that JSON cannot express.
+std::optional<std::string> member_not_finite(std::string_view line) {
+  if (!line.starts_with('{')) return {};
+  std::string_view text, name;  // the last text, and the last one before a colon
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == ':') name = text;
+    for (const std::string_view word : {"NaN", "nan", "Infinity", "inf"})
+      if (line.substr(i).starts_with(word)) return std::string(name);
+    if (line[i] != '"') continue;
+    const std::size_t start = i + 1;
+    for (++i; i < line.size() && line[i] != '"'; ++i)
+      if (line[i] == '\\') ++i;
+    text = line.substr(start, std::min(i, line.size()) - start);
+  }
+  return {};
 }
 
 /// Returns true if arrays and objects nest deeper than in any scene or message (64 levels). The JSON library
@@ -269,8 +297,12 @@ Settings effective_from_json(const Json& message) {
     throw Malformed("its \"effective_settings\" has " + std::to_string(message.size()) +
                     " entries; at most " + std::to_string(kMostEntries) + " are read");
   Settings out;
-  for (const auto& [name, value] : message.items())
+  for (const auto& [name, value] : message.items()) {
+    if (!value.is_string() && !value.is_number() && !value.is_boolean())
+      throw Malformed("its setting " + plumb::quoted(name) + " is " + printable(value.dump(), kMostText) +
+                      ", and not a string, a number or a boolean");
     out.emplace_back(printable(name), printable(as_text(value), kMostText));
+  }
   return out;
 }
 
@@ -375,10 +407,8 @@ Json parse_line(std::string_view line) {
   try {
     out = Json::parse(line);
   } catch (const Json::exception&) {
-    // Spellings in Python, JavaScript and C of numbers that JSON cannot express.
-    for (const char* word : {"NaN", "nan", "Infinity", "inf"}) {
-      if (line.starts_with('{') && line.find(word) != line.npos) throw NotFinite("a state is not finite");
-    }
+    if (const auto name = member_not_finite(line))
+      throw NotFinite(*name == "states" ? "a state is not finite" : plumb::quoted(*name) + " is not finite");
     throw Malformed("it is not JSON: " + plumb::quoted(line));
   }
   if (!out.is_object()) throw Malformed("it is not a JSON object: " + plumb::quoted(line));

@@ -73,7 +73,7 @@ function sentence() {
     const costs = [];
     for (const scene of data.scenes) {
       const [mine, other] = [bestOf(scene, "plumb"), bestOf(scene, rival)];
-      if (!mine || !other) continue;
+      if (!mine || !other || scene.one_truth === false) continue;
       both += 1;
       nearer += Math.max(mine.metrics.position_error, 1e-12) <= Math.max(other.metrics.position_error, 1e-12);
       if (mine.cost && other.cost) costs.push(mine.cost.second / other.cost.second);

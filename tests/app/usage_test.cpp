@@ -207,6 +207,15 @@ TEST(Usage, ARefusalNamesAnEngineThatRunsTheScene) {
   }
 }
 
+// Libraries greet on stdout, but only data goes there: the first line is the header.
+TEST(Usage, NoEnginePrintsAmongTheData) {
+  for (const char* engine : {"box2d", "bullet", "chipmunk", "ode", "mujoco", "simbody"}) {
+    const Ran ran = plumb({"run", "free_fall", "--engine", engine, "--format", "csv"});
+    if (ran.code != 0) continue;
+    EXPECT_EQ(ran.out.substr(0, ran.out.find('\n')), "t,body,x,y,angle,vx,vy,w") << engine;
+  }
+}
+
 // A broken scene file: the line, the body, the field and the value are named.
 struct Broken {
   const char* name;

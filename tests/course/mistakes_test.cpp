@@ -23,6 +23,7 @@ struct Seed {
 constexpr Seed kSeeds[] = {
     {"no_gravity", "falls", "no_gravity"},
     {"damping", "falls", "damping"},
+    {"speeding_up", "falls", "speeding_up"},
     {"gravity_of_9_8", "falls", "gravity_hard_coded"},
     {"gravity_upwards", "falls", "gravity_upwards"},
     {"gravity_twice", "falls", "gravity_twice"},

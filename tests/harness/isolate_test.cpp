@@ -138,6 +138,19 @@ TEST(Isolate, WorkWhoseEngineIsKilledIsDoneAgain) {
   EXPECT_EQ(outcome.text, "whole");
 }
 
+// Only one signal ended it: that of the engine's program.
+TEST(Isolate, AnEngineThatIsKilledEachTimeIsNamedWithItsOwnSignal) {
+  using reference::ProcessError;
+  const Outcome outcome = isolate(
+      []() -> std::string {
+        throw ProcessError(ProcessError::Fault::Killed, "mine", "run", "it was killed by signal 15");
+      },
+      10);
+  EXPECT_EQ(outcome.kind, Outcome::Kind::Crashed);
+  EXPECT_NE(outcome.text.find("signal 15, in each of 3 attempts"), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find("SIGKILL"), std::string::npos) << outcome.text;
+}
+
 TEST(Isolate, PrintingDoesNotBlockTheChild) {
   const Outcome outcome = isolate(
       [] {

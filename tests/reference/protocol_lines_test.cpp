@@ -2,6 +2,7 @@
 // or understood.
 #include "reference/support/protocol.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,6 +49,45 @@ std::vector<Message> messages() {
              EXPECT_TRUE(std::isfinite(t));
              for (const BodyState& s : states) EXPECT_TRUE(std::isfinite(s.position.x + s.angular_velocity));
            }}};
+}
+
+/// Returns what is said of a message that is refused; empty if it is understood.
+std::string complaint(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const std::exception& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+TEST(ProtocolLines, AHelloOutOfItsRangesIsRefusedByName) {
+  const auto of_method = [](const char* name, const Json& value) {
+    Json hello = good_hello();
+    hello["method"][name] = value;
+    return complaint([&] { protocol::hello_from_json(hello); });
+  };
+  EXPECT_EQ(of_method("order", 20), "");
+  EXPECT_THAT(of_method("order", 99), ::testing::HasSubstr("\"order\" is 99, not 0 to 20"));
+  EXPECT_EQ(of_method("epsilon", 0.0078125), "");
+  for (const double epsilon : {1e9, 0.02, 0.0, -1.0})
+    EXPECT_THAT(of_method("epsilon", epsilon), ::testing::HasSubstr("\"epsilon\" is ")) << epsilon;
+}
+
+TEST(ProtocolLines, TheMemberThatIsNotFiniteIsNamed) {
+  const auto said = [](const char* line) { return complaint([&] { protocol::parse_line(line); }); };
+  EXPECT_EQ(said(R"({"protocol": 1, "method": {"order": 1, "epsilon": NaN}})"), "'epsilon' is not finite");
+  EXPECT_EQ(said(R"({"t": 1, "states": [[0, -Infinity, 0, 0, 0, 0]]})"), "a state is not finite");
+  EXPECT_THAT(said(R"({"name": "info", )"), ::testing::HasSubstr("it is not JSON"));
+}
+
+TEST(ProtocolLines, SettingsAreTextNumbersOrBooleans) {
+  for (const char* value : {R"({"a": 1})", "[1]", "null"}) {
+    const Json settings{{"dt", Json::parse(value)}};
+    EXPECT_THAT(complaint([&] { protocol::effective_from_json(settings); }),
+                ::testing::HasSubstr("its setting 'dt' is "))
+        << value;
+  }
 }
 
 /// True when it was understood; whatever is thrown has to be one of the protocol's own.

@@ -155,5 +155,55 @@ TEST(Tables, NameScenesEnginesSettingsAndExceptions) {
   EXPECT_EQ(trade_data(rows, nullptr, "csv").substr(0, 6), "label,");
 }
 
+// Two engines, each against its own limit: their errors are distances from different things.
+std::vector<Result> rows_of_own_limits() {
+  std::vector<Result> rows;
+  for (const char* engine : {"plumb", "box2d"}) {
+    for (const double dt : {1.0 / 64, 1.0 / 128}) {
+      rows.push_back(row(engine, engine[0] == 'p' ? dt : 10 * dt, 1 / dt, dt));
+      rows.back().truth = std::string(engine) + "'s own limit";
+      rows.back().truth_within.position_error = 1e-3;
+      rows.back().truth_asked = reference::StepSettings{.dt = 1.0 / 1024};
+      rows.back().metrics.energy_drift = dt;
+    }
+  }
+  return rows;
+}
+
+TEST(Dominance, OnlyErrorsAgainstTheSameTruthAreCompared) {
+  const std::vector<Result> rows = rows_of_own_limits();
+  const std::vector<Dominance> own = dominance(rows);
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_FALSE(own[0].compared);
+  EXPECT_EQ(own[0].dominated, 0);
+  EXPECT_TRUE(own[0].exceptions.empty());
+  EXPECT_TRUE(std::isnan(overall_share(own)));
+  EXPECT_NE(dominance_table(own, {}).find("not compared"), std::string::npos);
+  // Drifts are distances from laws, which all engines share.
+  const MetricField& drift = *std::ranges::find(kMetricFields, "energy_drift", &MetricField::name);
+  ASSERT_EQ(dominance(rows, &drift).size(), 1u);
+  EXPECT_TRUE(dominance(rows, &drift)[0].compared);
+}
+
+TEST(FrontTable, NamesTheTruthOfEachEngine) {
+  const std::vector<Result> rows = rows_of_own_limits();
+  const std::string text = front_table(rows, nullptr, {});
+  for (const char* part : {"each engine's own limit", "against plumb's own limit", "against box2d's own limit"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << text;
+  const std::string json = trade_data(rows, nullptr, "json"), csv = trade_data(rows, nullptr, "csv");
+  EXPECT_NE(json.find("\"truth\": \"box2d's own limit\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"truth_within\": 0.001"), std::string::npos) << json;
+  EXPECT_NE(csv.find(",plumb's own limit,0.001\n"), std::string::npos) << csv;
+}
+
+TEST(Rows, KeepTheAccuracyOfTheirTruth) {
+  const Result before = rows_of_own_limits().front();
+  const Result after = result_from_json(to_json(before));
+  EXPECT_EQ(after.truth_within.position_error, 1e-3);
+  EXPECT_FALSE(after.truth_within.angle_error);
+  ASSERT_TRUE(after.truth_asked);
+  EXPECT_EQ(after.truth_asked->dt, 1.0 / 1024);
+}
+
 }  // namespace
 }  // namespace plumb::harness::sweep

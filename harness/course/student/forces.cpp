@@ -199,6 +199,7 @@ void StudentWorld::accelerate() {
     if (is("constant_speed")) b.velocity = b.body->velocity;
     b.velocity += gain;
     if (is("damping")) b.velocity *= 0.99;
+    if (is("speeding_up")) b.velocity *= 1.0005;
     if (scales("speed below which bodies stop") && length(b.velocity) < factor_) b.velocity = {};
     const double torque_dt = is("torque_without_dt") ? 1 : is("torque_dt_twice") ? dt * dt : dt;
     b.spin_before = b.spin;
