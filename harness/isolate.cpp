@@ -217,8 +217,7 @@ Outcome how_it_ended(Child& child, int status) {
   }
   const bool engine_killed = child.text.starts_with('!');
   if (child.text.empty() || engine_killed) {
-    child.killed =
-        engine_killed || (WIFSIGNALED(status) && reference::comes_from_outside(WTERMSIG(status)));
+    child.killed = engine_killed || (WIFSIGNALED(status) && reference::comes_from_outside(WTERMSIG(status)));
     std::string text = engine_killed ? child.text.substr(1) : how_it_died(status, child.printed);
     if (child.killed) text += fmt::format(", in each of {} attempts", child.attempt);
     return {Outcome::Kind::Crashed, std::move(text)};

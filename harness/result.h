@@ -42,14 +42,14 @@ struct Result {
   int size = 1;
   std::string label;  ///< "elastic_collision/oblique", "pendulum_chain[20]"
   std::string engine, engine_version, precision;
-  double dt = 0;                    ///< s
-  double sample = 0;                ///< s, interval between measured states: dt or a multiple of it
-  double duration = 0;              ///< s
-  std::string truth;                ///< source of the exact answer
-  Metrics truth_within{};           ///< accuracy of a truth that is an engine's own limit; smaller errors are
-                                    ///< not known
+  double dt = 0;           ///< s
+  double sample = 0;       ///< s, interval between measured states: dt or a multiple of it
+  double duration = 0;     ///< s
+  std::string truth;       ///< source of the exact answer
+  Metrics truth_within{};  ///< accuracy of a truth that is an engine's own limit; smaller errors are
+                           ///< not known
   std::optional<reference::StepSettings> truth_asked{};  ///< settings of the run that is such a truth
-  reference::StepSettings asked{};  ///< requested settings, which reproduce the run
+  reference::StepSettings asked{};                       ///< requested settings, which reproduce the run
   reference::Settings settings;
   Status status = Status::Ok;
   std::string reason;  ///< why it is not ok

@@ -104,8 +104,8 @@ std::string to_csv(const Cell& cell) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(cell.family),
                      csv_field(cell.axis), csv_field(cell.unit), cell.value, csv_field(cell.engine),
                      csv_field(cell.setting), name_of(finding.verdict), csv_field(finding.measure),
-                     text(finding.figure), finding.unit, text(finding.bound), csv_field(finding.reason), cell.steps,
-                     cell.seconds, cell.engine_seconds, cell.memory);
+                     text(finding.figure), finding.unit, text(finding.bound), csv_field(finding.reason),
+                     cell.steps, cell.seconds, cell.engine_seconds, cell.memory);
 }
 
 }  // namespace plumb::harness::stress

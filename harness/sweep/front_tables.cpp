@@ -198,8 +198,8 @@ std::string dominance_table(std::span<const Dominance> rows, const Style& style)
   Dominance all;
   for (const Dominance& row : rows) {
     if (!row.compared) {
-      out += fmt::format("  {:<{}}{:<18}not compared: against its own limit, not plumb's truth\n", row.label, width,
-                         row.rival);
+      out += fmt::format("  {:<{}}{:<18}not compared: against its own limit, not plumb's truth\n", row.label,
+                         width, row.rival);
       all.failed += row.failed;
       continue;
     }

@@ -16,11 +16,11 @@ namespace plumb::harness::sweep {
 /// Limit of an engine's motion as its steps get finer, to which runs are compared if no answer is known. It
 /// shows that the engine is consistent with itself, and nothing about physics.
 struct OwnLimit {
-  std::string source;   ///< "box2d's own limit, dt 1/7680, within 2.1e-5 m of that at twice the step"
+  std::string source;  ///< "box2d's own limit, dt 1/7680, within 2.1e-5 m of that at twice the step"
   /// Largest distances of a body's state from that with steps twice as long: errors of the limit itself.
   Metrics within{};
   reference::StepSettings settings{};  ///< of the run that is the limit
-  double interval = 0;  ///< s, from one sample to the next
+  double interval = 0;                 ///< s, from one sample to the next
   std::size_t bodies = 0;
   std::vector<BodyState> states;  ///< sample after sample, from t = 0
   std::string problem;            ///< reason if there is no limit; else empty

@@ -28,7 +28,7 @@ struct SceneTrade {
   std::string label;
   std::string truth;      ///< of all engines, or `kOwnLimits`
   bool one_truth = true;  ///< false: errors of different engines are distances from different truths
-  double duration = 0;  ///< s
+  double duration = 0;    ///< s
   const MetricField* metric = nullptr;
   std::vector<EngineTrade> engines;
   std::vector<double> errors;  ///< decades that some engine's front spans, from large to small

@@ -41,12 +41,8 @@ Json engine_json(const SceneTrade& scene, const EngineTrade& engine) {
   for (const double cost : scene.costs)
     errors.push_back(
         {{"ns_per_simulated_second", cost}, {"error", optional_json(error_at_cost(engine.front, cost))}});
-  Json json{{"engine", engine.engine},
-            {"points", engine.points.size()},
-            {"front", front},
-            {"cost_at_error", costs},
-            {"error_at_cost", errors},
-            {"truth", engine.truth},
+  Json json{{"engine", engine.engine},      {"points", engine.points.size()}, {"front", front},
+            {"cost_at_error", costs},       {"error_at_cost", errors},        {"truth", engine.truth},
             {"truth_within", engine.within}};
   json["order"] = engine.order ? Json(engine.order->order) : Json(nullptr);
   if (!engine.why_none.empty()) json["why_none"] = engine.why_none;
@@ -63,11 +59,10 @@ Json dominance_json(const Dominance& row) {
                           {"cost_ratio", point.cost_ratio > 0 ? Json(point.cost_ratio) : Json(nullptr)},
                           {"error_ratio", point.error_ratio > 0 ? Json(point.error_ratio) : Json(nullptr)},
                           {"noise", point.noise}});
-  return {{"label", row.label},     {"rival", row.rival},
-          {"points", row.points},   {"dominated", row.dominated},
-          {"front", row.front},     {"front_dominated", row.front_dominated},
-          {"failed", row.failed},   {"not_dominated", exceptions},
-          {"compared", row.compared}};
+  return {
+      {"label", row.label},         {"rival", row.rival},          {"points", row.points},
+      {"dominated", row.dominated}, {"front", row.front},          {"front_dominated", row.front_dominated},
+      {"failed", row.failed},       {"not_dominated", exceptions}, {"compared", row.compared}};
 }
 
 std::string as_json(std::span<const Result> rows, const MetricField* metric) {
@@ -92,15 +87,17 @@ std::string as_json(std::span<const Result> rows, const MetricField* metric) {
 }
 
 std::string as_csv(std::span<const Result> rows, const MetricField* metric) {
-  std::string out = "label,engine,metric,error,ns_per_simulated_second,low,high,settings,truth,truth_within\n";
+  std::string out =
+      "label,engine,metric,error,ns_per_simulated_second,low,high,settings,truth,truth_within\n";
   for (const std::vector<Result>& scene : by_label(rows)) {
     const SceneTrade trade = trade_of(scene, metric);
     for (const EngineTrade& engine : trade.engines) {
       for (const Point& point : engine.front) {
         const Cost& cost = *point.row->cost;
-        out += fmt::format("{},{},{},{},{},{},{},\"{}\",{},{}\n", csv_field(trade.label), csv_field(engine.engine), trade.metric->name,
-                           point.error, point.cost, cost.ns_per_step_low / point.row->dt,
-                           cost.ns_per_step_high / point.row->dt, settings_text(point.row->asked), csv_field(engine.truth), engine.within);
+        out += fmt::format("{},{},{},{},{},{},{},\"{}\",{},{}\n", csv_field(trade.label),
+                           csv_field(engine.engine), trade.metric->name, point.error, point.cost,
+                           cost.ns_per_step_low / point.row->dt, cost.ns_per_step_high / point.row->dt,
+                           settings_text(point.row->asked), csv_field(engine.truth), engine.within);
       }
     }
   }

@@ -91,7 +91,8 @@ double finite_number(const Json& value, const char* what) {
   return out;
 }
 
-/// Highest order that a method may declare: beyond every method in use, of which extrapolation has the highest.
+/// Highest order that a method may declare: beyond every method in use, of which extrapolation has the
+/// highest.
 constexpr int kHighestOrder = 20;
 /// Largest unit roundoff: that of 16-bit numbers with 8 bits of mantissa is 0.0078.
 constexpr double kLargestEpsilon = 0.01;

@@ -124,23 +124,25 @@ TEST(Tune, AFileOfTheUsersOwn) {
     EXPECT_NE(ran.out.find(part), std::string::npos) << part << ran.out;
 }
 
-// A spring of a user's own: each engine is held against its own limit, of which no figure is below the accuracy.
+// A spring of a user's own: each engine is held against its own limit, of which no figure is below the
+// accuracy.
 TEST(Sweep, ASceneFileIsHeldAgainstOwnLimitsAndCanBeRepeated) {
   const Folder folder;
   const std::string path = folder.write("one.json", R"({"gravity": [0, 0],
       "bodies": [{"name": "a", "position": [2, 0], "inertia": 1}],
       "forces": [{"type": "spring", "body_a": "world", "body_b": "a", "stiffness": 60}]})");
-  const Ran ran = plumb({"sweep", path, "--duration", "0.5", "--engine", "plumb,box2d", "--budget", "6", "--out",
-                         folder.path("s"), "--format", "json"});
+  const Ran ran = plumb({"sweep", path, "--duration", "0.5", "--engine", "plumb,box2d", "--budget", "6",
+                         "--out", folder.path("s"), "--format", "json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const Json json = Json::parse(ran.out);
   for (const Json& engine : json["scenes"][0]["engines"]) {
     const double least = engine["truth_within"];
     EXPECT_GT(least, 0) << engine;
-    EXPECT_NE(engine["truth"].get<std::string>().find(engine["engine"].get<std::string>()), std::string::npos);
+    EXPECT_NE(engine["truth"].get<std::string>().find(engine["engine"].get<std::string>()),
+              std::string::npos);
     for (const Json& point : engine["front"]) EXPECT_GE(point["error"], least) << engine;
     for (const Json& at : engine["cost_at_error"])
-      if (at["error"] < least) EXPECT_TRUE(at["ns_per_simulated_second"].is_null()) << at;
+      EXPECT_TRUE(at["error"] >= least || at["ns_per_simulated_second"].is_null()) << at;
   }
   for (const Json& rival : json["dominance"]) EXPECT_FALSE(rival["compared"]) << rival;
 

@@ -86,7 +86,8 @@ TEST(ViewScene, MovesAsASimulationWithTheSameSettings) {
                          kSolverNames[solver]);
             EXPECT_EQ(seen[i].position, expected[i].position);
             EXPECT_EQ(seen[i].angle, expected[i].angle);
-            // Velocities of a prescribed body are those of its path at a time that is summed in another order.
+            // Velocities of a prescribed body are those of its path at a time that is summed in another
+            // order.
             const double rounding = scene.bodies[i].type == BodyType::Kinematic ? 1e-12 : 0;
             EXPECT_NEAR(seen[i].velocity.x, expected[i].velocity.x, rounding);
             EXPECT_NEAR(seen[i].velocity.y, expected[i].velocity.y, rounding);
