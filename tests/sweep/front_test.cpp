@@ -188,7 +188,8 @@ TEST(Dominance, OnlyErrorsAgainstTheSameTruthAreCompared) {
 TEST(FrontTable, NamesTheTruthOfEachEngine) {
   const std::vector<Result> rows = rows_of_own_limits();
   const std::string text = front_table(rows, nullptr, {});
-  for (const char* part : {"each engine's own limit", "against plumb's own limit", "against box2d's own limit"})
+  for (const char* part :
+       {"each engine's own limit", "against plumb's own limit", "against box2d's own limit"})
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
   const std::string json = trade_data(rows, nullptr, "json"), csv = trade_data(rows, nullptr, "csv");
   EXPECT_NE(json.find("\"truth\": \"box2d's own limit\""), std::string::npos) << json;
