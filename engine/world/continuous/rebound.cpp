@@ -37,15 +37,17 @@ bool is_free(const WorldData<Real>& w, int body, double dt) {
   });
 }
 
-// Sets the parabola of a body under the acceleration by gravity and loads. That of a damped body follows from
-// its displacement (v0 + v1) dt / 2. Others' does not: contacts that push overlaps apart displace bodies too,
-// and an impact would take that motion of one of two bodies for an acceleration, which ends where it stops.
+// Sets the parabola of a body under the acceleration by gravity and loads. It does not follow from the
+// displacement: contacts that push overlaps apart displace bodies too, and an impact would take that motion
+// of one of two bodies for an acceleration, which ends where it stops. Damped bodies, and the Euler schemes,
+// move on another parabola, (v0 + v1) dt / 2, than their acceleration says; there the displacement tells it.
 template <class Real>
 void set_parabola(const WorldData<Real>& w, SweptBody& swept, double dt) {
   const VelocityIncrement<Real> increment = velocity_increment_of(w, swept.body, dt);
   const Vec2d end = w.motion[swept.body].velocity.template as<double>();
-  const Vec2d gain = increment.damping_factor == 1 ? increment.velocity.template as<double>()
-                                                   : 2 * (end - (1 / dt) * swept.displacement);
+  const bool exact = increment.damping_factor == 1 && w.settings.integrator == Integrator::VelocityVerlet;
+  const Vec2d gain =
+      exact ? increment.velocity.template as<double>() : 2 * (end - (1 / dt) * swept.displacement);
   const double rounding =
       8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (std::abs(end.x) + std::abs(end.y));
   if (std::abs(gain.x) + std::abs(gain.y) <= rounding) return;
