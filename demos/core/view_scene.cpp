@@ -161,53 +161,21 @@ WorldDefinition SceneDemo::definition() const {
 void SceneDemo::fill() {
   parts_ = add_scene(world_, scene_);
   forces_.emplace(scene_, parts_);
-  prescribed_.clear();
-  driven_.clear();
-  for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
-    if (!scene_.bodies[i].motion.empty()) prescribed_.push_back({i, PrescribedPath(scene_.bodies[i])});
-  for (const Drive& drive : scene_.drives)
-    for (std::size_t i = 0; i < scene_.joints.size(); ++i)
-      if (std::visit([](const auto& joint) { return joint.name; }, scene_.joints[i]) == drive.joint)
-        driven_.push_back({parts_.joints[i], Formula(drive.speed, kTimeVariable)});
+  drives_.emplace(scene_, parts_);
 }
 
 // Evaluates force laws, prescribed motions and drives in each substep, as a Simulation does: with any of
 // these, each substep is a step of the world.
 void SceneDemo::advance_world() {
-  if (forces_->empty() && prescribed_.empty() && driven_.empty()) {
+  if (forces_->empty() && drives_->empty()) {
     world_.step(dt_, substeps_);
     return;
   }
   const double substep = dt_ / substeps_;  // s
   for (int i = 0; i < substeps_; ++i) {
-    drive(substep);
+    drives_->apply(world_, substep);
     forces_->apply(world_, substep);
     world_.step(substep, 1);
-  }
-}
-
-// Gives each prescribed body the velocity that takes it to its place at the end of a step of `dt` s, and each
-// motor with a drive the drive's mean speed over it, by Simpson's rule.
-void SceneDemo::drive(double dt) {
-  const double start = world_.time(), end = start + dt;
-  for (const Prescribed& prescribed : prescribed_) {
-    const BodyState target = prescribed.path.at(end).state;
-    world_.move_towards(parts_.bodies[prescribed.body], target.position, target.angle, dt);
-  }
-  for (const Driven& driven : driven_) {
-    if (!world_.valid(driven.joint)) continue;
-    const auto speed = [&](double time) {
-      const double now[] = {time};
-      return driven.speed.at(std::span<const double>(now));
-    };
-    JointKind kind = world_.kind(driven.joint);
-    std::visit(
-        [&](auto& joint) {
-          if constexpr (requires { joint.motor; })
-            joint.motor->speed = (speed(start) + 4 * speed(0.5 * (start + end)) + speed(end)) / 6;
-        },
-        kind);
-    world_.change(driven.joint, kind);
   }
 }
 
@@ -218,12 +186,7 @@ void SceneDemo::changed(std::string_view control) {
 
 void SceneDemo::read_states(std::span<BodyState> out) const {
   for (std::size_t i = 0; i < parts_.bodies.size(); ++i) out[i] = world_.state(parts_.bodies[i]);
-  // In the world, the velocity of a prescribed body is the mean over its last step.
-  for (const Prescribed& prescribed : prescribed_) {
-    const BodyState now = prescribed.path.at(world_.time()).state;
-    out[prescribed.body].velocity = now.velocity;
-    out[prescribed.body].angular_velocity = now.angular_velocity;
-  }
+  drives_->read_velocities(world_.time(), out);
 }
 
 double SceneDemo::reach() const { return view_.half_perimeter() / kReach; }

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "demos/core/world_demo.h"
-#include "engine/scene/formula.h"
-#include "engine/scene/prescribed_path.h"
 #include "engine/scene/scene.h"
+#include "engine/world/scene/scene_drives.h"
 #include "engine/world/scene/scene_forces.h"
 
 namespace plumb::demos {
@@ -43,20 +42,7 @@ class SceneDemo final : public WorldDemo {
   Scene scene_;
   SceneParts parts_;
   std::optional<SceneForces<DemoReal>> forces_;
-  /// A body with a prescribed motion.
-  struct Prescribed {
-    std::size_t body;
-    PrescribedPath path;
-  };
-  /// A joint whose motor has a drive.
-  struct Driven {
-    JointId joint;
-    Formula speed;
-  };
-  void drive(double dt);
-
-  std::vector<Prescribed> prescribed_;
-  std::vector<Driven> driven_;
+  std::optional<SceneDrives<DemoReal>> drives_;
   Aabb<double> view_{};
   int solver_ = 0, iterations_ = 10;
 };

@@ -45,17 +45,8 @@ WorldDriver<Real>::WorldDriver(const Scene& scene, const Realtime& accuracy, boo
       world_(definition_of(scene, accuracy)),
       parts_(add_planned(world_, scene, plan_)),
       forces_(scene, parts_),
+      drives_(scene, parts_),
       start_states_(scene.bodies.size()) {
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-    if (!scene.bodies[body].motion.empty()) prescribed_.push_back({body, PrescribedPath(scene.bodies[body])});
-  }
-  for (const Drive& drive : scene.drives) {
-    for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
-      if (std::visit([](const auto& j) -> const std::string& { return j.name; }, scene.joints[joint]) ==
-          drive.joint)
-        driven_.push_back({parts_.joints[joint], Formula(drive.speed, kTimeVariable)});
-    }
-  }
   if (accuracy_.on_violation != OnViolation::Ignore || every_stage) monitor_.emplace(world_);
 }
 
@@ -79,40 +70,15 @@ void WorldDriver<Real>::step() {
 /// at the start.
 template <class Real>
 void WorldDriver<Real>::advance() {
-  const bool one_by_one = !forces_.empty() || !prescribed_.empty() || !driven_.empty();
+  const bool one_by_one = !forces_.empty() || !drives_.empty();
   const int count = one_by_one ? accuracy_.substeps : 1;
   const double dt = accuracy_.dt / count;
   for (int i = 0; i < count; ++i) {
-    if (one_by_one) apply_drives(dt);
+    if (one_by_one) drives_.apply(world_, dt);
     if (one_by_one) apply_forces(dt);
     if (monitor_) monitor_->begin_step();
     world_.step(dt, one_by_one ? 1 : accuracy_.substeps);
     if (monitor_) check();
-  }
-}
-
-/// Gives each prescribed body the velocity that takes it to its place at the end of the step. Gives each
-/// motor with a drive the drive's mean speed, from the speeds at the start, middle and end (Simpson's rule).
-template <class Real>
-void WorldDriver<Real>::apply_drives(double dt) {
-  const double start = world_.time(), end = start + dt;
-  for (const Prescribed& prescribed : prescribed_) {
-    const BodyState target = prescribed.path.at(end).state;
-    world_.move_towards(parts_.bodies[prescribed.body], target.position, target.angle, dt);
-  }
-  for (const Driven& driven : driven_) {
-    const auto speed = [&](double time) {
-      const double now[] = {time};
-      return driven.speed.at(std::span<const double>(now));
-    };
-    JointKind kind = world_.kind(driven.joint);
-    std::visit(
-        [&](auto& joint) {
-          if constexpr (requires { joint.motor; })
-            joint.motor->speed = (speed(start) + 4 * speed(0.5 * (start + end)) + speed(end)) / 6;
-        },
-        kind);
-    world_.change(driven.joint, kind);
   }
 }
 
@@ -163,12 +129,7 @@ void WorldDriver<Real>::read(std::span<BodyState> out) const {
     out[i] = {world_.position(parts_.bodies[i]), w.bodies[body].angle, motion.velocity.template as<double>(),
               static_cast<double>(motion.angular_velocity)};
   }
-  // In the world, the velocity of a prescribed body is the mean over its last step.
-  for (const Prescribed& prescribed : prescribed_) {
-    const BodyState now = prescribed.path.at(time()).state;
-    out[prescribed.body].velocity = now.velocity;
-    out[prescribed.body].angular_velocity = now.angular_velocity;
-  }
+  drives_.read_velocities(time(), out);
 }
 
 template <class Real>

@@ -8,10 +8,9 @@
 
 #include "engine/driver/accuracy.h"
 #include "engine/driver/driver.h"
-#include "engine/scene/formula.h"
-#include "engine/scene/prescribed_path.h"
 #include "engine/world/add_scene.h"
 #include "engine/world/invariant_monitor.h"
+#include "engine/world/scene/scene_drives.h"
 #include "engine/world/scene/scene_forces.h"
 #include "engine/world/world.h"
 
@@ -39,7 +38,6 @@ class WorldDriver final : public Driver {
  private:
   void advance();
   void apply_forces(double dt);
-  void apply_drives(double dt);
   void check();
   void handle_violation();
   void restore_start_states();
@@ -50,17 +48,7 @@ class WorldDriver final : public Driver {
   BasicWorld<Real> world_;
   SceneParts parts_;
   SceneForces<Real> forces_;
-  /// A body with a prescribed motion, and a joint whose motor has a drive.
-  struct Prescribed {
-    std::size_t body;
-    PrescribedPath path;
-  };
-  struct Driven {
-    JointId joint;
-    Formula speed;
-  };
-  std::vector<Prescribed> prescribed_;
-  std::vector<Driven> driven_;
+  SceneDrives<Real> drives_;
   std::vector<BodyState> start_states_;   // by body, at the start of the step
   std::vector<std::byte> undo_snapshot_;  // snapshot at that time, in case a violation undoes the step
   std::optional<InvariantMonitor<Real>> monitor_;
