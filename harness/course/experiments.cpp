@@ -111,6 +111,13 @@ Experiment soft_landing() {
           0.5};
 }
 
+// A ball that lands on a floor which comes first in the scene, and stays.
+Experiment landing_ball() {
+  return {scene_of("landing ball", {0, -kGravity},
+                   {ground(0.2, 0), make(Ball{.position = {0.3, 0.5}, .velocity = {0.5, -1}, .restitution = 0.3})}),
+          1};
+}
+
 // A ball that overlaps the floor at the start and leaves it: no impulse has acted that a sum could hold.
 Experiment leaving_ball() {
   return {
@@ -255,7 +262,7 @@ Experiment two_rods(bool hangs) {
 
 std::vector<Experiment> experiments(int chapter) {
   if (chapter == kForces) return {free_ball(), falling_spring()};
-  if (chapter < kCollisions) return {free_ball(), soft_landing(), leaving_ball()};
+  if (chapter < kCollisions) return {free_ball(), soft_landing(), leaving_ball(), landing_ball()};
   if (chapter == kCollisions) return {free_ball(), three_discs(0), slow_meeting()};
   if (chapter == kBoxes)
     return {pushed_box(),        twisted_box(),       three_discs(0), three_discs(0.8),      spinning_disc(),
