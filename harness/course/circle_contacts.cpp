@@ -57,6 +57,20 @@ Sleeper sleeper_after_hit(const Lab& lab) {
   return out;
 }
 
+// Returns how much is left after a second, m, of 10 cm that a ball overlaps a static post. A static body does
+// not give way, so the ball's mass makes no difference. Returns 0 for an engine that refuses such a start.
+double overlap_left_at_post(const Lab& lab, double mass) try {
+  constexpr double kDeep = 0.1, kRadius = 0.4;  // m
+  const Body ball = make(
+      Ball{.position = {-2 * kRadius + kDeep, 0}, .mass = mass, .radius = kRadius, .restitution = 0});
+  const Body post = fixed(make(Ball{.name = "post", .radius = kRadius, .restitution = 0}));
+  const Trace trace = lab.run(scene_of("overlap of a post", {}, {ball, post}), 1);
+  return 2 * kRadius - distance(trace, trace.states.size() - 1);
+} catch (const Error& error) {
+  if (error.field() == "overlap") return 0;
+  throw;
+}
+
 }  // namespace
 
 Finding post(const Lab& lab) {
@@ -81,6 +95,8 @@ Finding post(const Lab& lab) {
       .read("x of the post", "m", fixed_end.position.x, 0, 1e-9)
       .read("vx of the post", "m/s", fixed_end.velocity.x, 0, 1e-9)
       .read("vx of a ball of 20 kg", "m/s", heavy.last(0).velocity.x, -v, kShare * v)
+      .read("overlap of the post that 20 kg keep longer than 1 kg", "m",
+            overlap_left_at_post(lab, kHeavy) - overlap_left_at_post(lab, 1), 0, 0.005)
       .proven_if(
           moves, "static_moves",
           "The static post moves: a static body stays where it is, with an inverse mass of 0 in impulses and "
@@ -184,15 +200,6 @@ Finding overlap_is_shared(const Lab& lab) try {
   const Trace light_pair =
       head_on(lab, {.position = {-r + deep / 2, 0}, .mass = 0.2, .radius = r, .restitution = 0},
               {.position = {r - deep / 2, 0}, .mass = 0.1, .radius = r, .restitution = 0}, 1);
-  // A static body does not give way, so the mass of what overlaps it makes no difference.
-  const auto left_at_post = [&](double mass) {
-    const Trace t = lab.run(scene_of("overlap of a post", {},
-                                     {make(Ball{.position = {-2 * r + deep, 0}, .mass = mass, .radius = r, .restitution = 0}),
-                                      fixed(make(Ball{.name = "post", .radius = r, .restitution = 0}))}),
-                            1);
-    return 2 * r - distance(t, t.states.size() - 1);
-  };
-  const double more_left = left_at_post(20) - left_at_post(1);
   const double light_overlap = 2 * r - distance(light_pair, light_pair.states.size() - 1);
   const bool alike =
       b > most && std::abs(a + b)<0.1 * b, swapped = b> most && std::abs(a + heavy * b) < 0.1 * -a;
@@ -200,7 +207,6 @@ Finding overlap_is_shared(const Lab& lab) try {
       .read("shift of the centre of mass", "m", centre, 0, most)
       .read("overlap that is left", "m", overlap, 0, deep)
       .read("overlap that is left of 0.2 kg and 0.1 kg", "m", light_overlap, 0, deep)
-      .read("overlap that 20 kg on a static post keep longer than 1 kg", "m", more_left, 0, most)
       .proven_if(
           overlap > 1.01 * deep && two_bounce(lab), "pushed_together",
           "The overlap grows: the correction pushes the two into each other. a moves against the normal, b "

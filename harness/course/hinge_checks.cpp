@@ -253,8 +253,8 @@ Finding hinge_turns_both(const Lab& lab) {
   };
   const double off_spin = tolerance(l / l0, kept);
   const double still = 1e-3, moves = three_rods_move(lab, 1);
-  // The same rods at rest, with a gap at the hinge: closing it pushes them apart or together at one point, so
-  // that neither their common centre moves nor their sum of m r x dr + I da changes, to second order.
+  // The same rods at rest, with a gap at the hinge: closing it pushes them together along one line, so that
+  // their common centre stays and their sum of m r x dr + I da is 0.
   const double parted = 0.02;
   const auto close = [&]() -> Closing {
     Scene open = scene;
@@ -265,13 +265,14 @@ Finding hinge_turns_both(const Lab& lab) {
     double all = 0, mass = 0;
     for (const Body& body : open.bodies) mass += body.mass;
     for (std::size_t i = 0; i < open.bodies.size(); ++i) {
-      const double m = open.bodies[i].mass, length = i == 0 ? 2 * half_a : 2 * half_b;
-      const Vec2d way = t.last(i).position - t.first(i).position;
-      const double turn = m * cross(t.first(i).position, way) +
-                          m * (length * length + h * h) / 12 * (t.last(i).angle - t.first(i).angle);
-      out.shift += m / mass * way;
-      out.turn += turn;
-      all += std::abs(m * (length * length + h * h) / 12 * (t.last(i).angle - t.first(i).angle));
+      const double m = open.bodies[i].mass, l_of = i == 0 ? 2 * half_a : 2 * half_b;
+      out.shift += m / mass * (t.last(i).position - t.first(i).position);
+      for (std::size_t k = 1; k < t.states.size(); ++k) {
+        const BodyState &before = t.states[k - 1][i], &after = t.states[k][i];
+        const double turn = m * (l_of * l_of + h * h) / 12 * (after.angle - before.angle);
+        out.turn += turn + m * cross(0.5 * (before.position + after.position), after.position - before.position);
+        all += std::abs(turn);
+      }
     }
     out.turn = all > 0 ? out.turn / all : 0;
     const auto end = [&](std::size_t i, double at) {

@@ -97,7 +97,6 @@ constexpr Halved kHalved[] = {
     {"drag_quadratic", "drag_quadratic", "2", "The {0} of drag grows with the square of the speed: it is -c v{0}."},
     {"drag_constant", "drag_constant", "2", "The {0} of drag does not grow with the speed: it is -c v{0}."},
     {"drag_not_divided", "drag_not_divided", "2", "The {0} of drag is not divided by the mass: v{0} changes by -c v{0} dt/m."},
-    {"drag_pushes", "drag_pushes", "2", "The {0} of drag has the wrong sign: it is -c v{0}."},
     {"push_never_ends", "push_never_ends", "2", "A push never ends along {0}: it ends at \"start\" + \"duration\"."},
     {"spring_pulls_the_first_only", "spring_at_one_end", "2", "A spring pulls only its first end along {0}: it pulls both, along x and y."},
     {"spring_pulls_the_second_only", "spring_at_one_end", "2", "A spring pulls only its second end along {0}: it pulls both, along x and y."},

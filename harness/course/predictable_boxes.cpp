@@ -293,6 +293,9 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"axes_of_the_second_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_width_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_height_only", "axes_left_out", "4", kAxesLeftOut},
+      {"axes_not_turned_by_sides", "axes_not_turned", "4",
+       "The axes along which two boxes are compared do not turn with them: turn (1, 0) and (0, 1) by each "
+       "angle."},
       {"axes_not_turned", "axes_not_turned", "4",
        "The axes along which two boxes are compared do not turn with them: turn (1, 0) and (0, 1) by each "
        "angle."},

@@ -145,7 +145,7 @@ Finding settles(const Lab& lab) {
       .mistake_if(high > tolerance, "restless",
                   "The ball keeps bouncing on the floor: gravity adds g dt of speed each step, and that must "
                   "not bounce. "
-                  "Take restitution as 0 below about 2 g dt.")
+                  "Take restitution as 0 up to 2 g dt.")
       .finding();
 }
 

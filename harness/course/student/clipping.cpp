@@ -67,7 +67,7 @@ std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std:
       if (is("axes_of_the_width_only") && local.x == 0) continue;
       if (is("axes_of_the_height_only") && local.y == 0) continue;
       constexpr Name kAxes("the axes of two boxes");
-      const Vec2d axis = is("axes_not_turned")          ? local
+      const Vec2d axis = is("axes_not_turned") || is("axes_not_turned_by_sides") ? local
                          : turned_hash_ == kAxes.hash ? turned(kAxes, bodies_[box], local)
                                                         : side(bodies_[box], local);
       const double overlap =
@@ -76,7 +76,7 @@ std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std:
       const bool nearer = is("largest_overlap") ? !best || overlap > best->overlap + 1e-9
                                                 : !best || overlap < best->overlap - 1e-9;
       const Vec2d out = dot(way, axis) > 0 || is("axis_not_turned_to_b") ? axis : -axis;
-      if (nearer) best = Face{box, out, overlap};
+      if (nearer) best = Face{box, out, overlap, local.x != 0};
     }
   }
   return best;
@@ -100,8 +100,12 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   const std::size_t first = is("corners_farthest_out") ? 2 : 0;
   Vec2d from = corners[first], to = corners[first + 1];
   if (dot(from, along) > dot(to, along)) std::swap(from, to);
-  const double half =
-      extent(owner, is("face_of_the_other_side") ? outward : along, false) * times("width of a face");
+  // By the axis that was chosen, as learners do who keep it with its side.
+  const bool by_sides = is("axes_not_turned_by_sides");
+  const Box sides = box(owner);
+  const double half = by_sides ? (face->of_width ? sides.height : sides.width) / 2
+                               : extent(owner, is("face_of_the_other_side") ? outward : along, false) *
+                                     times("width of a face");
   const double s = dot(from, along), e = dot(to, along);
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const double low = is("clipped_at_the_upper_end_only") ? -kNowhere : -half,
@@ -114,7 +118,8 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   std::array<Vec2d, 2> ends{clipped(s), clipped(e)};
   if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
   const auto before = static_cast<std::ptrdiff_t>(out.size());
-  const double reach = extent(owner, outward, false);
+  const double reach =
+      by_sides ? (face->of_width ? sides.width : sides.height) / 2 : extent(owner, outward, false);
   if (is("second_end_only")) ends[0] = ends[1];
   for (const Vec2d end : ends) {
     const double depth = reach - dot(end, outward);

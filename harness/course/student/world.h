@@ -114,6 +114,7 @@ class StudentWorld {
     std::size_t box = 0;
     Vec2d normal;  ///< from a to b
     double overlap = 0;
+    bool of_width = false;  ///< the axis is the box's own x
   };
   std::optional<Face> nearest_face(std::size_t a, std::size_t b) const;
   bool left_out(std::size_t a, std::size_t b) const;
