@@ -182,8 +182,8 @@ Finding any_step_size(const Lab& lab) {
       .read("way with dt/4 over that with dt", "", over(quarter.way, one.way), 1, offset)
       .read("vy/t of the last step, asked for alone, over that with each step", "", over(at_once, one.speed),
             1, relative)
-      .read("vx/t with dt/2 over that with dt, with gravity along x", "", over(half_along.speed, along.speed), 1,
-            2 * relative)
+      .read("vx/t with dt/2 over that with dt, with gravity along x", "", over(half_along.speed, along.speed),
+            1, 2 * relative)
       .read("way along x with dt/2 over that with dt", "", over(half_along.way, along.way), 1, 2 * offset)
       .mistake("per_frame", {2, 4, kAny, kAny},
                "Twice the steps, twice the speed: something is added once a step and does not depend on dt. "

@@ -61,8 +61,8 @@ Sleeper sleeper_after_hit(const Lab& lab) {
 // not give way, so the ball's mass makes no difference. Returns 0 for an engine that refuses such a start.
 double overlap_left_at_post(const Lab& lab, double mass) try {
   constexpr double kDeep = 0.1, kRadius = 0.4;  // m
-  const Body ball = make(
-      Ball{.position = {-2 * kRadius + kDeep, 0}, .mass = mass, .radius = kRadius, .restitution = 0});
+  const Body ball =
+      make(Ball{.position = {-2 * kRadius + kDeep, 0}, .mass = mass, .radius = kRadius, .restitution = 0});
   const Body post = fixed(make(Ball{.name = "post", .radius = kRadius, .restitution = 0}));
   const Trace trace = lab.run(scene_of("overlap of a post", {}, {ball, post}), 1);
   return 2 * kRadius - distance(trace, trace.states.size() - 1);
@@ -80,10 +80,11 @@ Finding post(const Lab& lab) {
   const double t = trace.duration(), touches = -2 * Ball{}.radius, late = v * lab.dt();
   // A static body of finite mass would still turn a light ball back, if the impulses of many sweeps add up.
   constexpr double kHeavy = 20;  // kg
-  const Trace heavy = lab.run(
-      scene_of("heavy on post", {},
-               {make(Ball{.position = {start, 0}, .velocity = {v, 0}, .mass = kHeavy}), fixed(make(Ball{.name = "post"}))}),
-      1.5);
+  const Trace heavy =
+      lab.run(scene_of("heavy on post", {},
+                       {make(Ball{.position = {start, 0}, .velocity = {v, 0}, .mass = kHeavy}),
+                        fixed(make(Ball{.name = "post"}))}),
+              1.5);
   const BodyState& fixed_end = trace.last(1);
   const bool moves = std::hypot(fixed_end.position.x, fixed_end.position.y) > 1e-9;
   bool has_velocity = false;

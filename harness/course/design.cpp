@@ -147,7 +147,8 @@ bool turns_bodies(const Lab& lab) try {
   return false;
 }
 
-std::optional<int> measured_corrections(const Lab& lab, Manner like, double left, double too_long, bool free) try {
+std::optional<int> measured_corrections(const Lab& lab, Manner like, double left, double too_long,
+                                        bool free) try {
   constexpr int kMost = 30;
   const Scene scene = row_on_sticks(2, too_long, free);
   const auto places = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
@@ -214,8 +215,8 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
   };
   const std::vector<Manner> unmeasured = out;
   if (push) out = with(unmeasured, *push);
-  // If overlaps of a static body are corrected by another share than those of two that move, one of the two is
-  // a mistake.
+  // If overlaps of a static body are corrected by another share than those of two that move, one of the two
+  // is a mistake.
   if (push && of_two && std::abs(push->share - of_two->share) > 1e-6)
     for (const Manner& manner : with(unmeasured, *of_two)) out.push_back(manner);
   if (chapter < kBoxes && !turns_bodies(lab))

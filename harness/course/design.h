@@ -34,11 +34,10 @@ std::optional<double> measured_joint_error(const Lab& lab, double too_long, bool
 bool turns_bodies(const Lab& lab);
 
 /// Returns the number of position iterations per step over the joints, measured on two balls at rest on
-/// sticks that are too long by `too_long`. Each iteration leaves the same fraction of an error; a whole step leaves the
-/// fraction `left` of a single joint's error. nullopt if no number up to 30 gives the engine's positions.
-/// `like` has the other properties.
-std::optional<int> measured_corrections(const Lab& lab, Manner like, double left, double too_long,
-                                        bool free);
+/// sticks that are too long by `too_long`. Each iteration leaves the same fraction of an error; a whole step
+/// leaves the fraction `left` of a single joint's error. nullopt if no number up to 30 gives the engine's
+/// positions. `like` has the other properties.
+std::optional<int> measured_corrections(const Lab& lab, Manner like, double left, double too_long, bool free);
 
 /// Returns the number of iterations per step over the contacts, measured on a heavy ball on a light one,
 /// which needs many iterations. nullopt if no number up to 60 gives the engine's velocities. `like` has the

@@ -125,7 +125,8 @@ Experiment soft_landing() {
 // A ball that lands on a floor which comes first in the scene, and stays.
 Experiment landing_ball() {
   return {scene_of("landing ball", {0, -kGravity},
-                   {ground(0.2, 0), make(Ball{.position = {0.3, 0.5}, .velocity = {0.5, -1}, .restitution = 0.3})}),
+                   {ground(0.2, 0),
+                    make(Ball{.position = {0.3, 0.5}, .velocity = {0.5, -1}, .restitution = 0.3})}),
           1};
 }
 
@@ -272,7 +273,8 @@ Experiment two_rods(bool hangs) {
 }  // namespace
 
 std::vector<Experiment> experiments(int chapter) {
-  if (chapter == kForces) return {free_ball(), falling_spring({-1, 2}, {0.6, 2.9}), falling_spring({1, 2.9}, {-0.6, 2}),
+  if (chapter == kForces)
+    return {free_ball(), falling_spring({-1, 2}, {0.6, 2.9}), falling_spring({1, 2.9}, {-0.6, 2}),
             ball_with_drag()};
   if (chapter < kCollisions) return {free_ball(), soft_landing(), leaving_ball(), landing_ball()};
   if (chapter == kCollisions) return {free_ball(), three_discs(0), slow_meeting()};

@@ -192,11 +192,11 @@ Finding hinged_rod(const Lab& lab) {
 
 namespace {
 
-// What closing a gap at a hinge leaves and changes.
+// Result of closing a gap at a hinge.
 struct Closing {
-  double gap = 0;  ///< m
-  double turn = 0; ///< sum of m r x dr + I da, as a fraction of the sum of |I da|
-  Vec2d shift;     ///< m, of the common centre
+  double gap = 0;   ///< m
+  double turn = 0;  ///< sum of m r x dr + I da, as a fraction of the sum of |I da|
+  Vec2d shift;      ///< m, of the common centre
 };
 
 }  // namespace
@@ -270,7 +270,8 @@ Finding hinge_turns_both(const Lab& lab) {
       for (std::size_t k = 1; k < t.states.size(); ++k) {
         const BodyState &before = t.states[k - 1][i], &after = t.states[k][i];
         const double turn = m * (l_of * l_of + h * h) / 12 * (after.angle - before.angle);
-        out.turn += turn + m * cross(0.5 * (before.position + after.position), after.position - before.position);
+        out.turn +=
+            turn + m * cross(0.5 * (before.position + after.position), after.position - before.position);
         all += std::abs(turn);
       }
     }

@@ -155,7 +155,8 @@ std::vector<Predictable> mistakes_of_joints() {
       {"stick_impulse_only_pushes", "stick_only_pushes", "5",
        "The stick's impulse only pushes, and lets its ends part: it has both signs."},
       {"stick_correction_only_pulls", "correction_one_sided", "5",
-       "A stick's positions are corrected only if it is too long: its error, length minus \"length\", has both "
+       "A stick's positions are corrected only if it is too long: its error, length minus \"length\", has "
+       "both "
        "signs, and a stick that is too short is lengthened."},
       {"stick_correction_only_pushes", "correction_one_sided", "5",
        "A stick's positions are corrected only if it is too short: its error, length minus \"length\", has "

@@ -35,7 +35,8 @@ constexpr const char* kSpringTurnsOne =
     "A spring turns only one of its bodies: each gets the torque r x F, with its own r and the force that "
     "pulls it.";
 constexpr const char* kSpringArm =
-    "A spring's torque on a body has the other body's arm: each has its own r, from its centre to its anchor.";
+    "A spring's torque on a body has the other body's arm: each has its own r, from its centre to its "
+    "anchor.";
 constexpr const char* kSpringRateArm =
     "The velocity of a spring's end has the other body's arm: it is v + w x r, with the body's own r.";
 constexpr const char* kSpringAnchor =

@@ -108,8 +108,9 @@ double speed_left(const Lab& lab, double length, double mass = 1) {
 // short.
 double error_left(const Lab& lab, double mass) {
   constexpr double kOff = 0.05;  // m
-  Scene scene = scene_of("one short stick", {},
-                         {make(Ball{.name = "bob", .position = {1 + kOff, 0}, .mass = mass, .radius = 0.04})});
+  Scene scene =
+      scene_of("one short stick", {},
+               {make(Ball{.name = "bob", .position = {1 + kOff, 0}, .mass = mass, .radius = 0.04})});
   scene.joints.emplace_back(stick("stick", std::string(kWorld), "bob", 1));
   return lab.run(scene, 0.3).last(0).position.x - 1;
 }
@@ -307,8 +308,7 @@ Finding pendulum(const Lab& lab) {
   // The world does not give way, so the mass of what hangs on it makes no difference.
   constexpr double kHeavy = 100;  // kg
   const double keeps_speed = speed_left(lab, 1, kHeavy) - speed_left(lab, 1);
-  const double keeps_error =
-      lab.corrects_positions() ? error_left(lab, kHeavy) - error_left(lab, 1) : 0;
+  const double keeps_error = lab.corrects_positions() ? error_left(lab, kHeavy) - error_left(lab, 1) : 0;
   const auto free_stick_holds = [&] {
     const Trace t = lab.run(turning_stick(), 1);
     return std::abs(length(t.last(1).position - t.last(0).position) - 1) < 0.05;

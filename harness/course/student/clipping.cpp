@@ -69,7 +69,7 @@ std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std:
       constexpr Name kAxes("the axes of two boxes");
       const Vec2d axis = is("axes_not_turned") || is("axes_not_turned_by_sides") ? local
                          : turned_hash_ == kAxes.hash ? turned(kAxes, bodies_[box], local)
-                                                        : side(bodies_[box], local);
+                                                      : side(bodies_[box], local);
       const double overlap =
           extent(bodies_[a], axis, true) + extent(bodies_[b], axis, true) - std::abs(dot(way, axis));
       if (overlap <= 0) return std::nullopt;

@@ -236,7 +236,7 @@ void StudentWorld::advance() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Rigid& mistaken = bodies_[i];
     const Rigid& right = right_->bodies_[i];
-    for (Vec2d Rigid::* const part : {&Rigid::position, &Rigid::velocity, &Rigid::force, &Rigid::before})
+    for (Vec2d Rigid::*const part : {&Rigid::position, &Rigid::velocity, &Rigid::force, &Rigid::before})
       mistaken.*part = mistaken_in_x_ ? Vec2d{(mistaken.*part).x, (right.*part).y}
                                       : Vec2d{(right.*part).x, (mistaken.*part).y};
   }

@@ -169,8 +169,8 @@ class StudentWorld {
   std::uint64_t turned_hash_ = 0, turned_how_ = 0;    ///< quantity whose points are rotated wrongly, and how
   std::uint64_t acting_hash_ = 0, acting_how_ = 0;    ///< which law acts wrongly, and on what
   std::uint64_t others_hash_ = 0, others_whose_ = 0;  ///< quantity of another body, and of which one
-  std::array<Vec2d, 2> axes_;           ///< directions that give the x and the y of a mixed vector
-  std::array<int, 2> sign_of_{};        ///< 1 or -1 if the x or the y of a mixed vector always has this sign
+  std::array<Vec2d, 2> axes_;            ///< directions that give the x and the y of a mixed vector
+  std::array<int, 2> sign_of_{};         ///< 1 or -1 if the x or the y of a mixed vector always has this sign
   std::unique_ptr<StudentWorld> right_;  ///< makes no mistake; takes the other component of each step
   bool mistaken_in_x_ = false;
   reference::Scheme scheme_;
