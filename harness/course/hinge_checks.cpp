@@ -267,13 +267,13 @@ Finding hinge_turns_both(const Lab& lab) {
     for (std::size_t i = 0; i < open.bodies.size(); ++i) {
       const double m = open.bodies[i].mass, l_of = i == 0 ? 2 * half_a : 2 * half_b;
       out.shift += m / mass * (t.last(i).position - t.first(i).position);
-      for (std::size_t k = 1; k < t.states.size(); ++k) {
-        const BodyState &before = t.states[k - 1][i], &after = t.states[k][i];
-        const double turn = m * (l_of * l_of + h * h) / 12 * (after.angle - before.angle);
-        out.turn +=
-            turn + m * cross(0.5 * (before.position + after.position), after.position - before.position);
-        all += std::abs(turn);
-      }
+      // The first step only: what an engine of positions keeps as velocities turns the rods on after it, and
+      // its losses then add up.
+      const BodyState &before = t.states[0][i], &after = t.states[1][i];
+      const double turn = m * (l_of * l_of + h * h) / 12 * (after.angle - before.angle);
+      out.turn +=
+          turn + m * cross(0.5 * (before.position + after.position), after.position - before.position);
+      all += std::abs(turn);
     }
     out.turn = all > 0 ? out.turn / all : 0;
     const auto end = [&](std::size_t i, double at) {
