@@ -46,7 +46,7 @@ int root_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
   return w.scratch.islands.island_of[w.is_dynamic(c.body_a) ? c.body_a : c.body_b];
 }
 
-// What contacts gave a body in a substep beyond rounding, and beyond what its forces give from rest: twice
+// Computes what contacts gave a body in a substep beyond rounding and what its forces give from rest: twice
 // the energy by mass, m^2/s^2, and by moment of inertia, rad^2/s^2.
 template <class Real>
 struct BodyGain {
