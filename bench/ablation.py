@@ -80,6 +80,7 @@ CODE = {
                    "joint_solver/joint_set_gaps.cpp": []},
     "carried_impulses": {"islands/joint_gaps.cpp": ["carry_impulses", "load_imbalance"]},
     "angular_limits": {"joint_solver/joint_set_limits.cpp": [], "solvers/soft_step.cpp": ["project_angular_limits"]},
+    "contact_gains": {"islands/contact_gains.cpp": [], "islands/contact_gains.h": []},
     "load_estimates": {"step/contact_update.h": ["update_load_estimate"]},
     "substep_growth": {"step/step.cpp": ["substeps_of"]},
     "impulse_memory": {"state/impulse_memory.cpp": [], "state/impulse_memory.h": []},

@@ -27,6 +27,7 @@ plumb_body plumb_body_create(plumb_world* world, const plumb_body_definition* de
   return checked_or(kNoBody, [&] {
     const plumb::BodyDefinition body = definition_of(require(definition, "body definition"));
     std::vector<plumb::ShapeDefinition> all;
+    require_countable("body", "shape_count", shape_count, kMostItems);
     if (shape_count > 0) require(shapes, "shapes");
     for (size_t i = 0; i < shape_count; ++i) all.push_back(in(shapes[i]));
     return change(world, [&](auto& w) { return out(w.create_body(body, all)); });
@@ -180,7 +181,7 @@ plumb_status plumb_body_set_user_data(plumb_world* world, plumb_body body, uint6
   return change_checked(world, [&](auto& w) { w.set_user_data(in(body), data); });
 }
 plumb_status plumb_body_set_name(plumb_world* world, plumb_body body, const char* name) {
-  return change_checked(world, [&](auto& w) { w.set_name(in(body), &require(name, "name")); });
+  return change_checked(world, [&](auto& w) { w.set_name(in(body), name != nullptr ? name : ""); });
 }
 plumb_status plumb_body_set_enabled(plumb_world* world, plumb_body body, bool enabled) {
   return change_checked(world, [&](auto& w) { w.set_enabled(in(body), enabled); });

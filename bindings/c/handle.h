@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -159,7 +160,19 @@ To in(From value, int count, const char* subject, const char* field) {
   return static_cast<To>(number);
 }
 
-inline std::vector<Vec2d> in(const plumb_vec2* points, std::size_t count) {
+/// Throws Error (Value) for more than `most` elements of an array that a call reads: the number, as of an
+/// uninitialised member, is refused before any element is looked at.
+inline void require_countable(const char* subject, const char* field, std::size_t count,
+                              std::size_t most = PTRDIFF_MAX) {
+  if (count <= most) return;
+  throw Error(Error::Kind::Value, subject, field, std::to_string(count),
+              "must be at most " + std::to_string(most));
+}
+/// Largest number of shapes, points or hits in one call: indices are of 31 bits.
+inline constexpr std::size_t kMostItems = 0x7FFFFFFF;
+
+inline std::vector<Vec2d> in(const plumb_vec2* points, std::size_t count, const char* subject) {
+  require_countable(subject, "point_count", count, kMostItems);
   std::vector<Vec2d> all;
   if (count > 0) require(points, "points");
   all.reserve(count);

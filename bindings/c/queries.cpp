@@ -3,6 +3,7 @@
 #include "bindings/c/handle.h"
 #include "bindings/c/query_filter.h"
 #include "engine/world/mover.h"
+#include "engine/world/state/validate.h"
 
 using namespace plumb::c;
 
@@ -152,11 +153,20 @@ plumb_mover_result plumb_move(const plumb_world* world, const plumb_geometry* ca
 plumb_status plumb_apply_pushes(plumb_world* world, const plumb_mover_hit* hits, size_t count) {
   return checked([&] {
     plumb::MoverResult result;
+    require_countable("pushes", "count", count, kMostItems);
     if (count > 0) require(hits, "hits");
     for (size_t i = 0; i < count; ++i) {
+      const std::string push = "push " + std::to_string(i);
+      plumb::require_not_negative(push, "impulse", hits[i].impulse);
+      plumb::require_finite(push, "normal", in(hits[i].normal));
+      plumb::require_finite(push, "impulse", hits[i].impulse * in(hits[i].normal));
+      plumb::require_finite(push, "point", in(hits[i].point));
       result.hits.push_back(
           {in(hits[i].shape), in(hits[i].body), in(hits[i].point), in(hits[i].normal), hits[i].impulse});
     }
+    // All or none: a body that is gone is found before the first push.
+    for (const plumb::MoverHit& hit : result.hits)
+      if (hit.impulse > 0) read(world, [&](const auto& w) { (void)w.type(hit.body); });
     edit(world, [&](auto& w) { plumb::apply_pushes(w, result); });
   });
 }

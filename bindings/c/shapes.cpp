@@ -12,7 +12,7 @@ plumb::ShapeGeometry plumb::c::in(const plumb_geometry& g) {
     case PLUMB_CAPSULE:
       return Capsule{in(g.start), in(g.end), g.radius};
     case PLUMB_POLYGON:
-      return Polygon{in(g.points, g.point_count), g.radius};
+      return Polygon{in(g.points, g.point_count, "polygon"), g.radius};
     default:
       return Segment{in(g.start), in(g.end)};
   }
@@ -33,7 +33,7 @@ namespace {
 
 plumb::ChainDefinition definition_of(const plumb_chain_definition& d) {
   plumb::ChainDefinition result;
-  result.points = in(d.points, d.point_count), result.closed = d.closed;
+  result.points = in(d.points, d.point_count, "chain"), result.closed = d.closed;
   result.material = in(d.material), result.filter = in(d.filter);
   result.sensor = d.sensor, result.hit_events = d.hit_events, result.pre_solve = d.pre_solve;
   result.user_data = d.user_data;

@@ -182,6 +182,7 @@ size_t plumb_simulation_save(const plumb_simulation* simulation, void* to, size_
 plumb_status plumb_simulation_restore(plumb_simulation* simulation, const void* bytes, size_t count) {
   return checked([&] {
     plumb_simulation& s = require(simulation, "simulation");
+    require_countable("snapshot", "count", count);
     const auto* first = count > 0 ? &require(static_cast<const std::byte*>(bytes), "bytes") : nullptr;
     s.simulation.restore({first, count});
   });

@@ -3,6 +3,7 @@
 #include "bindings/c/handle.h"
 #ifndef PLUMB_NO_FILES
 #include "engine/world/replay.h"
+#include "engine/world/state/lock.h"
 #endif
 
 using namespace plumb::c;
@@ -13,6 +14,7 @@ size_t plumb_world_save(const plumb_world* world, void* to, size_t capacity) {
 }
 plumb_status plumb_world_restore(plumb_world* world, const void* bytes, size_t count) {
   return change_checked(world, [&](auto& w) {
+    require_countable("snapshot", "count", count);
     const auto* first = count > 0 ? &require(static_cast<const std::byte*>(bytes), "bytes") : nullptr;
     const std::span<const std::byte> all(first, count);
     if constexpr (requires { w.restore(all); }) {
@@ -29,6 +31,7 @@ namespace {
 template <class Real>
 void record(plumb_world& world, const char* file, bool bodies) {
   auto& plain = std::get<plumb::BasicWorld<Real>>(world.world);
+  plumb::require_unlocked(plain.data());
   ++world.moves;
   const std::vector<std::byte> state = plumb::save(plain);
   try {

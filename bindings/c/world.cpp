@@ -2,6 +2,7 @@
 
 #include "bindings/c/handle.h"
 #include "engine/world/state/bodies.h"
+#include "engine/world/state/lock.h"
 #include "engine/world/state_hash.h"
 #include "engine/world/world_data.h"
 
@@ -60,7 +61,13 @@ plumb_world* plumb_world_create(const plumb_world_definition* definition) {
     return new plumb_world{.world = plumb::DoubleWorld(settings)};
   });
 }
-void plumb_world_destroy(plumb_world* world) { delete world; }
+void plumb_world_destroy(plumb_world* world) {
+  if (world == nullptr) return;
+  checked([&] {
+    read(world, [](const auto& w) { plumb::require_unlocked(w.data()); });
+    delete world;
+  });
+}
 
 plumb_status plumb_world_step(plumb_world* world, double dt, int substeps) {
   return change_checked(world, [&](auto& w) { w.step(dt, substeps); });

@@ -109,6 +109,7 @@ export interface JointDefinition {
   groundB?: Vec2;
 }
 
+/** frozen: its members cannot be set, and others not be added */
 declare class Handle {
   readonly world: World;
   readonly index: number;
@@ -136,6 +137,7 @@ export class Body extends Handle {
   awake: boolean;
   maySleep: boolean;
   get locks(): Required<Locks>;
+  /** members that are left out stay as they are */
   set locks(locks: Locks);
   get userData(): bigint;
   set userData(data: bigint | number);
@@ -155,6 +157,7 @@ export class Body extends Handle {
   setPose(position: Vec2, angle: number): void;
   setMass(mass: {mass: number; inertia: number; centre?: Vec2}): void;
   useDensities(): void;
+  /** the same as setting `locks` */
   setLocks(locks: Locks): void;
   moveTowards(position: Vec2, angle: number, dt: number): void;
   /** N, during the next step; at the centre of mass, or at a point of the world */
@@ -395,6 +398,7 @@ export class World {
   quarantine: boolean;
   iterations: number;
   solver: Solver;
+  /** members that are left out stay as they are when it is set */
   thresholds: Thresholds;
   set profiling(on: boolean);
   /** ns */
@@ -436,7 +440,8 @@ export class World {
   nearest(point: Vec2, maxDistance: number, filter?: QueryFilter): (Hit & {distance: number}) | null;
   move(capsule: Capsule, position: Vec2, velocity: Vec2, dt: number, options?: MoverOptions): MoverResult;
   /** Force laws: each call adds the forces of the next step, `dt` s long. */
-  /** Bodies are seen as at the middle of the step, which keeps the energy of springs and orbits; with dt = 0 as they are. */
+  /** Bodies are seen as at the middle of the step, which keeps the energy of springs and orbits; with dt = 0 as they are.
+   *  The law may read the world and not change it. */
   applyLaw(law: (body: LawBody) => Wrench | void, dt: number, options?: LawOptions): void;
   /** N s/m and N m s */
   applyLinearDrag(rates: {linear?: number; angular?: number}, dt: number, options?: LawOptions): void;
@@ -448,6 +453,7 @@ export class World {
   applySpring(a: Body, pointA: Vec2, b: Body, pointB: Vec2, spring: ElasticSpring, dt: number, options?: LawOptions): void;
   /** applies impulses at once to all dynamic bodies in reach */
   explode(blast: Blast): void;
+  /** calls the functions of `to`, which may read the world and not change it; another function of it is refused */
   draw(to: DebugDraw, options?: DrawOptions): void;
 }
 

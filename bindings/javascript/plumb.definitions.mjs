@@ -22,9 +22,14 @@ export class PlumbError extends Error {
 
 function shown(value) {
   if (typeof value !== "object") return String(value);
-  return JSON.stringify(value, (_, part) => (typeof part === "bigint" ? String(part) : part));
+  if (value?._kind !== undefined) return `a ${value._kind}`;
+  try {
+    return JSON.stringify(value, (_, part) => (typeof part === "bigint" ? String(part) : part));
+  } catch {
+    return String(value);  // it contains itself
+  }
 }
-function refuse(field, value, problem, kind = "InvalidValue") {
+export function refuse(field, value, problem, kind = "InvalidValue") {
   const text = shown(value);
   throw new PlumbError(kind, `${field} is ${text}: ${problem}`, "", field, text);
 }
@@ -134,8 +139,17 @@ export function filterOf(f = {}) {
 const wideAt = (n, at) => BigInt(n[at]) | BigInt(n[at + 1]) << 32n;
 export const filterAt = (n) => ({category: wideAt(n, 0), mask: wideAt(n, 2), group: n[4]});
 const kThresholds = new Set(["hit", "bounce", "sleep"]);
+export const knownThresholds = (t) => known(kThresholds, t, "the thresholds");
 export function thresholdsOf(t) {
-  return numbersOf(known(kThresholds, t, "the thresholds"), {hit: -1, bounce: -1, sleep: -1});
+  return numbersOf(knownThresholds(t), {hit: -1, bounce: -1, sleep: -1});
+}
+const kLocks = new Set(["x", "y", "rotation"]), kLoads = new Set(["force", "torque"]), kBounds = new Set(["lower", "upper"]);
+export const knownLocks = (locks) => known(kLocks, locks, "the locks");
+export const knownLoads = (loads) => known(kLoads, loads, "the loads");
+/// Returns the corners of a box along the axes.
+export function boundsOf(box, field) {
+  const {lower, upper} = known(kBounds, box, `a ${field}`);
+  return [...pair(lower, "lower"), ...pair(upper, "upper")];
 }
 const kWorldFields = new Set(["precision", "gravity", "combineFriction", "combineRestitution", "sleeping", "continuous",
   "solver", "integrator", "iterations", "directIslands", "quarantine", "thresholds"]);
@@ -147,7 +161,7 @@ export function worldOf(definition) {
   return [named("precision", precision), ...pair(gravity, "gravity"),
     named("combine", combineFriction, "combineFriction"), named("combine", combineRestitution, "combineRestitution"),
     flag(sleeping, "sleeping"), flag(continuous, "continuous"), named("solver", solver), named("integrator", integrator),
-    whole(iterations, "iterations"), flag(directIslands, "directIslands"), flag(quarantine, "quarantine"),
+    whole(iterations, "iterations", 1, 1000), flag(directIslands, "directIslands"), flag(quarantine, "quarantine"),
     ...thresholdsOf(thresholds)];
 }
 /// Returns the definition of which `worldOf` makes these numbers.
@@ -239,11 +253,20 @@ export const kRoles = ["static", "kinematic", "awake", "asleep", "sensor", "cont
 const kDrawFields = new Set(["shapes", "joints", "contacts", "normals", "impulses", "boxes", "centres", "names",
   "normalLength", "impulseLength", "bounds"]);
 export function drawOf(options = {}) {
-  const o = known(kDrawFields, options, "what is drawn"), zero = {x: 0, y: 0};
+  const o = known(kDrawFields, options, "what is drawn");
   return [flagOf(o, "shapes", true), flagOf(o, "joints", true),
     ...["contacts", "normals", "impulses", "boxes", "centres", "names"].map((field) => flagOf(o, field)),
     ...numbersOf(o, {normalLength: 0.2, impulseLength: 0.1}), Number(o.bounds != null),
-    ...pair(o.bounds?.lower ?? zero, "lower"), ...pair(o.bounds?.upper ?? zero, "upper")];
+    ...(o.bounds != null ? boundsOf(o.bounds, "bounds") : [0, 0, 0, 0])];
+}
+const kDrawn = ["polygon", "circle", "capsule", "segment", "point", "text"];
+/// Refuses what cannot be drawn to: a member of another type, or another function, which would not be called.
+export function drawnTo(to) {
+  if (to === null || typeof to !== "object") refuse("to", to, `must have some of the functions ${kDrawn.join(", ")}`);
+  for (const name of kDrawn) called(to[name], name);
+  for (const name of Object.keys(to))
+    if (typeof to[name] === "function" && !kDrawn.includes(name))
+      refuse(name, "a function", `is not called by draw, which calls ${kDrawn.join(", ")}`, "UnknownName");
 }
 const kMoverFields = new Set(["up", "maxSlope", "stepHeight", "skin", "mass", "pushForce", "push", "filter"]);
 export function moverOf(options) {

@@ -1,9 +1,10 @@
 // plumb's world for JavaScript: the .cpp files beside it list the calls, plumb.d.ts the types and units. Works in browsers and in
 // Node; needs no threads, no special headers and no files beside it.
-import {PlumbError, answered, attractionOf, bits, blastOf, bodyOf, bytesOf, called, chainOf, definitionOfJoint,
-  definitionOfShape, definitionOfWorld, dragOf, drawOf, elasticOf, filterAt, filterOf, flag, geometryOf, jointOf, kNames,
-  kRoles, knownMaterial, lawOf, massOf, materialOf, moverOf, named, number, own, pair, queryOf, shapeOf, textOf, thresholdsOf,
-  waterOf, whole, windOf, worldOf, wrenchOf} from "./plumb.definitions.mjs";
+import {PlumbError, answered, attractionOf, bits, blastOf, bodyOf, boundsOf, bytesOf, called, chainOf, definitionOfJoint,
+  definitionOfShape, definitionOfWorld, dragOf, drawOf, drawnTo, elasticOf, filterAt, filterOf, flag, geometryOf, jointOf,
+  kNames, kRoles, knownLoads, knownLocks, knownMaterial, knownThresholds, lawOf, massOf, materialOf, moverOf, named, number,
+  own, pair, queryOf, refuse, shapeOf, textOf, thresholdsOf, waterOf, whole, windOf, worldOf, wrenchOf}
+  from "./plumb.definitions.mjs";
 import packed from "./plumb.wasm.mjs";
 
 export {PlumbError};
@@ -26,7 +27,7 @@ const imports = {
     pre_solve() { return asked.ask("onPreSolve", () => asked.world._preSolve(readContact(asked.world))); },
     filter() {
       return asked.ask("onFilter", () => {
-        const n = new Float64Array(calls.memory.buffer, calls.numbers(4), 4);
+        const n = view(Float64Array, calls.numbers(4), 4);
         return asked.world._filter(new Shape(asked.world, n[0], n[1]), new Shape(asked.world, n[2], n[3]));
       });
     },
@@ -35,13 +36,13 @@ const imports = {
     },
     shortest(value, to) {
       const text = encoder.encode(Number.isFinite(value) ? String(value) : Number.isNaN(value) ? "nan" : value < 0 ? "-inf" : "inf");
-      new Uint8Array(calls.memory.buffer, to, text.length).set(text);
+      put(Uint8Array, to, text);
       return text.length;
     },
   },
   wasi_snapshot_preview1: new Proxy({
     clock_time_get(_clock, _precision, out) {
-      new DataView(calls.memory.buffer).setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
+      view(DataView, out, 8).setBigUint64(0, BigInt(Math.round(performance.now() * 1e6)), true);
       return 0;
     },
   }, {get: (all, name) => all[name] ?? (() => kNoSystem)}),
@@ -55,9 +56,23 @@ const calls = (await WebAssembly.instantiate(module, {
 })).exports;
 calls._initialize();
 
+/// Views `count` elements of the program's memory at `place`. Memory that grows in a call detaches all earlier views: place
+/// and count are arguments here, so their calls are made before the buffer is read. Nothing else reads it.
+function view(Type, place, count) {
+  return new Type(calls.memory.buffer, place, count);
+}
+/// Writes elements to `place`.
+function put(Type, place, elements) {
+  view(Type, place, elements.length).set(elements);
+}
+/// Writes bytes where the next call looks for them.
+function putBytes(bytes) {
+  put(Uint8Array, calls.bytes(bytes.length), bytes);
+}
+
 const decoder = new TextDecoder(), encoder = new TextEncoder();
 function text(place) {
-  const bytes = new Uint8Array(calls.memory.buffer);
+  const bytes = view(Uint8Array, 0);
   return decoder.decode(bytes.slice(place, bytes.indexOf(0, place)));
 }
 
@@ -74,16 +89,13 @@ function guarded(call) {
 /// Calls the function `name` of the engine, after writing `input` where it is looked for.
 function call(name, args = [], input = null) {
   return guarded(() => {
-    if (input !== null) {
-      const place = calls.numbers(input.length);
-      new Float64Array(calls.memory.buffer, place, input.length).set(input);
-    }
+    if (input !== null) put(Float64Array, calls.numbers(input.length), input);
     return calls[name](...args);
   });
 }
 /// The numbers that the last call left.
 function result(place) {
-  return new Float64Array(calls.memory.buffer, place, calls.number_count());
+  return view(Float64Array, place, calls.number_count());
 }
 function point(numbers, at = 0) {
   return {x: numbers[at], y: numbers[at + 1]};
@@ -108,7 +120,7 @@ function contactsOf(world, place) {
   return Array.from({length: n.length / kContact}, (_, i) => contactAt(world, n, i * kContact));
 }
 function readContact(world) {
-  return contactAt(world, new Float64Array(calls.memory.buffer, calls.numbers(kContact), kContact), 0);
+  return contactAt(world, view(Float64Array, calls.numbers(kContact), kContact), 0);
 }
 
 /// A call during which the engine asks the user's functions. An error of theirs must not leave by way of the engine, whose
@@ -139,7 +151,7 @@ function asking(world, condition, name, args, input) {
   try {
     made = call(name, args, input);
   } catch (error) {
-    if (world._alive) calls.world_unlock(address, locks, stepping);
+    calls.world_set_locks(address, locks, stepping);
     throw error;
   } finally {
     asked = before;
@@ -148,13 +160,51 @@ function asking(world, condition, name, args, input) {
   return made;
 }
 
+/// Does `work`, which asks the user's functions, with the world locked as in the engine's callbacks.
+function locked(world, work) {
+  const address = world._address, locks = calls.world_locks(address), stepping = calls.world_stepping(address);
+  calls.world_set_locks(address, locks + 1, stepping);
+  try {
+    return work();
+  } finally {
+    calls.world_set_locks(address, locks, stepping);
+  }
+}
+
 // ---- Objects --------------------------------------------------------------------------------------------------------
 
-class Handle {
+/// Has only the properties of its class: others are refused. The proxy is the last prototype, so that it is asked about
+/// nothing that exists. Fields of a derived class are its own.
+class Closed {}
+Object.setPrototypeOf(Closed.prototype, new Proxy({}, {
+  set(_, name, value, object) {
+    const others = settable(object).join(", ") || "nothing";
+    refuse(String(name), value, `is not a property of a ${object._kind}; can be set: ${others}`, "UnknownName");
+  },
+}));
+function settable(object) {
+  const all = Object.entries(Object.getOwnPropertyDescriptors(kClosed[object._kind].prototype));
+  return all.filter(([, {set}]) => set !== undefined && !set.refuses).map(([name]) => name);
+}
+/// Makes properties that are only read say so when they are set.
+function refuseToSet({prototype}) {
+  for (const [name, property] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
+    if (property.get === undefined || property.set !== undefined) continue;
+    const set = (value) => refuse(name, value, "is read only", "Unsupported");
+    Object.defineProperty(prototype, name, {...property, set: Object.assign(set, {refuses: true})});
+  }
+}
+
+class Handle extends Closed {
+  world;
+  index;
+  generation;
   constructor(world, index, generation) {
+    super();
     this.world = world;
     this.index = index;
     this.generation = generation;
+    Object.freeze(this);
   }
   equals(other) {
     return other instanceof this.constructor && other.world === this.world && other.index === this.index &&
@@ -193,7 +243,8 @@ export class Body extends Handle {
     const bits = this._call("body_locks");
     return {x: (bits & 1) !== 0, y: (bits & 2) !== 0, rotation: (bits & 4) !== 0};
   }
-  set locks({x = false, y = false, rotation = false}) {
+  set locks(given) {
+    const {x, y, rotation} = {...this.locks, ...knownLocks(given)};
     this._call("body_set_locks", flag(x, "x"), flag(y, "y"), flag(rotation, "rotation"));
   }
   get awake() { return this._call("body_awake") !== 0; }
@@ -204,8 +255,7 @@ export class Body extends Handle {
   set userData(data) { this._call("body_set_user_data", bits(data, "userData")); }
   get name() { return text(this._call("body_name")); }
   set name(name) {
-    const letters = encoder.encode(textOf(name, "name"));
-    new Uint8Array(calls.memory.buffer, calls.bytes(letters.length), letters.length).set(letters);
+    putBytes(encoder.encode(textOf(name, "name")));
     this._call("body_set_name");
   }
   get continuous() { return this._call("body_continuous") !== 0; }
@@ -331,7 +381,8 @@ export class Joint extends Handle {
     const [linear, angular, linearDamping, angularDamping] = result(this._call("joint_stiffness"));
     return {linear, angular, linearDamping, angularDamping};
   }
-  setLoadEvents({force = 0, torque = 0}) {
+  setLoadEvents(loads) {
+    const {force = 0, torque = 0} = knownLoads(loads);
     this._call("joint_set_load_events", number(force, "force"), number(torque, "torque"));
   }
   destroy() { this._call("joint_destroy"); }
@@ -343,11 +394,13 @@ function query(name, args, input, world, filter) {
 
 const collected = new FinalizationRegistry((address) => calls.world_destroy(address));
 
-export class World {
+export class World extends Closed {
   constructor(definition = {}) {
+    super();
     this.#address = call("world_create", [], worldOf(definition));
     collected.register(this, this.#address, this);
   }
+  get _kind() { return "World"; }
   #address;
   // The user's hooks. They are the world's alone: a list of all hooks would keep every world that its hook knows.
   _preSolve = null;
@@ -358,16 +411,16 @@ export class World {
   }
   /// False once it was destroyed.
   get _alive() { return this.#address !== 0; }
-  /// Frees the world's memory now; without it that happens when the object is collected.
+  /// Frees the world's memory now; without it that happens when the object is collected. Refused in a hook.
   destroy() {
     if (!this._alive) return;
+    call("world_destroy", [this.#address]);
     collected.unregister(this);
-    calls.world_destroy(this.#address);
     this.#address = 0;
   }
 
   step(dt = 1 / 60, substeps = 4, count = 1) {
-    number(dt, "dt"), whole(substeps, "substeps"), whole(count, "count", 0);
+    number(dt, "dt"), whole(substeps, "substeps", 1, 1000), whole(count, "count", 0);
     for (let i = 0; i < count; ++i) asking(this, null, "world_step", [this._address, dt, substeps]);
   }
   get stepCount() { return call("world_step_count", [this._address]); }
@@ -388,14 +441,16 @@ export class World {
   get quarantine() { return this.definition.quarantine; }
   set quarantine(on) { call("world_set_quarantine", [this._address, flag(on, "quarantine")]); }
   get iterations() { return this.definition.iterations; }
-  set iterations(count) { call("world_set_iterations", [this._address, whole(count, "iterations")]); }
+  set iterations(count) { call("world_set_iterations", [this._address, whole(count, "iterations", 1, 1000)]); }
   get solver() { return this.definition.solver; }
   set solver(name) { call("world_set_solver", [this._address, named("solver", name)]); }
   get thresholds() {
     const [hit, bounce, sleep] = result(call("world_thresholds", [this._address]));
     return {hit, bounce, sleep};
   }
-  set thresholds(t) { call("world_set_thresholds", [this._address], thresholdsOf(t)); }
+  set thresholds(t) {
+    call("world_set_thresholds", [this._address], thresholdsOf({...this.thresholds, ...knownThresholds(t)}));
+  }
   set profiling(on) { call("world_set_profiling", [this._address, flag(on, "profiling")]); }
   get profile() {
     const [broadPhase, narrowPhase, solver, finalize, continuous, events, sleep, steps] =
@@ -408,8 +463,8 @@ export class World {
   }
 
   createBody(definition = {}) {
-    const input = bodyOf(definition), name = encoder.encode(textOf(definition.name ?? "", "name")), place = calls.bytes(name.length);
-    new Uint8Array(calls.memory.buffer, place, name.length).set(name);
+    const input = bodyOf(definition), name = encoder.encode(textOf(definition.name ?? "", "name"));
+    putBytes(name);
     const made = result(call("body_create", [this._address], input));
     return new Body(this, made[0], made[1]);
   }
@@ -421,8 +476,7 @@ export class World {
   }
 
   get bodies() {
-    const n = new Uint32Array(calls.memory.buffer, call("world_bodies", [this._address]),
-      2 * calls.body_count(this._address));
+    const n = view(Uint32Array, call("world_bodies", [this._address]), 2 * calls.body_count(this._address));
     return handles(Body, this, n);
   }
   /// Bodies whose pose the last step may have changed; not sorted.
@@ -436,8 +490,7 @@ export class World {
   get poses() { return this.#array("world_poses"); }
   get velocities() { return this.#array("world_velocities"); }
   #array(name) {
-    const place = call(name, [this._address]);
-    return new Float64Array(calls.memory.buffer, place, 3 * calls.body_count(this._address));
+    return view(Float64Array, call(name, [this._address]), 3 * calls.body_count(this._address));
   }
 
   get contacts() { return contactsOf(this, call("world_contacts", [this._address])); }
@@ -479,11 +532,10 @@ export class World {
 
   save() {
     const size = call("world_save", [this._address]);
-    return new Uint8Array(calls.memory.buffer, calls.bytes(size), size).slice();
+    return view(Uint8Array, calls.bytes(size), size).slice();
   }
   restore(saved) {
-    const bytes = bytesOf(saved, "bytes");
-    new Uint8Array(calls.memory.buffer, calls.bytes(bytes.length), bytes.length).set(bytes);
+    putBytes(bytesOf(saved, "bytes"));
     call("world_restore", [this._address]);
   }
 
@@ -506,9 +558,9 @@ export class World {
     const input = [...geometryOf(shape), ...pair(position), number(angle, "angle"), ...queryOf(this, filter)];
     return handles(Shape, this, result(query("overlap_shape", [this._address], input, this, filter)));
   }
-  overlapBox({lower, upper}, filter) {
+  overlapBox(box, filter) {
     return handles(Shape, this, result(query("overlap_box", [this._address],
-      [...pair(lower, "lower"), ...pair(upper, "upper"), ...queryOf(this, filter)], this, filter)));
+      [...boundsOf(box, "box"), ...queryOf(this, filter)], this, filter)));
   }
   /// The distance of two shapes, negative where they overlap.
   distance(a, b) {
@@ -539,11 +591,13 @@ export class World {
     called(law, "law");
     const {wakes} = lawOf(options), n = result(call("law_bodies", [this._address, number(dt, "dt"), wakes])).slice();
     const wrenches = [];
-    for (let i = 0; i < n.length; i += 12) {
-      const userData = BigInt(n[i + 10]) | BigInt(n[i + 11]) << 32n;
-      wrenches.push(...wrenchOf(law({body: new Body(this, n[i], n[i + 1]), centre: point(n, i + 2), angle: n[i + 4],
-        velocity: point(n, i + 5), angularVelocity: n[i + 7], mass: n[i + 8], inertia: n[i + 9], userData})));
-    }
+    locked(this, () => {
+      for (let i = 0; i < n.length; i += 12) {
+        const userData = BigInt(n[i + 10]) | BigInt(n[i + 11]) << 32n;
+        wrenches.push(...wrenchOf(law({body: new Body(this, n[i], n[i + 1]), centre: point(n, i + 2), angle: n[i + 4],
+          velocity: point(n, i + 5), angularVelocity: n[i + 7], mass: n[i + 8], inertia: n[i + 9], userData})));
+      }
+    });
     asking(this, null, "apply_wrenches", [this._address, wakes], wrenches);
   }
   applyLinearDrag(rates, dt, options) {
@@ -576,9 +630,13 @@ export class World {
   explode(blast) { query("explode", [this._address], blastOf(this, blast), this, blast.cover); }
 
   /// Calls the functions of `to` for each item: polygon, circle, capsule, segment, point, text. Those that are missing are
-  /// left out.
+  /// left out, other functions refused. The world is locked meanwhile.
   draw(to, options) {
-    const n = result(call("world_draw", [this._address], drawOf(options))).slice();
+    drawnTo(to);
+    const n = result(asking(this, null, "world_draw", [this._address], drawOf(options))).slice();
+    locked(this, () => this.#drawItems(n, to));
+  }
+  #drawItems(n, to) {
     for (let i = 0; i < n.length;) {
       const item = n[i], role = kRoles[n[i + 1]];
       i += 2;
@@ -617,11 +675,15 @@ const forgotten = new FinalizationRegistry((address) => calls.rollback_destroy(a
 
 /// The last states of a world in memory, for network play: a late input is taken by going back and stepping again.
 const kFarStep = Number.MAX_SAFE_INTEGER;
-export class Rollback {
+export class Rollback extends Closed {
+  get _kind() { return "Rollback"; }
   #world;  // which stays as long as this does
+  _address;
   constructor(world, frames) {
+    super();
+    if (!(world instanceof World)) refuse("world", world, "must be a World");
     this.#world = world;
-    this._address = call("rollback_create", [world._address, whole(frames, "frames")]);
+    this._address = call("rollback_create", [world._address, whole(frames, "frames", 1, 10000)]);
     forgotten.register(this, this._address, this);
   }
   /// Saves the present state under its step count, instead of the oldest one if it is full.
@@ -643,6 +705,9 @@ export class Rollback {
     return call(name, [this._address, ...args]);
   }
 }
+
+const kClosed = {Body, Shape, Chain, Joint, World, Rollback};
+for (const Type of Object.values(kClosed)) refuseToSet(Type);
 
 function hex(bits) {
   return BigInt.asUintN(64, bits).toString(16).padStart(16, "0");

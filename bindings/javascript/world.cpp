@@ -48,14 +48,14 @@ PLUMB_EXPORT("world_step") void js_world_step(plumb_world* w, double dt, int sub
   plumb_world_step(w, dt, substeps);
 }
 // Nothing unwinds the stack of a call that throws, so its locks stay. JavaScript notes them before calls that
-// may lock the world, and puts them back after an error.
+// may lock the world, and puts them back after an error. It also locks worlds while it calls laws of its own.
 PLUMB_EXPORT("world_locks") int js_locks(plumb_world* w) {
   return plumb::c::read(w, [](const auto& world) { return world.data().active_callbacks.load(); });
 }
 PLUMB_EXPORT("world_stepping") int js_stepping(plumb_world* w) {
   return plumb::c::read(w, [](const auto& world) { return world.data().stepping ? 1 : 0; });
 }
-PLUMB_EXPORT("world_unlock") void js_unlock(plumb_world* w, int locks, int stepping) {
+PLUMB_EXPORT("world_set_locks") void js_set_locks(plumb_world* w, int locks, int stepping) {
   plumb::c::change(w, [&](auto& world) {
     auto& data = world.data();
     data.active_callbacks = locks;

@@ -47,22 +47,24 @@ void bind_bodies(py::module_& module) {
       .def_property_readonly("inertia", PLUMB_READ(HeldBody, w.inertia(h.id)),
                              "kg m^2 about the centre of mass")
       .def_property("gravity_scale", PLUMB_READ(HeldBody, w.gravity_scale(h.id)),
-                    PLUMB_SET(HeldBody, double, w.set_gravity_scale(h.id, value)))
+                    PLUMB_SET(HeldBody, double, w.set_gravity_scale(h.id, value)),
+                    "Factor of gravity on it, 1 unless set.")
       .def_property("linear_damping", PLUMB_READ(HeldBody, w.linear_damping(h.id)),
                     PLUMB_SET(HeldBody, double, w.set_damping(h.id, value, w.angular_damping(h.id))), "1/s")
       .def_property("angular_damping", PLUMB_READ(HeldBody, w.angular_damping(h.id)),
                     PLUMB_SET(HeldBody, double, w.set_damping(h.id, w.linear_damping(h.id), value)), "1/s")
       .def_property("awake", PLUMB_READ(HeldBody, w.awake(h.id)),
-                    PLUMB_SET(HeldBody, bool, w.set_awake(h.id, value)))
+                    PLUMB_SET(HeldBody, Flag, w.set_awake(h.id, value)),
+                    "False while it sleeps; wakes it, or lets it sleep, when set.")
       .def_property("may_sleep", PLUMB_READ(HeldBody, w.may_sleep(h.id)),
-                    PLUMB_SET(HeldBody, bool, w.set_may_sleep(h.id, value)))
+                    PLUMB_SET(HeldBody, Flag, w.set_may_sleep(h.id, value)), "False keeps it awake.")
       .def_property("user_data", PLUMB_READ(HeldBody, w.user_data(h.id)),
-                    PLUMB_SET(HeldBody, std::uint64_t, w.set_user_data(h.id, value)))
+                    PLUMB_SET(HeldBody, std::uint64_t, w.set_user_data(h.id, value)), "64 bits of your own.")
       .def_property("continuous", PLUMB_READ(HeldBody, w.continuous(h.id)),
-                    PLUMB_SET(HeldBody, bool, w.set_continuous(h.id, value)),
+                    PLUMB_SET(HeldBody, Flag, w.set_continuous(h.id, value)),
                     "False lets it tunnel, to save time.")
       .def_property("enabled", PLUMB_READ(HeldBody, w.enabled(h.id)),
-                    PLUMB_SET(HeldBody, bool, w.set_enabled(h.id, value)),
+                    PLUMB_SET(HeldBody, Flag, w.set_enabled(h.id, value)),
                     "False takes the body out of the simulation until it is set again.")
       .def_property_readonly(
           "box",
@@ -72,11 +74,14 @@ void bind_bodies(py::module_& module) {
           },
           "lower and upper corner of the box around its shapes, m")
       .def_property("name", PLUMB_READ(HeldBody, std::string(w.name(h.id))),
-                    PLUMB_SET(HeldBody, const std::string&, w.set_name(h.id, value)))
-      .def_property_readonly("valid", PLUMB_READ(HeldBody, w.valid(h.id)))
-      .def_property_readonly("quarantined", PLUMB_READ(HeldBody, w.quarantined(h.id)))
-      .def_property_readonly("shapes", PLUMB_READ(HeldBody, handles(h.world, w.shapes(h.id))))
-      .def_property_readonly("joints", PLUMB_READ(HeldBody, handles(h.world, w.joints(h.id))))
+                    PLUMB_SET(HeldBody, const std::string&, w.set_name(h.id, value)),
+                    "In messages and drawings; '' unless given.")
+      .def_property_readonly("valid", PLUMB_READ(HeldBody, w.valid(h.id)), "False once it was destroyed.")
+      .def_property_readonly("quarantined", PLUMB_READ(HeldBody, w.quarantined(h.id)),
+                             "True while it is out of the simulation for a number that was not finite.")
+      .def_property_readonly("shapes", PLUMB_READ(HeldBody, handles(h.world, w.shapes(h.id))),
+                             "Its shapes, with those of chains.")
+      .def_property_readonly("joints", PLUMB_READ(HeldBody, handles(h.world, w.joints(h.id))), "Its joints.")
       .def(
           "contacts",
           [](const HeldBody& h) {
@@ -133,10 +138,11 @@ void bind_bodies(py::module_& module) {
           "Computes the mass from the shapes again.")
       .def(
           "set_locks",
-          [](const HeldBody& h, bool x, bool y, bool rotation) {
+          [](const HeldBody& h, Flag x, Flag y, Flag rotation) {
             h.world->visit([&](auto& w) { w.set_locks(h.id, x, y, rotation); });
           },
-          arg("x") = false, arg("y") = false, arg("rotation") = false)
+          arg("x") = false, arg("y") = false, arg("rotation") = false,
+          "Lets it not move along x or y, or not turn. What is not given is free.")
       .def_property_readonly(
           "locks",
           [](const HeldBody& h) {
@@ -171,16 +177,22 @@ void bind_bodies(py::module_& module) {
           arg("shape"), "Adds a shape: a geometry or a ShapeDefinition.")
       .def(
           "create_chain",
-          [](const HeldBody& h, std::vector<Vec2d> points, bool closed, double friction, double restitution) {
+          [](const HeldBody& h, std::vector<Vec2d> points, Flag closed, double friction, double restitution,
+             double rolling_resistance, double surface_speed, std::uint64_t category, std::uint64_t mask,
+             std::int32_t group, Flag sensor, Flag hit_events, Flag pre_solve, std::uint64_t user_data) {
             ChainDefinition d;
             d.points = std::move(points), d.closed = closed;
-            d.material.friction = friction, d.material.restitution = restitution;
+            d.material = {friction, restitution, rolling_resistance, surface_speed};
+            d.filter = {category, mask, group};
+            d.sensor = sensor, d.hit_events = hit_events, d.pre_solve = pre_solve, d.user_data = user_data;
             return HeldChain{h.world, h.world->visit([&](auto& w) { return w.create_chain(h.id, d); })};
           },
           arg("points"), arg("closed") = false, py::kw_only(), arg("friction") = Material{}.friction,
-          arg("restitution") = 0.0,
+          arg("restitution") = 0.0, arg("rolling_resistance") = 0.0, arg("surface_speed") = 0.0,
+          arg("category") = Filter{}.category, arg("mask") = Filter{}.mask, arg("group") = 0,
+          arg("sensor") = false, arg("hit_events") = false, arg("pre_solve") = false, arg("user_data") = 0,
           "Adds a line of one-sided segments through points, m; the front is to the right when walking along "
-          "it.")
+          "it. The rest is that of its segments; surface_speed: m/s.")
       .def(
           "release", [](const HeldBody& h) { h.world->visit([&](auto& w) { w.release(h.id); }); },
           "Releases it from quarantine.")

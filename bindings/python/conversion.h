@@ -6,6 +6,8 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -44,6 +46,52 @@ struct type_caster<plumb::Vec2d> {
 namespace plumb::python {
 
 namespace py = pybind11;
+
+/// An argument that is True or False, of Python or numpy: as a bool, pybind11 takes numbers and None too.
+struct Flag {
+  bool on = false;
+  operator bool() const { return on; }
+};
+
+/// Views the bytes of any object that has some: bytes, bytearray, memoryview, an array.
+class Bytes {
+ public:
+  explicit Bytes(const py::buffer& given) {
+    if (PyObject_GetBuffer(given.ptr(), &view_, PyBUF_SIMPLE) != 0) throw py::error_already_set();
+  }
+  ~Bytes() { PyBuffer_Release(&view_); }
+  Bytes(const Bytes&) = delete;
+  Bytes& operator=(const Bytes&) = delete;
+  std::span<const std::byte> all() const {
+    return {static_cast<const std::byte*>(view_.buf), static_cast<std::size_t>(view_.len)};
+  }
+
+ private:
+  Py_buffer view_{};
+};
+
+}  // namespace plumb::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<plumb::python::Flag> {
+  PYBIND11_TYPE_CASTER(plumb::python::Flag, const_name("bool"));
+
+  bool load(handle source, bool) {
+    const std::string_view type = Py_TYPE(source.ptr())->tp_name;
+    if (!PyBool_Check(source.ptr()) && type != "numpy.bool_" && type != "numpy.bool") return false;
+    value.on = PyObject_IsTrue(source.ptr()) == 1;
+    return true;
+  }
+  static handle cast(plumb::python::Flag flag, return_value_policy, handle) {
+    return bool_(flag.on).release();
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace plumb::python {
 
 /// Returns the enumerator called `name`. Throws Error (Name) that lists the names.
 template <class Enum, std::size_t kCount>
@@ -87,5 +135,7 @@ void bind_definitions(py::module_& module);
 void bind_joint_kinds(py::module_& module);
 void bind_world(py::module_& module);
 void bind_simulation(py::module_& module);
+/// Makes functions name the argument that they refuse.
+void explain_wrong_arguments(const py::module_& module);
 
 }  // namespace plumb::python

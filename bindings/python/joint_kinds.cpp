@@ -55,7 +55,8 @@ py::class_<Kind> joint(py::module_& module, const char* name, const char* about)
   py::class_<Kind> type(module, name, about);
   for_each_field(Kind{}, [&](const char* field, const auto&, const FieldRule& rule) {
     type.def_property_readonly(
-        field, [field](const Kind& kind) -> py::object { return fields_of(kind)[field]; }, rule.unit);
+        field, [field](const Kind& kind) -> py::object { return fields_of(kind)[field]; },
+        rule.unit != nullptr && *rule.unit != '\0' ? rule.unit : "without a unit, or (hertz, damping ratio)");
   });
   type.def("__repr__", [name](const Kind& kind) {
     std::string text;

@@ -9,15 +9,20 @@ using py::arg;
 
 void bind_joints(py::module_& module) {
   py::class_<HeldJoint> joint(module, "Joint", traversed<HeldJoint>(), "A joint of two bodies.");
-  joint.def_property_readonly("valid", PLUMB_READ(HeldJoint, w.valid(h.id)))
+  joint
+      .def_property_readonly("valid", PLUMB_READ(HeldJoint, w.valid(h.id)),
+                             "False once it was destroyed or broke.")
       .def_property("user_data", PLUMB_READ(HeldJoint, w.user_data(h.id)),
-                    PLUMB_SET(HeldJoint, std::uint64_t, w.set_user_data(h.id, value)))
-      .def_property_readonly("kind", PLUMB_READ(HeldJoint, JointKind(w.kind(h.id))))
-      .def_property_readonly("bodies",
-                             [](const HeldJoint& h) {
-                               const auto [a, b] = h.world->visit([&](auto& w) { return w.bodies(h.id); });
-                               return py::make_tuple(HeldBody{h.world, a}, HeldBody{h.world, b});
-                             })
+                    PLUMB_SET(HeldJoint, std::uint64_t, w.set_user_data(h.id, value)), "64 bits of your own.")
+      .def_property_readonly("kind", PLUMB_READ(HeldJoint, JointKind(w.kind(h.id))),
+                             "Its present definition, a copy: plumb.Revolute(...) and the like.")
+      .def_property_readonly(
+          "bodies",
+          [](const HeldJoint& h) {
+            const auto [a, b] = h.world->visit([&](auto& w) { return w.bodies(h.id); });
+            return py::make_tuple(HeldBody{h.world, a}, HeldBody{h.world, b});
+          },
+          "The two bodies, (a, b).")
       .def(
           "change",
           [](const HeldJoint& h, const JointKind& kind) {
@@ -52,7 +57,9 @@ void bind_joints(py::module_& module) {
           },
           arg("force") = 0.0, arg("torque") = 0.0,
           "Sets the loads beyond which it is in World.events['loaded'], N and N m; 0: never.")
-      .def("destroy", [](const HeldJoint& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
+      .def(
+          "destroy", [](const HeldJoint& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); },
+          "Lets the bodies go.");
   bind_common(joint, "Joint", "Its number among the world's joints; used again once it is destroyed.");
 }
 

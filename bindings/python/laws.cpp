@@ -30,7 +30,7 @@ struct HeldLawBody {
 
 /// Applies a function of a body's state that returns (x, y, torque).
 void apply_function(const WorldPointer& held, const std::function<py::object(HeldLawBody)>& law, double dt,
-                    bool wakes) {
+                    Flag wakes) {
   const WorldReference world = held;
   held->visit([&](auto& w) {
     plumb::apply_law(w,
@@ -48,18 +48,18 @@ void bind_law_body(py::module_& module) {
   const auto state = [](auto member) { return [member](const HeldLawBody& b) { return b.state.*member; }; };
   py::class_<HeldLawBody>(module, "LawBody", traversed<HeldLawBody>(),
                           "State of a body, as passed to a law: SI units, angles in rad.")
-      .def_readonly("body", &HeldLawBody::body)
+      .def_readonly("body", &HeldLawBody::body, "Its handle.")
       .def_property_readonly("centre", state(&LawBody::centre), "m, of mass, (x, y).")
-      .def_property_readonly("angle", state(&LawBody::angle))
+      .def_property_readonly("angle", state(&LawBody::angle), "rad.")
       .def_property_readonly("velocity", state(&LawBody::velocity), "m/s, of the centre of mass, (x, y).")
-      .def_property_readonly("angular_velocity", state(&LawBody::angular_velocity))
-      .def_property_readonly("mass", state(&LawBody::mass))
+      .def_property_readonly("angular_velocity", state(&LawBody::angular_velocity), "rad/s.")
+      .def_property_readonly("mass", state(&LawBody::mass), "kg.")
       .def_property_readonly("inertia", state(&LawBody::inertia), "kg m^2, about the centre of mass.")
-      .def_property_readonly("user_data", state(&LawBody::user_data));
+      .def_property_readonly("user_data", state(&LawBody::user_data), "64 bits of your own.");
 }
 
 /// Applies an array with a row of each body, by its index.
-void apply_rows(const WorldPointer& held, const Wrenches& rows, bool wakes) {
+void apply_rows(const WorldPointer& held, const Wrenches& rows, Flag wakes) {
   const auto wanted = held->visit([](auto& w) { return static_cast<py::ssize_t>(w.data().bodies.size()); });
   if (rows.ndim() != 2 || rows.shape(0) != wanted || rows.shape(1) != 3) {
     throw Error(Error::Kind::Value, "wrenches", "shape", "another one",
@@ -92,7 +92,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
            "y (N) and torque (N m).")
       .def(
           "apply_linear_drag",
-          [](const WorldPointer& h, double linear, double angular, double dt, bool wakes) {
+          [](const WorldPointer& h, double linear, double angular, double dt, Flag wakes) {
             apply(h, wakes, [&](auto& w, LawOptions o) {
               plumb::apply_linear_drag(w, {linear, angular}, dt, o);
             });
@@ -101,7 +101,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
           "Adds F = -linear v and torque = -angular w, N s/m and N m s.")
       .def(
           "apply_quadratic_drag",
-          [](const WorldPointer& h, double coefficient, double dt, bool wakes) {
+          [](const WorldPointer& h, double coefficient, double dt, Flag wakes) {
             apply(h, wakes,
                   [&](auto& w, LawOptions o) { plumb::apply_quadratic_drag(w, coefficient, dt, o); });
           },
@@ -110,7 +110,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
       .def(
           "apply_attraction",
           [](const WorldPointer& h, const std::variant<HeldBody, Vec2d>& centre, double strength,
-             const std::string& falloff, double softening, double dt, bool wakes) {
+             const std::string& falloff, double softening, double dt, Flag wakes) {
             const Attraction law{strength, named<Attraction::Falloff>(kFalloffs, falloff, "falloff"),
                                  softening};
             apply(h, wakes, [&](auto& w, LawOptions o) {
@@ -124,7 +124,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
           "Attracts to a point (m) or a body: strength / r^2 (m^3/s^2) or strength r (1/s^2) for each kg.")
       .def(
           "apply_wind",
-          [](const WorldPointer& h, Vec2d velocity, double density, double dt, bool wakes) {
+          [](const WorldPointer& h, Vec2d velocity, double density, double dt, Flag wakes) {
             apply(h, wakes, [&](auto& w, LawOptions o) { plumb::apply_wind(w, {velocity, density}, dt, o); });
           },
           arg("velocity"), py::kw_only(), arg("density") = Wind{}.density, arg("dt") = 1.0 / 60,
@@ -132,7 +132,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
       .def(
           "apply_water",
           [](const WorldPointer& h, double level, double density, Vec2d velocity, double linear_drag,
-             double angular_drag, double dt, bool wakes) {
+             double angular_drag, double dt, Flag wakes) {
             apply(h, wakes, [&](auto& w, LawOptions o) {
               plumb::apply_water(w, {level, density, velocity, linear_drag, angular_drag}, dt, o);
             });
@@ -144,7 +144,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
       .def(
           "apply_spring",
           [](const WorldPointer& h, const HeldBody& a, Vec2d point_a, const HeldBody& b, Vec2d point_b,
-             double stiffness, double damping, double rest_length, bool pulls_only, double dt, bool wakes) {
+             double stiffness, double damping, double rest_length, Flag pulls_only, double dt, Flag wakes) {
             apply(h, wakes, [&](auto& w, LawOptions o) {
               plumb::apply_spring(w, id_in(h, a, "a"), point_a, id_in(h, b, "b"), point_b,
                                   {stiffness, damping, rest_length, pulls_only}, dt, o);
@@ -157,7 +157,7 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
           "Pulls between points of two bodies, in the bodies' frames (m): N/m, N s/m, m.")
       .def(
           "explode",
-          [](const WorldPointer& h, Vec2d centre, double radius, double impulse, bool occlusion) {
+          [](const WorldPointer& h, Vec2d centre, double radius, double impulse, Flag occlusion) {
             h->visit([&](auto& w) {
               plumb::explode(w, {centre, radius, impulse}, {.occlusion = occlusion});
             });

@@ -32,7 +32,7 @@ void bind_query(HeldWorldClass& type, const char* name, Query query, const char*
   type.def(
       name,
       [query](const WorldPointer& h, Own... own, std::optional<HeldBody> ignore, std::uint64_t category,
-              std::uint64_t mask, bool sensors) {
+              std::uint64_t mask, Flag sensors) {
         return query(h, Considered{h, ignore, category, mask, sensors}.filter(), own...);
       },
       std::forward<Names>(names)..., py::kw_only(), arg("ignore") = py::none(),
@@ -147,7 +147,7 @@ void bind_queries(HeldWorldClass& world) {
           "move",
           [](const WorldPointer& h, const Capsule& capsule, Vec2d position, Vec2d velocity, double dt,
              Vec2d up, double max_slope, double step_height, double skin, double mass, double push_force,
-             bool push) {
+             Flag push) {
             const MoverOptions o{up, max_slope, step_height, skin, mass, push_force, {}};
             return h->visit([&](auto& w) {
               const MoverResult r = move(w, capsule, position, velocity, dt, o);

@@ -53,16 +53,17 @@ void bind_rollback(py::module_& module) {
           [](const HeldRollback& r, std::int64_t step) {
             return r.read([&](const auto& states) { return states.holds(step); });
           },
-          arg("step"))
+          arg("step"), "True if it has the state after `step` steps.")
       .def("__len__",
            [](const HeldRollback& r) { return r.read([](const auto& states) { return states.size(); }); })
       .def_property_readonly(
           "oldest",
           [](const HeldRollback& r) { return r.read([](const auto& states) { return states.oldest(); }); },
           "Step of the oldest state; -1: there is none.")
-      .def_property_readonly("latest", [](const HeldRollback& r) {
-        return r.read([](const auto& states) { return states.latest(); });
-      });
+      .def_property_readonly(
+          "latest",
+          [](const HeldRollback& r) { return r.read([](const auto& states) { return states.latest(); }); },
+          "Step of the latest state; -1: there is none.");
 }
 
 }  // namespace plumb::python

@@ -10,21 +10,24 @@ using py::arg;
 
 void bind_shapes(py::module_& module) {
   py::class_<HeldShape> shape(module, "Shape", traversed<HeldShape>(), "A shape of a body.");
-  shape.def_property_readonly("body", PLUMB_READ(HeldShape, (HeldBody{h.world, w.body(h.id)})))
-      .def_property_readonly("valid", PLUMB_READ(HeldShape, w.valid(h.id)))
+  shape
+      .def_property_readonly("body", PLUMB_READ(HeldShape, (HeldBody{h.world, w.body(h.id)})),
+                             "The body that it is of.")
+      .def_property_readonly("valid", PLUMB_READ(HeldShape, w.valid(h.id)), "False once it was destroyed.")
       .def_property_readonly("definition", PLUMB_READ(HeldShape, w.definition(h.id)),
                              "As at present; a box is a polygon.")
       .def_property("user_data", PLUMB_READ(HeldShape, w.user_data(h.id)),
-                    PLUMB_SET(HeldShape, std::uint64_t, w.set_user_data(h.id, value)))
+                    PLUMB_SET(HeldShape, std::uint64_t, w.set_user_data(h.id, value)), "64 bits of your own.")
       .def_property("density", PLUMB_READ(HeldShape, w.density(h.id)),
                     PLUMB_SET(HeldShape, double, w.set_density(h.id, value)), "kg/m^2")
       .def_property("sensor", PLUMB_READ(HeldShape, w.sensor(h.id)),
-                    PLUMB_SET(HeldShape, bool, w.set_sensor(h.id, value)))
+                    PLUMB_SET(HeldShape, Flag, w.set_sensor(h.id, value)),
+                    "Feels what is in it, and collides with nothing.")
       .def_property("hit_events", PLUMB_READ(HeldShape, w.hit_events(h.id)),
-                    PLUMB_SET(HeldShape, bool, w.set_hit_events(h.id, value)),
+                    PLUMB_SET(HeldShape, Flag, w.set_hit_events(h.id, value)),
                     "Hard impacts on it are reported.")
       .def_property("pre_solve", PLUMB_READ(HeldShape, w.pre_solve(h.id)),
-                    PLUMB_SET(HeldShape, bool, w.set_pre_solve(h.id, value)), "Its contacts call the hook.")
+                    PLUMB_SET(HeldShape, Flag, w.set_pre_solve(h.id, value)), "Its contacts call the hook.")
       .def_property_readonly(
           "box",
           [](const HeldShape& h) {
@@ -72,17 +75,20 @@ void bind_shapes(py::module_& module) {
                              "Shapes in a sensor in the last step.")
       .def_property("friction", PLUMB_READ(HeldShape, w.material(h.id).friction),
                     PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.friction = value;
-                              w.set_material(h.id, m)))
+                              w.set_material(h.id, m)),
+                    "Coulomb's coefficient, at least 0")
       .def_property("restitution", PLUMB_READ(HeldShape, w.material(h.id).restitution),
                     PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.restitution = value;
-                              w.set_material(h.id, m)))
+                              w.set_material(h.id, m)),
+                    "Newton's coefficient, 0 to 1")
       .def_property("surface_speed", PLUMB_READ(HeldShape, w.material(h.id).surface_speed),
                     PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.surface_speed = value;
                               w.set_material(h.id, m)),
                     "m/s")
       .def_property("rolling_resistance", PLUMB_READ(HeldShape, w.material(h.id).rolling_resistance),
                     PLUMB_SET(HeldShape, double, auto m = w.material(h.id); m.rolling_resistance = value;
-                              w.set_material(h.id, m)))
+                              w.set_material(h.id, m)),
+                    "lever arm over the rounding radius, at least 0")
       .def_property_readonly(
           "filter",
           [](const HeldShape& h) {
@@ -98,15 +104,21 @@ void bind_shapes(py::module_& module) {
           arg("category") = Filter{}.category, arg("mask") = Filter{}.mask, arg("group") = 0,
           "64 bits each: shapes touch if each one's category is in the other's mask; an equal group other "
           "than 0 decides.")
-      .def("destroy", [](const HeldShape& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
+      .def(
+          "destroy", [](const HeldShape& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); },
+          "Destroys it with its contacts.");
   bind_common(shape, "Shape",
               "Its number among the world's shapes, as in World.contacts; used again once it is destroyed.");
 
   py::class_<HeldChain> chain(module, "Chain", traversed<HeldChain>(), "A chain of segments of a body.");
-  chain.def_property_readonly("valid", PLUMB_READ(HeldChain, w.valid(h.id)))
-      .def_property_readonly("body", PLUMB_READ(HeldChain, (HeldBody{h.world, w.body(h.id)})))
-      .def_property_readonly("segments", PLUMB_READ(HeldChain, handles(h.world, w.segments(h.id))))
-      .def("destroy", [](const HeldChain& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); });
+  chain.def_property_readonly("valid", PLUMB_READ(HeldChain, w.valid(h.id)), "False once it was destroyed.")
+      .def_property_readonly("body", PLUMB_READ(HeldChain, (HeldBody{h.world, w.body(h.id)})),
+                             "The body that it is of.")
+      .def_property_readonly("segments", PLUMB_READ(HeldChain, handles(h.world, w.segments(h.id))),
+                             "Its shapes, in order.")
+      .def(
+          "destroy", [](const HeldChain& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); },
+          "Destroys it with its segments.");
   bind_common(chain, "Chain", "Its number among the world's chains; used again once it is destroyed.");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -9,6 +10,8 @@
 #include "bindings/python/interrupt.h"
 #include "engine/scene/json.h"
 #include "engine/world/snapshot.h"
+#include "engine/world/state/lock.h"
+#include "engine/world/state/validate.h"
 
 namespace plumb::python {
 namespace {
@@ -59,7 +62,7 @@ class Batch {
  public:
   Batch(const WorldPointer& world, int count, const std::vector<HeldBody>& bodies, int threads)
       : threads_(threads) {
-    require_count("batch", "count", count, 1), require_count("batch", "threads", threads, 1);
+    require_count("batch", "count", count, 1), require_threads(threads);
     if (world->has_hooks()) {
       throw Error(Error::Kind::Unsupported, "batch", "hooks", "",
                   "of the world are not copied; take them off before (None), and give each copy its own hook "
@@ -71,6 +74,8 @@ class Batch {
         throw Error(Error::Kind::Name, "batch", "bodies", std::to_string(body.id.index),
                     "is of another world");
       world->visit([&](auto& w) { w.position(body.id); });  // throws for the handle of a destroyed body
+      if (std::find(ids_.begin(), ids_.end(), body.id) != ids_.end())
+        throw Error(Error::Kind::Value, "batch", "bodies", std::to_string(body.id.index), "is given twice");
       ids_.push_back(body.id);
     }
     for (int i = 0; i < count; ++i) {
@@ -110,6 +115,7 @@ class Batch {
                       ", 3): force (N) and torque (N m) on each body of each world");
     }
     const double* given = actions ? actions->data() : nullptr;
+    require_steppable(dt, substeps), require_actions(given);
     {
       const py::gil_scoped_release released;
       std::atomic<bool> stopped = false;
@@ -158,7 +164,7 @@ class Batch {
     return out;
   }
 
-  void reset(const std::optional<std::vector<bool>>& which) {
+  void reset(const std::optional<std::vector<Flag>>& which) {
     if (which && which->size() != worlds_.size())
       throw Error(Error::Kind::Value, "batch", "which", std::to_string(which->size()) + " values",
                   "must have one for each world");
@@ -170,6 +176,33 @@ class Batch {
   }
 
  private:
+  // A call is refused as a whole, before any world changes.
+  void require_steppable(double dt, int substeps) const {
+    require_positive("step", "dt", dt);
+    if (substeps < 1 || substeps > 1000)
+      throw Error(Error::Kind::Value, "step", "substeps", std::to_string(substeps),
+                  "must be a number from 1 to 1000");
+    for (const WorldReference& world : worlds_) {
+      world->visit([&](auto& w) {
+        require_unlocked(w.data());
+        for (const BodyId body : ids_) (void)w.type(body);  // throws for one that was destroyed in its copy
+      });
+    }
+  }
+  void require_actions(const double* given) const {
+    constexpr const char* kColumns[] = {"force x", "force y", "torque"};
+    const std::size_t width = 3 * ids_.size(), count = given != nullptr ? width * worlds_.size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::abs(given[i]) <= kLargestNumber) continue;
+      const std::size_t world = i / width, row = i % width / 3, column = i % 3;
+      require_finite("batch",
+                     "actions[" + std::to_string(world) + ", " + std::to_string(row) + ", " +
+                         std::to_string(column) + "], " + kColumns[column] + " of world " +
+                         std::to_string(world),
+                     given[i]);
+    }
+  }
+
   /// Calls `work(first, last)` for parts of the worlds, on threads; the first exception goes on.
   template <class Work>
   void share(Work&& work) {
@@ -209,7 +242,7 @@ void bind_simulation(py::module_& module) {
       .def_static(
           "realtime",
           [](const py::object& scene, double dt, int substeps, int iterations, const std::string& precision,
-             const std::string& integrator, const std::string& solver, bool continuous, bool sleeping,
+             const std::string& integrator, const std::string& solver, Flag continuous, Flag sleeping,
              const std::string& on_violation) {
             return compiled(scene, Realtime{dt, substeps, iterations,
                                             named<Precision>(kPrecisions, precision, "precision"),
@@ -224,7 +257,7 @@ void bind_simulation(py::module_& module) {
       .def_static(
           "precise",
           [](const py::object& scene, double tolerance, double dt, const std::string& method,
-             bool estimate_error) {
+             Flag estimate_error) {
             return compiled(scene, Precise{tolerance, dt, named<MotionMethod>(kMethods, method, "method"),
                                            estimate_error});
           },
@@ -240,10 +273,11 @@ void bind_simulation(py::module_& module) {
             if (count < 1) return s.simulation.step(count);  // refuses negative ones
             for (int i = 0; i < count; ++i) s.simulation.step(1), interrupted();
           },
-          arg("count") = 1)
+          arg("count") = 1, "Takes `count` steps of dt, s.")
       .def_property_readonly(
           "time", [](const HeldSimulation& s) { return s.simulation.time(); }, "s")
-      .def_property_readonly("names", [](const HeldSimulation& s) { return s.names; })
+      .def_property_readonly(
+          "names", [](const HeldSimulation& s) { return s.names; }, "Of the bodies, by index.")
       .def(
           "state",
           [](const HeldSimulation& s, const std::variant<std::size_t, std::string>& body) {
@@ -257,7 +291,7 @@ void bind_simulation(py::module_& module) {
             s.simulation.set_state(s.find(body), {position, angle, velocity, angular_velocity});
           },
           arg("body"), arg("position"), arg("angle") = 0.0, arg("velocity") = Vec2d{},
-          arg("angular_velocity") = 0.0)
+          arg("angular_velocity") = 0.0, "Sets the state of a body's centre of mass: m, rad, m/s, rad/s.")
       .def_property_readonly(
           "states",
           [](const HeldSimulation& s) {
@@ -271,19 +305,19 @@ void bind_simulation(py::module_& module) {
             return out;
           },
           "x, y (m), angle (rad), velocity (m/s), angular velocity (rad/s) of all bodies, (n, 6)")
-      .def("hash", [](const HeldSimulation& s) { return s.simulation.hash(); })
-      .def("save",
-           [](const HeldSimulation& s) {
-             const std::vector<std::byte> bytes = s.simulation.save();
-             return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-           })
+      .def(
+          "hash", [](const HeldSimulation& s) { return s.simulation.hash(); }, "Hash of all bodies' states.")
+      .def(
+          "save",
+          [](const HeldSimulation& s) {
+            const std::vector<std::byte> bytes = s.simulation.save();
+            return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+          },
+          "All that the future depends on, as bytes.")
       .def(
           "restore",
-          [](HeldSimulation& s, const py::bytes& bytes) {
-            const std::string_view text = bytes;
-            s.simulation.restore(std::as_bytes(std::span(text.data(), text.size())));
-          },
-          arg("bytes"))
+          [](HeldSimulation& s, const py::buffer& given) { s.simulation.restore(Bytes(given).all()); },
+          arg("bytes"), "Goes back to a saved state.")
       .def(
           "forces",
           [](const HeldSimulation& s) {
@@ -300,17 +334,19 @@ void bind_simulation(py::module_& module) {
             return py::dict(arg("joints") = joints, arg("contacts") = contacts);
           },
           "Forces (N) and torques (N m) of joints and lasting contacts; precise runs alone.")
-      .def_property_readonly("statistics",
-                             [](const HeldSimulation& s) {
-                               const Statistics t = s.simulation.statistics();
-                               py::dict all(arg("steps") = t.steps, arg("rejected") = t.rejected,
-                                            arg("impacts") = t.impacts, arg("evaluations") = t.evaluations);
-                               if (t.error.known)
-                                 all["error"] = py::dict(arg("position") = t.error.position,
-                                                         arg("angle") = t.error.angle,
-                                                         arg("velocity") = t.error.velocity);
-                               return all;
-                             })
+      .def_property_readonly(
+          "statistics",
+          [](const HeldSimulation& s) {
+            const Statistics t = s.simulation.statistics();
+            py::dict all(arg("steps") = t.steps, arg("rejected") = t.rejected, arg("impacts") = t.impacts,
+                         arg("evaluations") = t.evaluations);
+            if (t.error.known)
+              all["error"] = py::dict(arg("position") = t.error.position, arg("angle") = t.error.angle,
+                                      arg("velocity") = t.error.velocity);
+            return all;
+          },
+          "Steps taken and rejected, impacts, evaluations; with estimate_error the error: m, "
+          "rad, m/s.")
       .def_property_readonly(
           "plan",
           [](const HeldSimulation& s) {
@@ -336,8 +372,9 @@ void bind_simulation(py::module_& module) {
       .def(py::init<const WorldPointer&, int, const std::vector<HeldBody>&, int>(), arg("world"),
            arg("count"), arg("bodies"), py::kw_only(), arg("threads") = 1)
       .def("__len__", [](const Batch& b) { return b.size(); })
-      .def("world", &Batch::world, arg("index"))
-      .def("hashes", [](const Batch& b) { return b.hashes(); })
+      .def("world", &Batch::world, arg("index"), "One of the copies, from 0.")
+      .def(
+          "hashes", [](const Batch& b) { return b.hashes(); }, "World.hash() of each copy.")
       .def("step", &Batch::step, arg("actions") = py::none(), py::kw_only(), arg("dt") = 1.0 / 60,
            arg("substeps") = 4, arg("count") = 1,
            "Applies actions, (worlds, bodies, 3): force (N) and torque (N m), in each of `count` steps; "

@@ -26,10 +26,10 @@ void bind_snapshots(HeldWorldClass& world) {
           "All that the future depends on, as bytes.")
       .def(
           "restore",
-          [](HeldWorld& h, const py::bytes& bytes) {
-            const std::string_view text = bytes;
+          [](HeldWorld& h, const py::buffer& given) {
+            const Bytes bytes(given);
             h.leave_views();
-            h.visit([&](auto& w) { restore(w, std::as_bytes(std::span(text.data(), text.size()))); });
+            h.visit([&](auto& w) { restore(w, bytes.all()); });
           },
           arg("bytes"), "Goes back to a saved state; the world is unchanged if the bytes are refused.");
 }

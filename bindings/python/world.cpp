@@ -32,12 +32,22 @@ std::string scene_text(const py::object& scene) {
   return py::module_::import("plumb._json").attr("text")(scene).cast<std::string>();
 }
 
+py::dict fault_of(const WorldReference& world, const QuarantineEvent& q) {
+  return py::dict(arg("body") = HeldBody{world, q.body},
+                  arg("field") = kBadFieldNames[static_cast<int>(q.field)], arg("value") = q.value,
+                  arg("step") = q.step);
+}
+
+// A setting of a world, and a call that changes it.
+#define PLUMB_SETTING(name) \
+  [](HeldWorld& h) { return h.visit([](auto& w) { return w.data().settings.name; }); }
+#define PLUMB_CHANGE(Value, call) [](HeldWorld& h, Value value) { h.visit([&](auto& w) { w.call(value); }); }
+
 py::dict events_of(const WorldPointer& held) {
   return held->visit([&](auto& w) {
     const Events& e = w.events();
     const WorldReference world = held;
     const auto shape = [&](ShapeId id) { return HeldShape{world, id}; };
-    const auto body = [&](BodyId id) { return HeldBody{world, id}; };
     const auto touches = [&](const std::vector<TouchEvent>& all) {
       py::list list;
       for (const TouchEvent& t : all) list.append(py::make_tuple(shape(t.shape_a), shape(t.shape_b)));
@@ -62,9 +72,7 @@ py::dict events_of(const WorldPointer& held) {
                              arg("torque") = j.torque));
     }
     for (const QuarantineEvent& q : e.quarantined) {
-      quarantined.append(py::dict(arg("body") = body(q.body),
-                                  arg("field") = kBadFieldNames[static_cast<int>(q.field)],
-                                  arg("value") = q.value, arg("step") = q.step));
+      quarantined.append(fault_of(world, q));
     }
     return py::dict(arg("begin") = touches(e.begin), arg("end") = touches(e.end), arg("hits") = hits,
                     arg("sensor_begin") = sensed(e.sensor_begin), arg("sensor_end") = sensed(e.sensor_end),
@@ -75,8 +83,8 @@ py::dict events_of(const WorldPointer& held) {
 }
 
 WorldPointer make_world(Vec2d gravity, const std::string& precision, const std::string& solver,
-                        const std::string& integrator, int iterations, bool sleeping, bool continuous,
-                        bool direct_islands, bool quarantine, const std::string& friction,
+                        const std::string& integrator, int iterations, Flag sleeping, Flag continuous,
+                        Flag direct_islands, Flag quarantine, const std::string& friction,
                         const std::string& restitution, int threads,
                         const std::array<double, 3>& thresholds) {
   WorldDefinition d;
@@ -132,8 +140,9 @@ void bind_world(py::module_& module) {
           "Advances `count` steps of dt, s, each in substeps.")
       .def_property_readonly(
           "time", [](HeldWorld& h) { return h.visit([](auto& w) { return w.time(); }); }, "s")
-      .def_property_readonly("step_count",
-                             [](HeldWorld& h) { return h.visit([](auto& w) { return w.step_count(); }); })
+      .def_property_readonly(
+          "step_count", [](HeldWorld& h) { return h.visit([](auto& w) { return w.step_count(); }); },
+          "Steps taken so far.")
       .def_property(
           "gravity", [](HeldWorld& h) { return h.visit([](auto& w) { return w.gravity(); }); },
           [](HeldWorld& h, Vec2d g) { h.visit([&](auto& w) { w.set_gravity(g); }); }, "m/s^2")
@@ -143,18 +152,31 @@ void bind_world(py::module_& module) {
           [](HeldWorld& h, const std::string& name) {
             const auto solver = named<Solver>(kSolvers, name, "solver");
             h.visit([&](auto& w) { w.set_solver(solver); });
-          })
+          },
+          "'soft_steps', 'sequential_impulses', 'jakobsen', 'xpbd' or 'direct'")
       .def_property(
           "threads", [](HeldWorld& h) { return h.visit([](auto& w) { return w.threads(); }); },
           [](HeldWorld& h, int threads) { h.visit([&](auto& w) { w.set_threads(threads); }); },
           "Threads that share a step.")
-      .def_property_readonly("precision", [](HeldWorld& h) { return kPrecisions[h.world.index()]; })
+      .def_property_readonly(
+          "precision", [](HeldWorld& h) { return kPrecisions[h.world.index()]; },
+          "'float' or 'double', of the solver")
       .def(
-          "set_sleeping", [](HeldWorld& h, bool on) { h.visit([&](auto& w) { w.set_sleeping(on); }); },
-          arg("on"))
+          "set_sleeping", [](HeldWorld& h, Flag on) { h.visit([&](auto& w) { w.set_sleeping(on); }); },
+          arg("on"), "Lets bodies fall asleep, or not.")
       .def(
-          "set_continuous", [](HeldWorld& h, bool on) { h.visit([&](auto& w) { w.set_continuous(on); }); },
-          arg("on"))
+          "set_continuous", [](HeldWorld& h, Flag on) { h.visit([&](auto& w) { w.set_continuous(on); }); },
+          arg("on"), "Lets no fast body pass through others, or saves that time.")
+      .def_property("sleeping", PLUMB_SETTING(sleeping), PLUMB_CHANGE(Flag, set_sleeping),
+                    "False: no body falls asleep.")
+      .def_property("continuous", PLUMB_SETTING(continuous), PLUMB_CHANGE(Flag, set_continuous),
+                    "False lets fast bodies pass through others, to save time.")
+      .def_property("direct_islands", PLUMB_SETTING(direct_islands), PLUMB_CHANGE(Flag, set_direct_islands),
+                    "True: jointed bodies are solved as one, where it helps.")
+      .def_property("quarantine", PLUMB_SETTING(quarantine), PLUMB_CHANGE(Flag, set_quarantine),
+                    "True: a body whose numbers are not finite is taken out of the simulation.")
+      .def_property("iterations", PLUMB_SETTING(iterations), PLUMB_CHANGE(int, set_iterations),
+                    "Of solvers that iterate, 1 to 1000.")
       .def_property(
           "thresholds",
           [](HeldWorld& h) {
@@ -168,8 +190,8 @@ void bind_world(py::module_& module) {
           "speed up to "
           "which a body may fall asleep; negative: by the shapes' sizes.")
       .def(
-          "set_profiling", [](HeldWorld& h, bool on) { h.visit([&](auto& w) { w.set_profiling(on); }); },
-          arg("on"))
+          "set_profiling", [](HeldWorld& h, Flag on) { h.visit([&](auto& w) { w.set_profiling(on); }); },
+          arg("on"), "Measures the stages of steps from now on, or not.")
       .def_property_readonly(
           "profile",
           [](HeldWorld& h) {
@@ -181,20 +203,22 @@ void bind_world(py::module_& module) {
             });
           },
           "ns of each stage since profiling was switched on, and the steps")
-      .def_property_readonly("counts",
-                             [](HeldWorld& h) {
-                               const WorldCounts c = h.visit([](auto& w) { return w.counts(); });
-                               return py::dict(arg("bodies") = c.bodies, arg("awake") = c.awake,
-                                               arg("shapes") = c.shapes, arg("contacts") = c.contacts,
-                                               arg("touching") = c.touching, arg("joints") = c.joints);
-                             })
+      .def_property_readonly(
+          "counts",
+          [](HeldWorld& h) {
+            const WorldCounts c = h.visit([](auto& w) { return w.counts(); });
+            return py::dict(arg("bodies") = c.bodies, arg("awake") = c.awake, arg("shapes") = c.shapes,
+                            arg("contacts") = c.contacts, arg("touching") = c.touching,
+                            arg("joints") = c.joints);
+          },
+          "bodies, awake, shapes, contacts, touching and joints, a dict")
       .def(
           "create_body",
           [](const WorldPointer& h, const Shapes& shapes, const std::string& type, Vec2d position,
              double angle, Vec2d velocity, double angular_velocity, const std::string& name,
              std::optional<std::tuple<double, double, Vec2d>> mass, double gravity_scale,
-             double linear_damping, double angular_damping, bool lock_x, bool lock_y, bool lock_rotation,
-             bool may_sleep, bool awake, std::uint64_t user_data, bool continuous) {
+             double linear_damping, double angular_damping, Flag lock_x, Flag lock_y, Flag lock_rotation,
+             Flag may_sleep, Flag awake, std::uint64_t user_data, Flag continuous) {
             BodyDefinition b;
             b.name = name, b.type = named<BodyType>(kBodyTypes, type, "type");
             b.position = position, b.angle = angle, b.velocity = velocity,
@@ -220,7 +244,7 @@ void bind_world(py::module_& module) {
           "m/s; mass: (kg, kg m^2, centre in m), else densities count; damping: 1/s.")
       .def(
           "create_joint",
-          [](const WorldPointer& h, const HeldBody& a, const HeldBody& b, const JointKind& kind, bool collide,
+          [](const WorldPointer& h, const HeldBody& a, const HeldBody& b, const JointKind& kind, Flag collide,
              double break_force, double break_torque, std::uint64_t user_data, double report_force,
              double report_torque) {
             return HeldJoint{h, h->visit([&](auto& w) {
@@ -250,6 +274,35 @@ void bind_world(py::module_& module) {
           "bodies",
           [](const WorldPointer& h) { return h->visit([&](auto& w) { return handles(h, w.bodies()); }); },
           "All bodies, by index.")
+      .def_property_readonly(
+          "moved",
+          [](const WorldPointer& h) {
+            return h->visit([&](auto& w) {
+              std::vector<BodyId> all(w.moved({}));
+              w.moved(all);
+              return handles(h, all);
+            });
+          },
+          "Bodies whose pose the last step may have changed; not sorted.")
+      .def_property_readonly(
+          "quarantined",
+          [](const WorldPointer& h) {
+            py::list all;
+            h->visit([&](auto& w) {
+              for (const QuarantineEvent& q : w.quarantined()) all.append(fault_of(h, q));
+            });
+            return all;
+          },
+          "Bodies in quarantine and their faults, oldest first: dicts of body, field, value and step.")
+      .def("__repr__",
+           [](HeldWorld& h) {
+             return h.visit([&](auto& w) {
+               const WorldCounts c = w.counts();
+               return "<plumb.World, " + std::string(kPrecisions[h.world.index()]) + ": " +
+                      std::to_string(c.bodies) + " bodies, " + std::to_string(c.joints) + " joints, step " +
+                      std::to_string(w.step_count()) + ">";
+             });
+           })
       .def_property_readonly(
           "events", &events_of,
           "Of the last step, as lists: begin, end (shape, shape), sensor_begin, sensor_end (sensor, "

@@ -32,7 +32,8 @@ enum class DrawRole {
   Velocity,   ///< arrows of velocities
 };
 
-/// Interface to draw to: a window, a picture, a test. All lengths in m, in the world's frame, y up.
+/// Interface to draw to: a window, a picture, a test. All lengths in m, in the world's frame, y up. Its
+/// functions may read the world that is drawn; calls that would change it throw Error (Unsupported).
 class DebugDraw {
  public:
   virtual ~DebugDraw() = default;

@@ -1,10 +1,12 @@
 // The user's code that a world calls may read it but not change it, and worlds that were moved away say so.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <span>
 
 #include "engine/scene/error.h"
+#include "engine/world/debug_draw.h"
 #include "engine/world/force_laws.h"
 #include "engine/world/queries.h"
 #include "engine/world/snapshot.h"
@@ -54,6 +56,18 @@ int refused(BasicWorld<Real>& world, const Ids& ids) {
   return count;
 }
 
+/// Calls a function for each item that is drawn.
+struct Looking : DebugDraw {
+  explicit Looking(std::function<void()> function) : look(std::move(function)) {}
+  void polygon(std::span<const Vec2d>, double, DrawRole) override { look(); }
+  void circle(Vec2d, double, Vec2d, DrawRole) override { look(); }
+  void capsule(Vec2d, Vec2d, double, DrawRole) override { look(); }
+  void segment(Vec2d, Vec2d, DrawRole) override { look(); }
+  void point(Vec2d, DrawRole) override { look(); }
+  void text(Vec2d, std::string_view, DrawRole) override { look(); }
+  std::function<void()> look;
+};
+
 TYPED_TEST(Callbacks, NoCallbackMayChangeTheWorld) {
   using Real = TypeParam;
   BasicWorld<Real> world;
@@ -95,6 +109,9 @@ TYPED_TEST(Callbacks, NoCallbackMayChangeTheWorld) {
   overlap_shape(world, QueryShape(Circle{50}), {}, 0, filter, found), expect_same("filter of overlap_shape");
   shapes_at(world, {0, 0.5}, filter, found), expect_same("filter of shapes_at");
   nearest(world, {0, 3}, 100, filter), expect_same("filter of nearest");
+  Looking drawing(look);
+  draw(world, drawing), expect_same("drawing");
+  draw(world, PastPoses<Real>{}, 0.5, drawing), expect_same("drawing between steps");
 }
 
 TYPED_TEST(Callbacks, AHookThatChangesTheWorldIsRefusedAndTheStepGoesOn) {
@@ -152,6 +169,10 @@ TYPED_TEST(Callbacks, AWorldMayBeDestroyedFromItsOwnCallbacks) {
   apply_law(*world, [&](const LawBody&) -> Wrench<double> {
     return world.reset(), Wrench<double>{{1, 0}, 0};
   });
+  world = std::make_unique<BasicWorld<Real>>();
+  add_box(*world, {0, 0.5});
+  Looking drawing([&] { world.reset(); });
+  draw(*world, drawing);
 }
 
 TYPED_TEST(Callbacks, AWorldThatWasMovedAwaySaysSo) {

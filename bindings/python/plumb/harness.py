@@ -7,6 +7,7 @@ The program is the one that PLUMB_PROGRAM names, that the package brought along 
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -14,7 +15,7 @@ import tempfile
 from collections.abc import Mapping
 
 from . import _json
-from ._errors import Error, FileError
+from ._errors import Error, FileError, InvalidValue, UnknownName
 
 # Exit codes of the program: what it was asked for is in its output with both of these.
 _ANSWERED = (0, 1)
@@ -45,11 +46,10 @@ def compare(*cases, engines=None, commands=None, size=None, dt=None, timeout=Non
     (ns) and `unexpected`, the names of checks that missed and should not have. Raises Error where the program refuses.
     """
     with tempfile.TemporaryDirectory() as folder:
-        options = ["--out", os.fspath(out)] if out else ["--out", folder, "--no-report"]
+        options = [f"--out={os.fspath(out)}"] if out else [f"--out={folder}", "--no-report"]
         options += [] if cost else ["--no-cost"]
         options += _common(engines, commands) + _given(size=size, dt=dt, timeout=timeout)
-        text = _run(["compare", *_named(cases, folder), *options, "--format", "json"])
-        return [json.loads(line) for line in text.splitlines()]
+        return _answers(["compare", *_named(cases, folder), *options, "--format=json"])
 
 
 def tune(case, *, tolerance=None, cost_us=None, metric=None, engines=None, commands=None, size=None, dt=None,
@@ -66,7 +66,7 @@ def tune(case, *, tolerance=None, cost_us=None, metric=None, engines=None, comma
     with tempfile.TemporaryDirectory() as folder:
         options = _common(engines, commands) + _given(tolerance=tolerance, cost_us=cost_us, metric=metric, size=size,
                                                       dt=dt, budget=budget, duration=duration)
-        return json.loads(_run(["tune", *_named([case], folder), *options, "--format", "json"]))
+        return _answer(["tune", *_named([case], folder), *options, "--format=json"])
 
 
 def hunt(*families, engines=None, commands=None, seed=None, minutes=None, scenes=None, shrinks=None, jobs=None, out=None):
@@ -81,7 +81,9 @@ def hunt(*families, engines=None, commands=None, seed=None, minutes=None, scenes
     with tempfile.TemporaryDirectory() as folder:
         place = pathlib.Path(out or folder)
         options = _common(engines, commands) + _given(seed=seed, minutes=minutes, scenes=scenes, shrinks=shrinks, jobs=jobs)
-        found = json.loads(_run(["hunt", *families, *options, "--out", os.fspath(place), "--format", "json"]))
+        for family in families:
+            _require_name("family", family)
+        found = _answer(["hunt", *families, *options, f"--out={os.fspath(place)}", "--format=json"])
         for kind in found:
             kind["finding"] = json.loads((place / kind["file"]).read_text())
         return found
@@ -89,15 +91,15 @@ def hunt(*families, engines=None, commands=None, seed=None, minutes=None, scenes
 
 def _given(**options):
     given = [(f"--{name.replace('_', '-')}", value) for name, value in options.items() if value is not None]
-    return [part for name, value in given for part in (name, repr(value) if isinstance(value, float) else str(value))]
+    return [f"{name}={value!r}" if isinstance(value, float) else f"{name}={value}" for name, value in given]
 
 
 def _common(engines, commands):
     options = []
     if engines is not None:
-        options += ["--engine", engines if isinstance(engines, str) else ",".join(engines)]
+        options += [f"--engine={engines if isinstance(engines, str) else ','.join(engines)}"]
     for name, command in (commands or {}).items():
-        options += ["--engine-command", f"{name}={command}"]
+        options += [f"--engine-command={name}={command}"]
     return options
 
 
@@ -106,7 +108,7 @@ def _named(cases, folder):
     names = []
     for number, case in enumerate(cases):
         if isinstance(case, (str, os.PathLike)):
-            names.append(os.fspath(case))
+            names.append(_require_name("case", os.fspath(case)))
             continue
         if not isinstance(case, Mapping):
             raise TypeError(f"a case is a name, a path or a dict, not {case!r}")
@@ -115,6 +117,54 @@ def _named(cases, folder):
         path.write_text(_json.text(case))
         names.append(str(path))
     return names
+
+
+def _require_name(field, name):
+    """Returns a name; refuses one that the program would take for an option."""
+    if isinstance(name, str) and name and not name.startswith("-"):
+        return name
+    problem = "must be a name that begins with no '-'; a file can be given as './-name'"
+    raise _with_parts(InvalidValue(f"{field} {name!r}: {problem}"), field, "name", str(name), problem)
+
+
+def _with_parts(error, subject, field, value, problem):
+    error.subject, error.field, error.value, error.problem = subject, field, value, problem
+    return error
+
+
+def _refusal(text):
+    """Returns the exception for what the program says when it refuses."""
+    option = re.match(r"plumb: --([\w-]+) is '([^']*)': (.*)", text, re.S)
+    if option:
+        return _with_parts(InvalidValue(text), "options", option[1].replace("-", "_"), option[2], option[3])
+    found = re.match(r"plumb: (\w+) '([^']*)':? (.*)", text, re.S)
+    if not found:
+        return Error(text)
+    subject, value, problem = found.groups()
+    unknown = re.search(r"there is (none by this name|no such)|is unknown", problem)
+    kind = UnknownName if unknown else FileError if subject == "file" and "cannot be" in problem else Error
+    return _with_parts(kind(text), subject, "name", value, problem)
+
+
+def _answers(arguments):
+    """Returns the program's answers, one a line of JSON; there is at least one."""
+    text = _run(arguments)
+    if not text.strip():
+        raise Error(f"{program()} {arguments[0]} printed nothing: is it the program plumb, and of this version?")
+    try:
+        return [json.loads(line) for line in text.splitlines()]
+    except json.JSONDecodeError as error:
+        raise Error(f"{program()} {arguments[0]} did not print JSON, but {text[:60]!r}: is it the program plumb?") from error
+
+
+def _answer(arguments):
+    """Returns the program's one answer."""
+    text = _run(arguments)
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        printed = repr(text[:60]) if text.strip() else "nothing"
+        raise Error(f"{program()} {arguments[0]} printed {printed} in place of JSON: is it the program plumb?") from error
 
 
 def _run(arguments):
@@ -126,5 +176,5 @@ def _run(arguments):
     if run.returncode == 128 + signal.SIGINT:
         raise KeyboardInterrupt
     if run.returncode not in _ANSWERED:
-        raise Error(run.stderr.strip() or f"{name} ended with code {run.returncode}")
+        raise _refusal(run.stderr.strip() or f"{name} ended with code {run.returncode}")
     return run.stdout

@@ -6,14 +6,17 @@
 """
 
 import math
+import numbers
 
 import matplotlib.animation
+import matplotlib.axes
 import matplotlib.patches
 import matplotlib.pyplot
 import matplotlib.transforms
 import numpy as np
 
-from ._plumb import Box, Capsule, Circle, Polygon, Segment
+from ._errors import InvalidValue
+from ._plumb import Box, Capsule, Circle, Polygon, Segment, World
 
 COLOURS = {"static": "0.6", "kinematic": "tab:purple", "dynamic": "tab:blue"}
 # Points of a half circle: a capsule's ends differ from round ones by 1 - cos(pi/32), 0.5 % of the radius.
@@ -35,6 +38,11 @@ def animate(world, seconds=5.0, *, fps=30, dt=1 / 60, substeps=4, before_step=No
     seconds: how long; fps: frames a second; dt: step, s; before_step: called before each step, to apply forces.
     The world is stepped as the frames are made (by `save`, `to_jshtml` or a window), once.
     """
+    for field, value in (("seconds", seconds), ("fps", fps), ("dt", dt)):
+        if not isinstance(value, numbers.Real) or not 0 < value < math.inf:
+            _refuse(field, value, "must be a positive number")
+    if before_step is not None and not callable(before_step):
+        raise TypeError(f"before_step is {before_step!r}: must be a function or None")
     view = View(world, axes, bounds)
     begin = world.time
 
@@ -53,6 +61,11 @@ class View:
     """The shapes of a world as patches. Bodies that are created later are taken up by `update()`."""
 
     def __init__(self, world, axes=None, bounds=None):
+        if not isinstance(world, World):
+            raise TypeError(f"world is {world!r}: must be a plumb.World")
+        if axes is not None and not isinstance(axes, matplotlib.axes.Axes):
+            raise TypeError(f"axes is {axes!r}: must be axes of matplotlib or None")
+        bounds = _known_bounds(bounds)
         self.world = world
         self.axes = axes if axes is not None else matplotlib.pyplot.subplots()[1]
         self._patches = {}
@@ -73,6 +86,25 @@ class View:
             pose = matplotlib.transforms.Affine2D().rotate(body.angle).translate(*body.position)
             self._patches[shape].set_transform(pose + self.axes.transData)
         return list(self._patches.values())
+
+
+def _refuse(field, value, problem):
+    error = InvalidValue(f"view: {field} is {value!r}: {problem}")
+    error.subject, error.field, error.value, error.problem = "view", field, repr(value), problem
+    raise error
+
+
+def _known_bounds(bounds):
+    if bounds is None:
+        return None
+    problem = "must be (left, bottom, right, top), m, of an area that is not empty"
+    try:
+        left, bottom, right, top = (float(each) for each in bounds)
+    except (TypeError, ValueError):
+        _refuse("bounds", bounds, problem)
+    if not (-math.inf < left < right < math.inf and -math.inf < bottom < top < math.inf):
+        _refuse("bounds", bounds, problem)
+    return left, bottom, right, top
 
 
 def _around(world):

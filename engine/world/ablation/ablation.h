@@ -30,6 +30,7 @@ enum class Switch {
   JointGaps,
   CarriedImpulses,
   AngularLimits,
+  ContactGains,
   // contact_solver/, solvers/, integration/
   LoadEstimates,
   SubstepGrowth,

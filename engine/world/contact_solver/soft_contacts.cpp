@@ -385,6 +385,18 @@ void SoftContacts<Real>::finish() {
   });
 }
 
+template <class Real>
+void SoftContacts<Real>::regather() {
+  const auto regather_all = []<class Lane>(ContactBlock<Lane>* first, const ContactBlock<Lane>* last) {
+    for (; first != last; ++first) Loops<Lane, Real>::regather(*first);
+  };
+  with_blocks(width_, blocks16_, blocks32_, [&](auto& blocks) {
+    scheduler_->ranges(blocks.count, kBlocksPerTask, [&](int first, int last) {
+      regather_all(blocks.list.data() + first, blocks.list.data() + last);
+    });
+  });
+}
+
 template class SoftContacts<float>;
 template class SoftContacts<double>;
 

@@ -43,6 +43,9 @@ class SoftContacts {
   /// Writes the impulses back to the contacts.
   void finish();
 
+  /// Reads the impulses again, which may have changed since `finish`.
+  void regather();
+
  private:
   /// Numbers of lanes, in one or two registers: at least four, because records are moved by four numbers.
   template <int kBytes>

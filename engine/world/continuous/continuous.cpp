@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -87,6 +88,30 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
     update_earliest_impact(w, path, {moving, obstacle, nullptr, !pushes}, found);
     push_toi_event(w, with_other_version(w, found));
   }
+}
+
+// Stops a link of a mechanism alone if it begins the step where an obstacle in contact with it stopped it
+// before: the solver moves it there again and again. Stopped as a whole in each step, a heap of ragdolls
+// would hang in the air, and forces would still speed it up. The joints open by the link's way and close by
+// and by. Returns false if it has moved.
+template <class Real>
+bool stop_blocked_link(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
+  SweptBody& swept = w.scratch.continuous.swept_bodies[next.swept_body];
+  const int body = swept.body, obstacle = w.shapes[next.other].body;
+  if (swept.from > 0 || swept.stopped || w.bodies[body].first_joint == kNone ||
+      constraint_between(w, next.shape, next.other) == nullptr)
+    return false;
+  const double extent = static_cast<double>(w.extents[body]);
+  const double moved = length(swept.position_at(next.fraction) - swept.position_at(0)) +
+                       next.fraction * std::abs(swept.delta_angle) * extent;
+  if (moved > tuning::kImpactTolerance * extent) return false;
+  std::vector<int>& stopped = w.scratch.continuous.stopped;
+  stopped.assign(1, next.swept_body);
+  if (!w.is_dynamic(obstacle)) remove_remaining_work(w, stopped, next.fraction, search.dt);
+  swept.squeezed = swept.pushed_by != kNone;
+  swept.stop_at(next.fraction);
+  schedule_others_toi_events(w, next.swept_body, next.fraction, search);
+  return true;
 }
 
 // Stops a body and all bodies connected to it by joints, so that the joints stay closed. Bodies that must be
@@ -281,6 +306,7 @@ void process_toi_event(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& s
   }
   // The other body stops too, otherwise it would push this one further.
   if (over_limit) stop_island(w, other_index, w.shapes[next.shape].body, next.fraction, search);
+  if (stop_blocked_link(w, next, search)) return;
   stop_island(w, next.swept_body, other_body, next.fraction, search);
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/geometry/convex.h"
 #include "engine/world/state/contacts.h"
+#include "engine/world/state/lock.h"
 #include "engine/world/state/shape_boxes.h"
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/world_data.h"
@@ -244,6 +245,7 @@ void draw(const BasicWorld<Real>& world, DebugDraw& out, const DrawOptions& opti
 template <class Real>
 void draw(const BasicWorld<Real>& world, const PastPoses<Real>& before, double fraction, DebugDraw& out,
           const DrawOptions& options) {
+  const Lock<Real> lock(world.data());
   Drawing<Real>(world.data(), before, fraction, out, options).draw();
 }
 

@@ -6,6 +6,7 @@
 #include "engine/core/capacity.h"
 #include "engine/world/ablation/ablation.h"
 #include "engine/world/integration/free_motion.h"
+#include "engine/world/islands/contact_gains.h"
 #include "engine/world/islands/direct_islands.h"
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/islands/joint_gaps.h"
@@ -153,6 +154,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                          .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
   prepare_direct_islands(w, static_cast<Real>(h * substeps));
+  begin_contact_gains(w, static_cast<Real>(h * substeps));
   if (jointed) w.joint_set.prepare(bodies, joints, joints_in_islands(w), &w.scheduler);
   const bool iterated = jointed && any_joint_iterated(w);
   collect_restitution_contacts(w);
@@ -204,6 +206,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
     solve_direct_islands(w, contacts, false);
     soft_contacts.relax(bodies.motion, contacts);
     relax_jointed_islands(w, contacts, substep + 1 == substeps);
+    bound_contact_gains(w, contacts);
     add_island_loads(w, joints);
     restore_deferred(std::span<Bounce>(w.scratch.solver.restitution_contacts));
     contacts.warm_start = joints.warm_start = 1;

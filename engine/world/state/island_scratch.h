@@ -114,6 +114,14 @@ struct HingeTrees {
   bool empty() const { return hinge_count == 0; }
 };
 
+/// Energies of the contact impulses of an island in a substep, J (islands/contact_gains.h).
+struct ContactEnergy {
+  double work = 0;      ///< of the impulses on the velocities before them
+  double own = 0;       ///< twice the energy of the velocities that they cause
+  double allowed = 0;   ///< by which the island's energy may grow
+  double fraction = 1;  ///< of the impulses, that is kept
+};
+
 /// Islands, which are kept while no contact or joint changes, and data of their solution within a step.
 template <class Real>
 struct IslandScratch {
@@ -135,6 +143,11 @@ struct IslandScratch {
   std::vector<int> tree_root_of, link_index;    ///< by body, while trees are found and loaded
   std::vector<char> not_a_tree, tree_grounded;  ///< the same, by representative of a set
   std::vector<char> joints_in_islands;          ///< by the joint's slot: solved with its island
+  std::vector<double> contact_gains;            ///< by root: J, twice what a substep's contacts gave too much
+  std::vector<ContactEnergy> contact_energy;    ///< by root
+  std::vector<char> is_driven;                  ///< by root: gets energy from others than its contacts
+  bool driven_known = false;                    ///< `is_driven` is up to date
+  bool bounds_gains = false;                    ///< contact_gains.h: something moves in this step
 };
 
 }  // namespace plumb

@@ -11,8 +11,8 @@ void require_unlocked(const WorldData<Real>& w) {
               w.stepping
                   ? "cannot be changed from within its step; have the hook note what is to be done, and do "
                     "it after the step"
-                  : "cannot be changed while a force law, a query's visitor or a filter looks at it; note "
-                    "what is to be done, and do it afterwards");
+                  : "cannot be changed while a force law, a query's visitor, a filter, a combine rule or a "
+                    "drawing looks at it; note what is to be done, and do it afterwards");
 }
 
 template <class Real>

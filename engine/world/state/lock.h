@@ -5,8 +5,8 @@
 #include "engine/world/world_data.h"
 
 /// A world is locked while it calls the user's code (a pre-solve hook, a combine rule, a force law, a query's
-/// visitor or filter). Calls that would change it then throw Error (Unsupported) and change nothing. Reading
-/// is allowed.
+/// visitor or filter, a drawing). Calls that would change it then throw Error (Unsupported) and change
+/// nothing. Reading is allowed.
 namespace plumb {
 
 /// Throws if the world is locked.

@@ -78,6 +78,36 @@ def test_refusals_are_exceptions(monkeypatch, tmp_path):
         plumb.compare("bounce")
 
 
+def test_names_that_look_like_options_are_refused():
+    for call in (lambda: plumb.compare("--engine-command=x=y"), lambda: plumb.compare("bounce/e_0", "-x"), lambda: plumb.tune("-h"),
+                 lambda: plumb.hunt("--list"), lambda: plumb.compare("")):
+        with pytest.raises(plumb.InvalidValue, match="begins with no '-'"):
+            call()
+
+
+def test_refusals_of_the_program_have_their_class():
+    for call, value in ((lambda: plumb.compare("nosuch"), "nosuch"), (lambda: plumb.compare("bounce/e_0", engines="none"), "none"),
+                        (lambda: plumb.hunt("nosuch", scenes=1), "nosuch")):
+        with pytest.raises(plumb.UnknownName) as caught:
+            call()
+        assert caught.value.value == value
+    with pytest.raises(plumb.FileError, match="nosuch.json"):
+        plumb.compare("nosuch.json")
+    with pytest.raises(plumb.InvalidValue) as caught:
+        plumb.compare("bounce/e_0", dt=-1.0)
+    assert (caught.value.field, caught.value.value) == ("dt", "-1.0")
+
+
+@pytest.mark.parametrize("printed", ["", "hello"])
+def test_a_program_that_does_not_answer_is_an_error(monkeypatch, tmp_path, printed):
+    (tmp_path / "plumb").write_text(f"#!/bin/sh\nprintf '{printed}'\n")
+    (tmp_path / "plumb").chmod(stat.S_IRWXU)
+    monkeypatch.setenv("PLUMB_PROGRAM", str(tmp_path / "plumb"))
+    for call in (lambda: plumb.compare("bounce"), lambda: plumb.tune("bounce"), lambda: plumb.hunt(minutes=1)):
+        with pytest.raises(plumb.Error, match=printed or "nothing"):
+            call()
+
+
 def test_the_program_is_looked_for_in_the_package_and_on_the_path(monkeypatch, tmp_path):
     monkeypatch.delenv("PLUMB_PROGRAM")
     monkeypatch.setenv("PATH", str(tmp_path))

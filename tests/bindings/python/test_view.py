@@ -64,3 +64,22 @@ def test_turned_discs_show_how_far():
     patch, = view.update()
     first = (patch.get_transform() - view.axes.transData).transform(patch.get_path().vertices[:1])[0]
     assert tuple(first) == pytest.approx((0, 0.5), abs=1e-9)
+
+
+def test_what_cannot_be_drawn_is_refused_by_name():
+    world = plumb.World()
+    for wrong in (None, 5, "world"):
+        with pytest.raises(TypeError, match="must be a plumb.World"):
+            plumb.view.draw(wrong)
+    with pytest.raises(TypeError, match="axes"):
+        plumb.view.draw(world, axes=5)
+    with pytest.raises(TypeError, match="before_step"):
+        plumb.view.animate(world, before_step=5)
+    for bounds in (5, (0, 1, 2), (0, 0, 0, 1), (1, 0, 0, 1), (0, 0, math.nan, 1), ("a", 0, 1, 1)):
+        with pytest.raises(plumb.InvalidValue) as caught:
+            plumb.view.draw(world, bounds=bounds)
+        assert caught.value.field == "bounds"
+    for options in ({"seconds": math.nan}, {"seconds": 0}, {"fps": 0}, {"fps": "a"}, {"dt": -1}, {"dt": math.inf}):
+        with pytest.raises(plumb.InvalidValue) as caught:
+            plumb.view.animate(world, **options)
+        assert caught.value.field == next(iter(options))

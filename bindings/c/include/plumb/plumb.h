@@ -190,7 +190,7 @@ typedef struct plumb_geometry {
   double radius;            /* m, of a circle or capsule > 0, of a polygon's rounding >= 0 */
   double width, height;     /* m, of a box, > 0 */
   plumb_vec2 start, end;    /* m, of a capsule or segment */
-  const plumb_vec2* points; /* m, of a polygon: 3 to 64 in any order, their hull counts */
+  const plumb_vec2* points; /* m, of a polygon: 3 or more in any order; their hull, of at most 64 corners */
   size_t point_count;
 } plumb_geometry;
 
@@ -302,6 +302,8 @@ PLUMB_API plumb_geometry plumb_segment(plumb_vec2 start, plumb_vec2 end);
 typedef struct plumb_world plumb_world;
 
 PLUMB_API plumb_world* plumb_world_create(const plumb_world_definition* definition); /* NULL: the defaults */
+/* NULL: nothing. From a callback of the world, or of a call of it, it is refused like any change: it sets the
+ * error PLUMB_UNSUPPORTED and the world stays. */
 PLUMB_API void plumb_world_destroy(plumb_world* world);
 /* Advances by `dt` s in `substeps` substeps, 4 as a rule. */
 PLUMB_API plumb_status plumb_world_step(plumb_world* world, double dt, int substeps);
@@ -428,6 +430,7 @@ PLUMB_API plumb_status plumb_body_set_may_sleep(plumb_world* world, plumb_body b
 PLUMB_API bool plumb_body_may_sleep(const plumb_world* world, plumb_body body);
 PLUMB_API uint64_t plumb_body_user_data(const plumb_world* world, plumb_body body);
 PLUMB_API plumb_status plumb_body_set_user_data(plumb_world* world, plumb_body body, uint64_t data);
+/* NULL: no name. */
 PLUMB_API plumb_status plumb_body_set_name(plumb_world* world, plumb_body body, const char* name);
 /* Takes a body out of the simulation, or puts it back with its pose and velocity. */
 PLUMB_API plumb_status plumb_body_set_enabled(plumb_world* world, plumb_body body, bool enabled);
@@ -804,7 +807,8 @@ PLUMB_API plumb_mover_result plumb_move(const plumb_world* world, const plumb_ge
                                         plumb_vec2 position, plumb_vec2 velocity, double dt,
                                         const plumb_mover_options* options, plumb_mover_hit* hits,
                                         size_t capacity);
-/* Applies the impulses of hits to dynamic bodies. */
+/* Applies the impulses of hits to dynamic bodies; PLUMB_VALUE, and none is applied, if one is negative or not
+ * finite. */
 PLUMB_API plumb_status plumb_apply_pushes(plumb_world* world, const plumb_mover_hit* hits, size_t count);
 
 /* ---- Snapshots and recordings ------------------------------------------------------------------------ */
@@ -840,10 +844,11 @@ typedef struct plumb_replay_report {
   int calls;
   int64_t steps;
   int64_t first_difference; /* step after which the state differed; -1: none did */
-  uint64_t recorded_hash, hash;
-  size_t difference_count; /* bodies that differ then, if they were recorded */
-  const char* message;     /* a truncated end, a rejected call, a missing hook; else ""; until the next replay
-                              of the thread */
+  uint64_t recorded_hash;   /* `plumb_world_hash` after the last step that was compared, as recorded */
+  uint64_t hash;            /* the same, of the replay; they are equal unless there is a difference */
+  size_t difference_count;  /* bodies that differ then, if they were recorded */
+  const char* message; /* a truncated end, a rejected call, a missing hook; else ""; until the next replay
+                          of the thread */
 } plumb_replay_report;
 /* Replays a recording until a step differs, or to its end. */
 PLUMB_API plumb_status plumb_replay(const char* file, plumb_precision precision, plumb_replay_report* report);
@@ -907,7 +912,7 @@ typedef enum plumb_draw_role {
 } plumb_draw_role;
 
 /* Functions that draw: m, in the world's frame, y up. Those that are NULL are left out. They may read the
- * world and not change it; they must return, and not jump out. */
+ * world; calls that would change it fail with PLUMB_UNSUPPORTED. They must return, and not jump out. */
 typedef struct plumb_debug_draw {
   /* A convex polygon, counter-clockwise, rounded by `radius`. */
   void (*polygon)(const plumb_vec2* corners, size_t count, double radius, plumb_draw_role role,

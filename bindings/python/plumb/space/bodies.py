@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from plumb.space.values import InSpace, Vec2d
+from plumb.space.values import InSpace, Vec2d, number, refuse, vector
 
 
 class Body(InSpace):
@@ -16,12 +16,12 @@ class Body(InSpace):
         self._held = None
         self._idle = 0.0  # s, for which it was slow
         self._known_mass = None  # that the world's body has
-        self._type = body_type
+        self._type = self._known_type(body_type)
         self._mass, self._moment = float(mass), float(moment)
         self._cog = Vec2d(0, 0)
         self._position, self._angle = Vec2d(0, 0), 0.0
         self._velocity, self._spin = Vec2d(0, 0), 0.0
-        self.force, self._torque = Vec2d(0, 0), 0.0
+        self._force, self._torque = Vec2d(0, 0), 0.0
         self._shapes: dict = {}  # in the order in which they came
         self._constraints: dict = {}
 
@@ -29,6 +29,21 @@ class Body(InSpace):
         if self._type != Body.DYNAMIC:
             return f"Body(Body.{self._names[self._type]})"
         return f"Body({self._mass}, {self._moment}, Body.DYNAMIC)"
+
+    @classmethod
+    def _known_type(cls, body_type):
+        if not isinstance(body_type, int) or body_type not in cls._TYPES:
+            refuse("body", "body_type", body_type, "must be Body.DYNAMIC, Body.KINEMATIC or Body.STATIC")
+        return body_type
+
+    def _require_mass(self):
+        """Refuses a dynamic body that cannot move, before a step."""
+        mass, moment, _ = self._mass_now()
+        name = f"{self!r} at ({self.position.x:g}, {self.position.y:g})"
+        if not 0 < mass < math.inf:
+            refuse(name, "mass", mass, "Dynamic bodies must have a mass > 0, given or by their shapes.")
+        if not moment > 0:
+            refuse(name, "moment", moment, "Dynamic bodies must have a moment > 0, given or by their shapes.")
 
     # Mass: as given, or of the shapes that have one.
     def _weights(self):
@@ -141,12 +156,30 @@ class Body(InSpace):
             self._do(lambda: setattr(self._held, "angular_velocity", float(spin)))
 
     @property
+    def force(self):
+        return self._force
+
+    @force.setter
+    def force(self, force):
+        self._force = vector("body", "force", force)
+
+    @property
     def torque(self):
         return self._torque
 
     @torque.setter
     def torque(self, torque):
-        self._torque = float(torque)
+        self._torque = number("body", "torque", torque)
+
+    def _no_function(name):
+        def put(self, function):
+            raise NotImplementedError(f"{name} has no counterpart in plumb, which moves bodies by itself; set velocities and "
+                                      f"forces between steps")
+
+        return property(None, put)
+
+    velocity_func, position_func = _no_function("velocity_func"), _no_function("position_func")
+    del _no_function
 
     @property
     def rotation_vector(self):
@@ -164,6 +197,7 @@ class Body(InSpace):
 
     @body_type.setter
     def body_type(self, body_type):
+        self._known_type(body_type)
         for joint in self._constraints:
             other = joint._b if joint._a is self else joint._a
             assert Body.DYNAMIC in (body_type, other._type), "At least one body of a constraint must be dynamic."

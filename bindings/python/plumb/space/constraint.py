@@ -5,7 +5,7 @@ import math
 from plumb import _plumb
 from plumb.space.bodies import Body
 from plumb.space.drives import ERROR_BIAS, Carrier
-from plumb.space.values import InSpace, Vec2d
+from plumb.space.values import InSpace, Vec2d, number
 
 
 class Constraint(InSpace):
@@ -29,6 +29,7 @@ class Constraint(InSpace):
 
     def _limit(name):
         def put(self, value):
+            value = number(type(self).__name__, {"_bias": "error_bias"}.get(name, name[1:]), value, 0, unbounded=True)
             before = getattr(self, name)
             setattr(self, name, value)
             if value != before and self._space is not None:

@@ -12,7 +12,7 @@ from plumb.space.constraint import Constraint
 from plumb.space.constraints import RotaryLimitJoint
 from plumb.space.queries import Queries
 from plumb.space.shapes import Shape
-from plumb.space.values import BIG, Vec2d
+from plumb.space.values import BIG, Vec2d, number, refuse, vector
 
 PLUMBS_SLEEP_TIME = 0.5  # s, for which a body is slow before it sleeps
 
@@ -40,6 +40,9 @@ class Space(Collisions, Queries):
         self._start_collisions()
         self._static_body._enter(self)
 
+    def __reduce_ex__(self, protocol):
+        raise NotImplementedError("a Space cannot be copied or pickled in plumb")
+
     static_body = property(lambda self: self._static_body)
     bodies = property(lambda self: list(self._bodies))
     shapes = property(lambda self: list(self._shapes))
@@ -51,8 +54,7 @@ class Space(Collisions, Queries):
 
     @gravity.setter
     def gravity(self, gravity):
-        assert len(gravity) == 2
-        gravity = Vec2d(*gravity)
+        gravity = vector("space", "gravity", gravity)
         self._do(lambda: setattr(self._world, "gravity", gravity))
 
     @property
@@ -62,7 +64,7 @@ class Space(Collisions, Queries):
 
     @damping.setter
     def damping(self, damping):
-        self._damping = damping
+        self._damping = number("space", "damping", damping, 0, 1)
         self._do(self._pass_damping)
 
     def _pass_damping(self):
@@ -78,7 +80,7 @@ class Space(Collisions, Queries):
 
     @sleep_time_threshold.setter
     def sleep_time_threshold(self, seconds):
-        self._sleep_time = seconds
+        self._sleep_time = seconds = number("space", "sleep_time_threshold", seconds, 0, unbounded=True)
         self._do(lambda: self._world.set_sleeping(seconds < math.inf))
         for body in self._bodies:
             body._idle = 0.0
@@ -91,7 +93,7 @@ class Space(Collisions, Queries):
 
     @idle_speed_threshold.setter
     def idle_speed_threshold(self, speed):
-        self._idle_speed = speed
+        self._idle_speed = speed = number("space", "idle_speed_threshold", speed, 0)
         self._do(lambda: setattr(self._world, "thresholds", (0, -1, speed if speed > 0 else -1)))
 
     @property
@@ -101,7 +103,8 @@ class Space(Collisions, Queries):
 
     @iterations.setter
     def iterations(self, count):
-        assert count >= 1
+        if not isinstance(count, int) or not 1 <= count <= 2500:
+            refuse("space", "iterations", count, "must be a whole number from 1 to 2500, which are 1000 substeps")
         self._iterations = count
         self._substeps = max(1, math.ceil(count * 4 / 10))
 
@@ -239,9 +242,7 @@ class Space(Collisions, Queries):
         for body in self._bodies:
             if body._type != Body.DYNAMIC:
                 continue
-            mass, moment, _ = body._mass_now()
-            assert 0 < mass < math.inf, "Dynamic bodies must have a mass > 0, given or by their shapes."
-            assert moment > 0, "Dynamic bodies must have a moment > 0, given or by their shapes."
+            body._require_mass()
         self._call_constraints("pre_solve")
         for joint in self._constraints:
             joint._ready(dt)

@@ -3,16 +3,54 @@
 from __future__ import annotations
 
 import math
+import numbers
 import weakref
 from typing import Any, NamedTuple
 
+from plumb._errors import InvalidValue
+
 BIG = 1e9  # in any unit: as good as without a bound
+
+
+class Refused(InvalidValue, AssertionError):
+    """A value that cannot be; an AssertionError too, which is what pymunk raises."""
+
+
+def refuse(subject, field, value, problem):
+    error = Refused(f"{subject}: {field} is {value!r}: {problem}")
+    error.subject, error.field, error.value, error.problem = subject, field, repr(value), problem
+    raise error
+
+
+def number(subject, field, value, least=-math.inf, most=math.inf, unbounded=False):
+    """Returns a number from least to most as a float; infinite ones only if `unbounded`."""
+    if not isinstance(value, numbers.Real):
+        refuse(subject, field, value, "must be a number")
+    given = float(value)
+    if not least <= given <= most or (math.isinf(given) and not unbounded):
+        bound = "" if least == -math.inf else f" of at least {least:g}" if most == math.inf else f" from {least:g} to {most:g}"
+        refuse(subject, field, value, f"must be a {'' if unbounded else 'finite '}number{bound}")
+    return given
+
+
+def vector(subject, field, value):
+    """Returns two finite numbers."""
+    try:
+        x, y = value
+    except (TypeError, ValueError):
+        refuse(subject, field, value, "must be two numbers, (x, y)")
+    return Vec2d(number(subject, f"{field}'s x", x), number(subject, f"{field}'s y", y))
 
 
 class InSpace:
     """Belongs to a space without keeping it alive: a space is gone with the last one who uses it."""
 
     _ref = None
+
+    def __reduce_ex__(self, protocol):
+        if self._space is not None:
+            raise NotImplementedError(f"a {type(self).__name__} in a space cannot be copied or pickled in plumb")
+        return super().__reduce_ex__(protocol)
 
     @property
     def _space(self):
