@@ -276,43 +276,11 @@ Finding least_overlap(const Lab& lab) {
 }
 
 // Comes last in the chapter, so that a mistake in forces at points is named by the checks before.
-// Returns the angular momentum of two boxes at rest in the air after a damped spring between points off their
-// centres has pulled them, as a fraction of the sum of their spins'. It is 0: the spring's forces are
-// opposite and along one line.
-double spin_of_two_on_a_spring(const Lab& lab) {
-  Scene scene =
-      scene_of("two boxes on a spring", {},
-               {make(Crate{.name = "a", .mass = 2, .width = 1, .height = 0.6}),
-                make(Crate{.name = "b", .position = {2.5, 0.8}, .mass = 1, .width = 0.6, .height = 1.2})});
-  SpringForce spring;
-  spring.body_a = "a";
-  spring.body_b = "b";
-  spring.anchor_a = {0.2, 0.3};
-  spring.anchor_b = {-0.3, 0.5};
-  spring.stiffness = 8;
-  spring.damping = 0.5;
-  spring.rest_length = 1;
-  scene.forces.emplace_back(spring);
-  const Trace trace = lab.run(scene, 0.4);
-  double sum = 0, all = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Body& body = scene.bodies[i];
-    const Box& box = std::get<Box>(body.shapes.front().geometry);
-    const double spin =
-        body.mass * (box.width * box.width + box.height * box.height) / 12 * trace.last(i).angular_velocity;
-    sum += spin + body.mass * cross(trace.last(i).position, trace.last(i).velocity);
-    all += std::abs(spin);
-  }
-  return all > 0 ? sum / all : 0;
-}
-
 Finding corner_spring(const Lab& lab) {
   const Spin spring = by_a_spring(lab);
   return Judgement()
       .read("spin of a box that a damped spring pulls at a corner", "rad/s", spring.is, spring.due,
             0.12 * std::abs(spring.due + 3))
-      .read("angular momentum that a spring gives two boxes together", "of each one's",
-            spin_of_two_on_a_spring(lab), 0, 0.1)
       .finding();
 }
 
