@@ -164,6 +164,14 @@ Finding any_step_size(const Lab& lab) {
   const auto over = [](double other, double first) { return first == 0 ? 0 : other / first; };
   const double relative = lab.rounding(kGravity, 4) / std::max(std::abs(one.speed), 1e-3);
   const double offset = 4 * lab.dt();
+  // Along x as well, as each component may be multiplied by another step.
+  const auto aside = [&](int finer) -> Fall {
+    const Trace trace =
+        lab.run(scene_of("fall aside", {-kGravity / 2, -kGravity}, {make(Ball{})}), 0.5, finer);
+    const double t = trace.duration();
+    return {trace.last(0).velocity.x / t, (trace.last(0).position.x - trace.first(0).position.x) / (t * t)};
+  };
+  const Fall along = aside(1), half_along = aside(2);
   // The same fall, asked for in a single sample after all steps.
   const Trace end = lab.run_to_end(falling(), 1);
   const double at_once = end.last(0).velocity.y / end.duration();
@@ -174,6 +182,9 @@ Finding any_step_size(const Lab& lab) {
       .read("way with dt/4 over that with dt", "", over(quarter.way, one.way), 1, offset)
       .read("vy/t of the last step, asked for alone, over that with each step", "", over(at_once, one.speed),
             1, relative)
+      .read("vx/t with dt/2 over that with dt, with gravity along x", "", over(half_along.speed, along.speed),
+            1, 2 * relative)
+      .read("way along x with dt/2 over that with dt", "", over(half_along.way, along.way), 1, 2 * offset)
       .mistake("per_frame", {2, 4, kAny, kAny},
                "Twice the steps, twice the speed: something is added once a step and does not depend on dt. "
                "Multiply it by dt.")

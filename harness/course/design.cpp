@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
+#include <string>
 
 #include "harness/course/scenes.h"
 
@@ -55,16 +57,12 @@ std::vector<Manner> variants(int chapter) {
 // The chapters in which forces act and boxes turn.
 constexpr int kForces = 2, kBoxes = 4;
 
-}  // namespace
+// Overlap of two bodies at the start, radius of the balls, m, and the number of steps.
+constexpr double kDeep = 0.1, kRadius = 0.4;
+constexpr int kSteps = 6;
 
-std::optional<Push> measured_push(const Lab& lab) try {
-  constexpr double kDeep = 0.1, kRadius = 0.4;  // m
-  constexpr int kSteps = 6;
-  const Body floor =
-      fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
-  const Body ball = make(Ball{.position = {0, kRadius - kDeep}, .radius = kRadius, .restitution = 0});
-  const Trace trace = lab.run(scene_of("overlap", {}, {ball, floor}), (kSteps + 0.5) * lab.dt());
-  const auto deep = [&](std::size_t k) { return kRadius - trace.states[k][0].position.y; };
+// Returns what a step removes of an overlap, given the overlap after each step.
+std::optional<Push> push_of(const Trace& trace, const std::function<double(std::size_t)>& deep) {
   const double first = deep(0) - deep(1), second = deep(1) - deep(2);
   if (!(first > 0) || second < 0) return std::nullopt;
   const Push out{.share = 1 - second / first, .slop = deep(0) - first / (1 - second / first)};
@@ -75,25 +73,66 @@ std::optional<Push> measured_push(const Lab& lab) try {
     if (std::abs(deep(k) - left) > 1e-9) return std::nullopt;
   }
   return out;
+}
+
+}  // namespace
+
+std::optional<Push> measured_push(const Lab& lab) try {
+  const Body floor =
+      fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
+  const Body ball = make(Ball{.position = {0, kRadius - kDeep}, .radius = kRadius, .restitution = 0});
+  const Trace trace = lab.run(scene_of("overlap", {}, {ball, floor}), (kSteps + 0.5) * lab.dt());
+  return push_of(trace, [&](std::size_t k) { return kRadius - trace.states[k][0].position.y; });
 } catch (const std::exception&) {
   return std::nullopt;
 }
 
-std::optional<double> measured_joint_error(const Lab& lab) try {
-  constexpr double kLength = 1, kTooLong = 0.05;  // m
-  Scene scene =
-      scene_of("stick too long", {}, {make(Ball{.position = {kLength + kTooLong, 0}, .radius = 0.1})});
-  DistanceJoint stick;
-  stick.name = "stick";
-  stick.body_a = kWorld;
-  stick.body_b = scene.bodies[0].name;
-  stick.length = kLength;
-  scene.joints.emplace_back(stick);
-  const Trace trace = lab.run(scene, 2.5 * lab.dt());
-  const auto error = [&](std::size_t k) { return trace.states[k][0].position.x - kLength; };
+std::optional<Push> measured_push_of_two(const Lab& lab) try {
+  const auto ball = [](const char* name, double x) {
+    return make(Ball{.name = name, .position = {x, 0}, .radius = kRadius, .restitution = 0});
+  };
+  const Trace trace = lab.run(scene_of("overlap of two", {}, {ball("a", 0), ball("b", 2 * kRadius - kDeep)}),
+                              (kSteps + 0.5) * lab.dt());
+  return push_of(trace, [&](std::size_t k) {
+    return 2 * kRadius - (trace.states[k][1].position.x - trace.states[k][0].position.x);
+  });
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+// The error of a stick at rest, m, and with the other sign: an engine may correct one of the two only.
+constexpr double kTooLong = 0.05;
+
+// Balls at rest in a row, each on a stick of 1 m to the one before. The first stick hangs on the world or, if
+// `free`, on a ball.
+Scene row_on_sticks(std::size_t sticks, double too_long, bool free) {
+  Scene scene = scene_of("row on sticks", {}, {});
+  if (free) scene.bodies.push_back(make(Ball{.name = "ball", .radius = 0.1}));
+  std::string before = free ? "ball" : std::string(kWorld);
+  for (std::size_t i = 1; i <= sticks; ++i) {
+    const std::string name = "ball " + std::to_string(i);
+    scene.bodies.push_back(
+        make(Ball{.name = name, .position = {static_cast<double>(i) * (1 + too_long), 0}, .radius = 0.1}));
+    DistanceJoint stick;
+    stick.name = "stick of " + name;
+    stick.body_a = before;
+    stick.body_b = name;
+    stick.length = 1;
+    scene.joints.emplace_back(stick);
+    before = name;
+  }
+  return scene;
+}
+
+std::optional<double> measured_joint_error(const Lab& lab, double too_long, bool free) try {
+  const Trace trace = lab.run(row_on_sticks(1, too_long, free), 2.5 * lab.dt());
+  const auto error = [&](std::size_t k) {
+    const std::vector<BodyState>& states = trace.states[k];
+    return states.back().position.x - (free ? states.front().position.x : 0) - 1;
+  };
   const double left = error(1) / error(0);
   constexpr double kMost = 1e3;  // with the wrong sign a correction makes the error grow
-  if (trace.states[1][0].velocity != Vec2d{} || !(left >= 0 && left < kMost)) return std::nullopt;
+  if (trace.states[1].back().velocity != Vec2d{} || !(left >= 0 && left < kMost)) return std::nullopt;
   if (std::abs(error(2) - left * error(1)) > 1e-9 * std::max(1.0, left * left)) return std::nullopt;
   return left;
 } catch (const std::exception&) {
@@ -108,30 +147,18 @@ bool turns_bodies(const Lab& lab) try {
   return false;
 }
 
-std::optional<int> measured_corrections(const Lab& lab, Manner like, double left) try {
-  constexpr double kLength = 1, kTooLong = 0.05;  // m
+std::optional<int> measured_corrections(const Lab& lab, Manner like, double left, double too_long,
+                                        bool free) try {
   constexpr int kMost = 30;
-  Scene scene = scene_of("two sticks too long", {},
-                         {make(Ball{.name = "a", .position = {kLength + kTooLong, 0}, .radius = 0.1}),
-                          make(Ball{.name = "b", .position = {2 * (kLength + kTooLong), 0}, .radius = 0.1})});
-  const auto join = [&](const std::string& a, const std::string& b) {
-    DistanceJoint stick;
-    stick.name = "stick of " + b;
-    stick.body_a = a;
-    stick.body_b = b;
-    stick.length = kLength;
-    scene.joints.emplace_back(stick);
-  };
-  join(std::string(kWorld), "a");
-  join("a", "b");
+  const Scene scene = row_on_sticks(2, too_long, free);
   const auto places = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
   const std::vector<BodyState> due = places(lab);
   for (like.corrections = 1; like.corrections <= kMost; ++like.corrections) {
     like.joint_share = std::abs(1 - std::pow(left, 1.0 / like.corrections));
     const auto student = make_student("", lab.scheme(), like);
     const std::vector<BodyState> is = places(Lab(*student, lab.plain_settings()));
-    const double off =
-        std::abs(is[0].position.x - due[0].position.x) + std::abs(is[1].position.x - due[1].position.x);
+    double off = 0;
+    for (std::size_t i = 0; i < is.size(); ++i) off += std::abs(is[i].position.x - due[i].position.x);
     if (off < 1e-9) return like.corrections;
   }
   return std::nullopt;
@@ -145,20 +172,31 @@ std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
   constexpr int kMost = 60;
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
-  const auto ball = [](const char* name, double y, double mass) {
-    return make(Ball{.name = name, .position = {0, y}, .mass = mass, .radius = kRadius, .restitution = 0});
+  const auto ball = [](const char* name, double y, double mass, double vy = 0) {
+    return make(Ball{.name = name,
+                     .position = {0, y},
+                     .velocity = {0, vy},
+                     .mass = mass,
+                     .radius = kRadius,
+                     .restitution = 0});
   };
-  const Scene scene =
+  // The second scene has no static body, for engines that treat those wrongly.
+  const Scene scenes[] = {
       scene_of("heavy on light", {0, -kGravity},
-               {ball("light", kRadius - kDeep, 1), ball("heavy", 3 * kRadius - 2 * kDeep, 50), floor});
-  const auto speeds = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
-  const std::vector<BodyState> due = speeds(lab);
-  for (like.sweeps = 1; like.sweeps <= kMost; ++like.sweeps) {
-    const auto student = make_student("", lab.scheme(), like);
-    const std::vector<BodyState> is = speeds(Lab(*student, lab.plain_settings()));
-    const double off =
-        std::abs(is[0].velocity.y - due[0].velocity.y) + std::abs(is[1].velocity.y - due[1].velocity.y);
-    if (off < 1e-9) return like.sweeps;
+               {ball("light", kRadius - kDeep, 1), ball("heavy", 3 * kRadius - 2 * kDeep, 50), floor}),
+      scene_of("light between heavy", {},
+               {ball("light", 0, 1), ball("upper", 2 * kRadius - kDeep, 50, -1),
+                ball("lower", -2 * kRadius + kDeep, 40, 1)})};
+  for (const Scene& scene : scenes) {
+    const auto speeds = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
+    const std::vector<BodyState> due = speeds(lab);
+    for (like.sweeps = 1; like.sweeps <= kMost; ++like.sweeps) {
+      const auto student = make_student("", lab.scheme(), like);
+      const std::vector<BodyState> is = speeds(Lab(*student, lab.plain_settings()));
+      double off = 0;
+      for (std::size_t i = 0; i < 2; ++i) off += std::abs(is[i].velocity.y - due[i].velocity.y);
+      if (off < 1e-9) return like.sweeps;
+    }
   }
   return std::nullopt;
 } catch (const std::exception&) {
@@ -167,11 +205,20 @@ std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
 
 std::vector<Manner> manners_of(int chapter, const Lab& lab) {
   std::vector<Manner> out = variants(chapter);
-  if (const auto push = measured_push(lab))
-    for (Manner& manner : out) {
-      if (manner.share == Manner{}.share) manner.share = push->share;
-      manner.slop = std::max(0.0, push->slop);
+  const auto push = measured_push(lab), of_two = measured_push_of_two(lab);
+  const auto with = [](std::vector<Manner> manners, const Push& by) {
+    for (Manner& manner : manners) {
+      if (manner.share == Manner{}.share) manner.share = by.share;
+      manner.slop = std::max(0.0, by.slop);
     }
+    return manners;
+  };
+  const std::vector<Manner> unmeasured = out;
+  if (push) out = with(unmeasured, *push);
+  // If overlaps of a static body are corrected by another share than those of two that move, one of the two
+  // is a mistake.
+  if (push && of_two && std::abs(push->share - of_two->share) > 1e-6)
+    for (const Manner& manner : with(unmeasured, *of_two)) out.push_back(manner);
   if (chapter < kBoxes && !turns_bodies(lab))
     for (Manner& manner : out) manner.turns = false;
   if (chapter != kForces)
@@ -179,13 +226,23 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
       for (Manner& manner : out)
         if (manner.sweeps == Manner{}.sweeps) manner.sweeps = *sweeps;
   if (chapter <= kBoxes) return out;
-  if (const auto left = measured_joint_error(lab)) {
-    const auto corrections = measured_corrections(lab, out.front(), *left);
+  // A mistake may spoil the correction of errors of one sign, or of joints of the world.
+  double too_long = kTooLong;
+  if (measured_joint_error(lab, too_long, false) == 1.0) too_long = -kTooLong;
+  std::optional<double> left;
+  std::optional<int> corrections;
+  for (const bool free : {false, true}) {
+    if (corrections) break;
+    const auto by_these = measured_joint_error(lab, too_long, free);
+    if (!by_these) continue;
+    corrections = measured_corrections(lab, out.front(), *by_these, too_long, free);
+    if (!left || corrections) left = by_these;
+  }
+  if (left)
     for (Manner& manner : out) {
       manner.corrections = corrections.value_or(std::max(1, manner.sweeps / 4));
       manner.joint_share = std::abs(1 - std::pow(*left, 1.0 / manner.corrections));
     }
-  }
   return out;
 }
 

@@ -19,20 +19,25 @@ struct Push {
 /// way.
 std::optional<Push> measured_push(const Lab& lab);
 
+/// Measures these on two balls of equal mass that overlap at rest, for engines that treat static bodies
+/// wrongly.
+std::optional<Push> measured_push_of_two(const Lab& lab);
+
 /// Returns the fraction of a joint's error that remains after a step, measured on a ball at rest on a stick
-/// that is too long; above 1 if corrections have the wrong sign. nullopt if the engine closes joints in
-/// another way.
-std::optional<double> measured_joint_error(const Lab& lab);
+/// that is too long by `too_long`, m, or too short if it is negative, and hangs on the world or, if
+/// `free`, on a ball; above 1 if corrections have the wrong
+/// sign. nullopt if the engine closes joints in another way.
+std::optional<double> measured_joint_error(const Lab& lab, double too_long, bool free);
 
 /// Returns false if the engine refuses a ball that rotates, or does not rotate it. Its contacts then cause no
 /// rotation, even along a wrong normal.
 bool turns_bodies(const Lab& lab);
 
 /// Returns the number of position iterations per step over the joints, measured on two balls at rest on
-/// sticks that are too long. Each iteration leaves the same fraction of an error; a whole step leaves the
-/// fraction `left` of a single joint's error. nullopt if no number up to 30 gives the engine's positions.
-/// `like` has the other properties.
-std::optional<int> measured_corrections(const Lab& lab, Manner like, double left);
+/// sticks that are too long by `too_long`. Each iteration leaves the same fraction of an error; a whole step
+/// leaves the fraction `left` of a single joint's error. nullopt if no number up to 30 gives the engine's
+/// positions. `like` has the other properties.
+std::optional<int> measured_corrections(const Lab& lab, Manner like, double left, double too_long, bool free);
 
 /// Returns the number of iterations per step over the contacts, measured on a heavy ball on a light one,
 /// which needs many iterations. nullopt if no number up to 60 gives the engine's velocities. `like` has the

@@ -69,10 +69,10 @@ Experiment slow_meeting() {
 }
 
 // Two balls of unequal mass on a damped spring that fall together: the sum of their velocities is not 0.
-Experiment falling_spring() {
+Experiment falling_spring(Vec2d a, Vec2d b) {
   Scene scene = scene_of("falling spring", {0.5, -7},
-                         {make(Ball{.name = "a", .position = {-1, 2}, .mass = 1, .radius = 0.2}),
-                          make(Ball{.name = "b", .position = {0.6, 2.9}, .mass = 3, .radius = 0.2})});
+                         {make(Ball{.name = "a", .position = a, .mass = 1, .radius = 0.2}),
+                          make(Ball{.name = "b", .position = b, .mass = 3, .radius = 0.2})});
   SpringForce spring;
   spring.body_a = "a";
   spring.body_b = "b";
@@ -80,6 +80,17 @@ Experiment falling_spring() {
   spring.damping = 0.8;
   spring.rest_length = 1.3;
   scene.forces.emplace_back(spring);
+  return {std::move(scene), 1};
+}
+
+// A ball in the air with drag, whose velocities along x and y change their signs.
+Experiment ball_with_drag() {
+  Scene scene = scene_of("ball with drag", {6, -7},
+                         {make(Ball{.position = {1, 2}, .velocity = {-1.5, 2}, .mass = 2, .radius = 0.3})});
+  LinearDrag drag;
+  drag.body = scene.bodies[0].name;
+  drag.coefficient = 1.5;
+  scene.forces.emplace_back(drag);
   return {std::move(scene), 1};
 }
 
@@ -109,6 +120,14 @@ Experiment soft_landing() {
                    {make(Ball{.position = {0, 0.401}, .velocity = {0, -0.1}, .restitution = 0.9}),
                     ground(0.5, 0)}),
           0.5};
+}
+
+// A ball that lands on a floor which comes first in the scene, and stays.
+Experiment landing_ball() {
+  return {scene_of("landing ball", {0, -kGravity},
+                   {ground(0.2, 0),
+                    make(Ball{.position = {0.3, 0.5}, .velocity = {0.5, -1}, .restitution = 0.3})}),
+          1};
 }
 
 // A ball that overlaps the floor at the start and leaves it: no impulse has acted that a sum could hold.
@@ -254,8 +273,10 @@ Experiment two_rods(bool hangs) {
 }  // namespace
 
 std::vector<Experiment> experiments(int chapter) {
-  if (chapter == kForces) return {free_ball(), falling_spring()};
-  if (chapter < kCollisions) return {free_ball(), soft_landing(), leaving_ball()};
+  if (chapter == kForces)
+    return {free_ball(), falling_spring({-1, 2}, {0.6, 2.9}), falling_spring({1, 2.9}, {-0.6, 2}),
+            ball_with_drag()};
+  if (chapter < kCollisions) return {free_ball(), soft_landing(), leaving_ball(), landing_ball()};
   if (chapter == kCollisions) return {free_ball(), three_discs(0), slow_meeting()};
   if (chapter == kBoxes)
     return {pushed_box(),        twisted_box(),       three_discs(0), three_discs(0.8),      spinning_disc(),

@@ -190,6 +190,17 @@ Finding hinged_rod(const Lab& lab) {
       .finding();
 }
 
+namespace {
+
+// Result of closing a gap at a hinge.
+struct Closing {
+  double gap = 0;   ///< m
+  double turn = 0;  ///< sum of m r x dr + I da, as a fraction of the sum of |I da|
+  Vec2d shift;      ///< m, of the common centre
+};
+
+}  // namespace
+
 Finding hinge_turns_both(const Lab& lab) {
   const double w = 3, half_a = 0.5, half_b = 0.4, h = 0.1;
   const Vec2d arm{0, half_b};
@@ -242,12 +253,46 @@ Finding hinge_turns_both(const Lab& lab) {
   };
   const double off_spin = tolerance(l / l0, kept);
   const double still = 1e-3, moves = three_rods_move(lab, 1);
+  // The same rods at rest, with a gap at the hinge: closing it pushes them together along one line, so that
+  // their common centre stays and their sum of m r x dr + I da is 0.
+  const double parted = 0.02;
+  const auto close = [&]() -> Closing {
+    Scene open = scene;
+    for (Body& body : open.bodies) body.velocity = {}, body.angular_velocity = 0;
+    open.bodies[1].position += parted * Vec2d{0.8, -0.6};
+    const Trace t = lab.run(open, 1);
+    Closing out;
+    double all = 0, mass = 0;
+    for (const Body& body : open.bodies) mass += body.mass;
+    for (std::size_t i = 0; i < open.bodies.size(); ++i) {
+      const double m = open.bodies[i].mass, l_of = i == 0 ? 2 * half_a : 2 * half_b;
+      out.shift += m / mass * (t.last(i).position - t.first(i).position);
+      // The first step only: what an engine of positions keeps as velocities turns the rods on after it, and
+      // its losses then add up.
+      const BodyState &before = t.states[0][i], &after = t.states[1][i];
+      const double turn = m * (l_of * l_of + h * h) / 12 * (after.angle - before.angle);
+      out.turn +=
+          turn + m * cross(0.5 * (before.position + after.position), after.position - before.position);
+      all += std::abs(turn);
+    }
+    out.turn = all > 0 ? out.turn / all : 0;
+    const auto end = [&](std::size_t i, double at) {
+      const BodyState& s = t.last(i);
+      return s.position + at * Vec2d{std::cos(s.angle), std::sin(s.angle)};
+    };
+    out.gap = length(end(1, -half_b) - end(0, half_a));
+    return out;
+  };
+  const Closing closed = lab.corrects_positions() ? close() : Closing{};
   return Judgement()
       .read("momentum lost", "of all", moved, 0, 1e-6)
       .read("angular momentum kept", "of all", l / l0, 1, off_spin)
       .read("energy kept", "of all", energy / e0, 1, tolerance(energy / e0, kept * kept - 0.05))
       .read("widest gap at the hinge", "m", gap, 0, 0.02 * lab.coarseness())
       .read("motion of three rods at rest that overlap at their hinges", "m", moves, 0, still)
+      .read("gap left of 2 cm at the hinge of two rods at rest", "m", closed.gap, 0, parted / 4)
+      .read("shift of their common centre", "m", length(closed.shift), 0, 0.05 * parted)
+      .read("turn that closing it gives to both together", "of each one's", closed.turn, 0, 0.1)
       .proven_if(
           moves > still && three_rods_move(lab, 0.8) <= still, "joined_bodies_collide",
           "Three rods at rest on two hinges drive each other away where they overlap, and do not where "
@@ -264,7 +309,7 @@ Finding hinge_turns_both(const Lab& lab) {
       .symptom_if(
           std::abs(l / l0 - 1) > off_spin,
           "The hinge changes the total angular momentum: an impulse at an anchor changes each body's spin "
-          "by r x j/I, with its own r, turned by the body's angle.")
+          "by r x j/I, and a correction its angle by r x push/I, with its own r, turned by the body's angle.")
       .finding();
 }
 

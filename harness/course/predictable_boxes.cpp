@@ -42,6 +42,9 @@ constexpr const char* kExtent =
     "A box's extent along an axis is wrong: it is half of the width times |x . axis| plus half of the height "
     "times "
     "|y . axis|, with x and y the directions of its sides.";
+constexpr const char* kExtentNotTurned =
+    "A box's extent along an axis is that of an upright box: it is half of the width times |x . axis| plus "
+    "half of the height times |y . axis|, with x and y the directions of its sides, which turn with it.";
 constexpr const char* kNotOpposite =
     "The two impulses are not opposite: compute j once, from the velocities before either changes, and apply "
     "it to both.";
@@ -290,6 +293,9 @@ std::vector<Predictable> mistakes_of_boxes() {
       {"axes_of_the_second_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_width_only", "axes_left_out", "4", kAxesLeftOut},
       {"axes_of_the_height_only", "axes_left_out", "4", kAxesLeftOut},
+      {"axes_not_turned_by_sides", "axes_not_turned", "4",
+       "The axes along which two boxes are compared do not turn with them: turn (1, 0) and (0, 1) by each "
+       "angle."},
       {"axes_not_turned", "axes_not_turned", "4",
        "The axes along which two boxes are compared do not turn with them: turn (1, 0) and (0, 1) by each "
        "angle."},
@@ -297,10 +303,23 @@ std::vector<Predictable> mistakes_of_boxes() {
        "The normal of two boxes may point from b to a: reverse the axis if the way from a to b is against "
        "it."},
       {"extent_sign_lost", "extent_wrong", "4", kExtent},
+      {"extent_sign_lost_in_overlap", "extent_wrong", "4", kExtent},
       {"extent_of_the_sum", "extent_wrong", "4", kExtent},
+      {"extent_of_the_sum_in_overlap", "extent_wrong", "4", kExtent},
+      {"extent_of_the_difference", "extent_wrong", "4", kExtent},
+      {"extent_of_the_difference_in_overlap", "extent_wrong", "4", kExtent},
       {"extent_sides_swapped", "extent_wrong", "4", kExtent},
+      {"extent_sides_swapped_in_overlap", "extent_wrong", "4", kExtent},
       {"extent_of_width_only", "extent_wrong", "4", kExtent},
+      {"extent_of_width_only_in_overlap", "extent_wrong", "4", kExtent},
+      {"extent_of_height_only", "extent_wrong", "4", kExtent},
+      {"extent_of_height_only_in_overlap", "extent_wrong", "4", kExtent},
       {"extent_not_halved", "extent_wrong", "4", kExtent},
+      {"extent_not_halved_in_overlap", "extent_wrong", "4", kExtent},
+      {"extent_of_a_circle", "extent_wrong", "4", kExtent},
+      {"extent_of_a_circle_in_overlap", "extent_wrong", "4", kExtent},
+      {"a box's extent~not", "extent_not_turned", "4", kExtentNotTurned},
+      {"a box's extent in the overlap~not", "extent_not_turned", "4", kExtentNotTurned},
       {"face_of_the_other", "face_of_the_other", "4",
        "The side that touches is clipped against the wrong box: the face belongs to the box whose axis has "
        "the "

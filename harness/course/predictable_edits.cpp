@@ -67,6 +67,7 @@ std::vector<Kind> kinds() {
         {Instead::Zero, kZero},
         {Instead::One, "is 1"},
         {Instead::Inverse, "is the mass"},
+        {Instead::Finite, "is 1, if that is static, as if it had 1 kg"},
         {Instead::Raw, "is the inverse inertia"}}},
       {Quantity::InverseInertia,
        "wrong_inertia",
@@ -77,6 +78,7 @@ std::vector<Kind> kinds() {
         {Instead::Zero, kZero},
         {Instead::One, "is 1"},
         {Instead::Inverse, "is the inertia"},
+        {Instead::Finite, "is 1, if that cannot turn"},
         {Instead::Raw, "is the inverse mass"}}},
       {Quantity::Velocity,
        "wrong_velocity",
@@ -128,6 +130,7 @@ const char* name_of(const Rows& rows, const Places& places, const Kind& kind, In
       if (instead == Instead::Raw && joints) return "anchor_not_turned";
       return kind.name;
     case Quantity::InverseMass:
+      if (instead == Instead::Finite) return "static_has_mass";
       if (!in_change) return "masses_wrong";
       if (instead == Instead::Zero && !both) return "one_body_only";
       if (instead == Instead::Others && both && places.places == kInChange) return "masses_swapped";
@@ -135,6 +138,7 @@ const char* name_of(const Rows& rows, const Places& places, const Kind& kind, In
         return places.places == kInChange ? "inverse_mass_forgotten" : "masses_ignored";
       return kind.name;
     case Quantity::InverseInertia:
+      if (instead == Instead::Finite) return "static_has_mass";
       if (instead == Instead::Zero && !in_change) return "effective_mass_without_rotation";
       if (instead == Instead::Zero && !both) return "one_body_never_spins";
       if (instead == Instead::Zero) return places.places == kInChange ? "spin_not_changed" : "no_rotation";

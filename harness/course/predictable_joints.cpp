@@ -20,6 +20,8 @@ constexpr const char* kJoinedCollide =
     "Some bodies that a joint connects collide: keep the pairs of all joints, in either order.";
 constexpr const char* kJointsLeftOut =
     "Not all joints act: go over all of them, the first and the last included.";
+constexpr const char* kHingeCorrection =
+    "A gap of a hinge is closed along one axis only: correct its x and its y.";
 constexpr const char* kOneEnd =
     "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
 
@@ -152,6 +154,21 @@ std::vector<Predictable> mistakes_of_joints() {
        "The stick's impulse only pulls, and lets its ends come together: it has both signs."},
       {"stick_impulse_only_pushes", "stick_only_pushes", "5",
        "The stick's impulse only pushes, and lets its ends part: it has both signs."},
+      {"stick_correction_only_pulls", "correction_one_sided", "5",
+       "A stick's positions are corrected only if it is too long: its error, length minus \"length\", has "
+       "both "
+       "signs, and a stick that is too short is lengthened."},
+      {"stick_correction_only_pushes", "correction_one_sided", "5",
+       "A stick's positions are corrected only if it is too short: its error, length minus \"length\", has "
+       "both signs, and a stick that is too long is shortened."},
+      {"stick_correction_sign_lost", "correction_sign_lost", "5",
+       "A stick that is too short is shortened further: its error, length minus \"length\", keeps its sign."},
+      {"hinge_correction_along_x_only", "hinge_one_axis", "5", kHingeCorrection},
+      {"hinge_correction_along_y_only", "hinge_one_axis", "5", kHingeCorrection},
+      {"hinges_corrected_only", "correction_of_some_joints", "5",
+       "The positions of hinges are corrected and those of sticks are not: correct all joints."},
+      {"sticks_corrected_only", "correction_of_some_joints", "5",
+       "The positions of sticks are corrected and those of hinges are not: correct all joints."},
       {"correction_of_the_first_end_only", "correction_of_one_end", "5", kOneEnd},
       {"correction_of_the_second_end_only", "correction_of_one_end", "5", kOneEnd},
       {"correction_turns_backwards", "correction_turns_backwards", "5",

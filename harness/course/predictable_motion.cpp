@@ -18,6 +18,9 @@ constexpr const char* kClampExchanged =
     "The nearest point of a box is always the same corner: min and max are exchanged where the centre's x "
     "and y are "
     "limited to the box, min(max(x, low), high).";
+constexpr const char* kSomeNotCleared =
+    "The forces on some bodies pile up from step to step: set the sum of every body to zero at the start of "
+    "each step.";
 constexpr const char* kWallMissing =
     "The ball leaves through one wall, which never acts on it: every static box is a wall.";
 constexpr const char* kSpringAtOneEnd =
@@ -297,6 +300,8 @@ std::vector<Predictable> mistakes_of_motion() {
       {"drag_along_x_only", "drag_along_one_axis", "2", "Drag acts along x alone: it is -c v, a vector."},
       {"force_once", "force_once", "2",
        "The force acts for one step only: it lasts until its duration is over."},
+      {"force_of_the_first_not_cleared", "force_not_cleared", "2", kSomeNotCleared},
+      {"force_of_others_not_cleared", "force_not_cleared", "2", kSomeNotCleared},
       {"force_not_cleared", "force_not_cleared", "2",
        "The force piles up from step to step: set the sum of forces to zero at the start of each step."},
       {"mass in F/m#the first", "mass_of_another", "2", kMassOfAnother},

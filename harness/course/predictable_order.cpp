@@ -13,8 +13,9 @@ constexpr const char* kStaticEndsTheLoop =
     "on "
     "with the next one (continue, not break or return).";
 constexpr const char* kForcesAfterSolving =
-    "Forces act after contacts and joints are solved, so that each step moves with a g dt that nothing has "
-    "stopped: first the forces change the velocities, then contacts and joints do, then bodies move.";
+    "Each step moves bodies with a g dt that nothing has stopped: forces act after contacts and joints are "
+    "solved, or bodies move before that. First the forces change the velocities, then contacts and joints "
+    "do, then bodies move.";
 constexpr const char* kOnePartner =
     "A body that touches two others is answered by the first of them only: go over all pairs, and do not end "
     "the loop at the first contact.";
@@ -30,6 +31,14 @@ constexpr const char* kBounds =
     "around it has half of its diagonal as radius.";
 constexpr const char* kWholeSum =
     "The sum of the impulses is applied in each sweep: apply what the sum has changed by.";
+constexpr const char* kSpringTurnsOne =
+    "A spring turns only one of its bodies: each gets the torque r x F, with its own r and the force that "
+    "pulls it.";
+constexpr const char* kSpringArm =
+    "A spring's torque on a body has the other body's arm: each has its own r, from its centre to its "
+    "anchor.";
+constexpr const char* kSpringRateArm =
+    "The velocity of a spring's end has the other body's arm: it is v + w x r, with the body's own r.";
 constexpr const char* kSpringAnchor =
     "One anchor of a spring is used for both ends: \"anchor_a\" is a point of a, \"anchor_b\" one of b.";
 
@@ -86,6 +95,14 @@ std::vector<Predictable> mistakes_of_order() {
       {"spring_never_turns", "spring_never_turns", "4",
        "A spring at a point off the centre does not turn the body: its force acts at the anchor, with the "
        "torque r x F."},
+      {"spring_turns_the_first_only", "one_body_never_spins", "4", kSpringTurnsOne},
+      {"spring_turns_the_second_only", "one_body_never_spins", "4", kSpringTurnsOne},
+      {"spring_torque_arms_swapped", "arm_of_the_other", "4", kSpringArm},
+      {"spring_torque_first_arm", "arm_of_the_other", "4", kSpringArm},
+      {"spring_torque_second_arm", "arm_of_the_other", "4", kSpringArm},
+      {"spring_rate_arms_swapped", "arm_of_the_other", "4", kSpringRateArm},
+      {"spring_rate_first_arm", "arm_of_the_other", "4", kSpringRateArm},
+      {"spring_rate_second_arm", "arm_of_the_other", "4", kSpringRateArm},
       {"spring_turns_backwards", "torque_backwards", "4",
        "A spring turns its bodies the wrong way: the torque is r x F = rx Fy - ry Fx, with the force that "
        "pulls "

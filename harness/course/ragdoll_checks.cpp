@@ -132,8 +132,8 @@ Finding ragdoll_flies(const Lab& lab) {
           "positions shared by inverse mass.")
       .symptom_if(std::abs(l / l0 - 1) > lost,
                   "Joints change the angular momentum of the whole: an impulse at an anchor changes each "
-                  "body's spin by "
-                  "r x j/I, with r turned by the body's angle.")
+                  "body's spin by r x j/I, and a correction its angle by r x push/I, with the body's own r, "
+                  "turned by its angle.")
       .mistake_if(gap > 0.02 * lab.coarseness(), "too_few_iterations",
                   "Joints come apart: go over them several times a step.")
       .finding();

@@ -32,7 +32,11 @@ double rise_of_sliding_ball(const Lab& lab) {
   const double r = 0.5;
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
-  const Body ball = make(Ball{.position = {-3, r}, .velocity = {3, 0}, .radius = r, .restitution = 0.9});
+  // Rises by less than a step's gravity at first: whichever step finds the contact, the ball then falls with
+  // less than the 2 g dt below which restitution is 0, and not with just as much.
+  const double step = lab.substep() > 0 ? lab.substep() : lab.dt();
+  const Body ball = make(
+      Ball{.position = {-3, r}, .velocity = {3, 0.3 * kGravity * step}, .radius = r, .restitution = 0.9});
   const Trace trace = lab.run(scene_of("slide", {0, -kGravity}, {ball, floor}), 1.5);
   double out = 0;
   for (std::size_t k = 0; k < trace.states.size(); ++k)
@@ -141,7 +145,7 @@ Finding settles(const Lab& lab) {
       .mistake_if(high > tolerance, "restless",
                   "The ball keeps bouncing on the floor: gravity adds g dt of speed each step, and that must "
                   "not bounce. "
-                  "Take restitution as 0 below about 2 g dt.")
+                  "Take restitution as 0 up to 2 g dt.")
       .finding();
 }
 

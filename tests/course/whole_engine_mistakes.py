@@ -16,6 +16,7 @@ import tempfile
 
 from warm_start import WarmStart
 from whole_engine_order import MISTAKES as OF_ORDER
+from whole_engine_parts import MISTAKES as OF_PARTS
 
 # name, first chapter that shows it, old text, new text, the name that describes it
 MISTAKES = [
@@ -379,7 +380,7 @@ MISTAKES = [
      'c["kt"] = inverse_mass(a, b, rax, ray, rbx, rby, -ny, nx)',
      'c["kt"] = a.im + b.im + cross(rax, ray, -ny, nx) * a.ii + cross(rbx, rby, -ny, nx) * b.ii', "lever_not_squared"),
 ]
-MISTAKES += OF_ORDER
+MISTAKES += OF_ORDER + OF_PARTS
 
 
 def first_named(plumb, command, chapter, named=False):
@@ -404,13 +405,15 @@ def fails(plumb, warm, mistake, prints):
         if found or says != "all checks pass":
             print(f"the engine without mistakes: {found}: {says}")
         return bool(found) or says != "all checks pass"
-    name, chapter, old, new, expected = mistake
+    name, chapter, old, new, expected, *also = mistake
     text = engine.read_text(encoding="utf-8")
-    if text.count(old) != 1:
-        sys.exit(f"{name}: its text is there {text.count(old)} times")
+    for before, after in ((old, new), *zip(also[::2], also[1::2])):
+        if text.count(before) != 1:
+            sys.exit(f"{name}: its text is there {text.count(before)} times")
+        text = text.replace(before, after)
     with tempfile.TemporaryDirectory() as folder:
         program = pathlib.Path(folder) / "engine.py"
-        program.write_text(text.replace(old, new), encoding="utf-8")
+        program.write_text(text, encoding="utf-8")
         found, says = first_named(plumb, warm.command(program), chapter, not expected)
     if prints:
         print(f"{name}: {found}: {says}")

@@ -76,7 +76,7 @@ struct Engine {
     b.position = b.position + (radius - distance) * normal;  // out of the wall
     const double closing = dot(b.velocity, normal);
     if (closing >= 0) return;  // it moves away already
-    const bool rests = -closing < 2 * std::sqrt(dot(gravity, gravity)) * dt;  // only what gravity added
+    const bool rests = -closing <= 2 * std::sqrt(dot(gravity, gravity)) * dt;  // only what gravity added
     const double bounciness = rests ? 0 : std::max(restitution, wall.restitution);
     b.velocity = b.velocity - (1 + bounciness) * closing * normal;
   }

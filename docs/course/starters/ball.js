@@ -62,7 +62,7 @@ class Engine {
     if (closing >= 0) return; // it moves away already
     let bounciness = Math.max(circle.restitution, box.restitution);
     const pull = Math.hypot(this.gravity[0], this.gravity[1]);
-    if (-closing < 2 * pull * this.dt) bounciness = 0; // no more than what gravity added: it rests
+    if (-closing <= 2 * pull * this.dt) bounciness = 0; // no more than what gravity added: it rests
     for (const axis of [0, 1]) velocity[axis] -= (1 + bounciness) * closing * normal[axis];
   }
 

@@ -67,7 +67,7 @@ class Engine:
             return  # it moves away already
         bounciness = max(circle["restitution"], box["restitution"])
         pull = (self.gravity[0] ** 2 + self.gravity[1] ** 2) ** 0.5
-        if -closing < 2 * pull * self.dt:
+        if -closing <= 2 * pull * self.dt:
             bounciness = 0  # no more than what gravity added: it rests
         for axis in (0, 1):
             velocity[axis] -= (1 + bounciness) * closing * normal[axis]

@@ -27,16 +27,32 @@ Vec2d StudentWorld::corner(const Rigid& body, Vec2d local) const {
   return turned(part_of_box(body, "a box's corners"), body, local);
 }
 
-// Returns half of a box's extent along an axis.
-double StudentWorld::extent(const Rigid& body, Vec2d axis) const {
+// Returns half of a box's extent along an axis. Learners who know which side a face is take its distance
+// from the sizes, and compute extents only where the overlaps along the axes are compared.
+double StudentWorld::extent(const Rigid& body, Vec2d axis, bool in_overlap) const {
+  constexpr Name kAll("a box's extent"), kOverlap("a box's extent in the overlap");
+  const auto made = [&](Name everywhere, Name in_overlaps) {
+    return is(everywhere) || (in_overlap && is(in_overlaps));
+  };
+  const auto direction = [&](Vec2d local) {
+    if (turned_hash_ == kAll.hash) return turned(kAll, body, local);
+    if (in_overlap && turned_hash_ == kOverlap.hash) return turned(kOverlap, body, local);
+    return side(body, local);
+  };
   const Box size = box(body);
-  const double along = dot(side(body, {1, 0}), axis), across = dot(side(body, {0, 1}), axis);
+  const double along = dot(direction({1, 0}), axis), across = dot(direction({0, 1}), axis);
   const double w = size.width / 2, h = size.height / 2;
-  if (is("extent_sign_lost")) return w * along + h * across;
-  if (is("extent_of_the_sum")) return std::abs(w * along + h * across);
-  if (is("extent_sides_swapped")) return h * std::abs(along) + w * std::abs(across);
-  if (is("extent_of_width_only")) return w * std::abs(along);
-  if (is("extent_not_halved")) return 2 * (w * std::abs(along) + h * std::abs(across));
+  if (made("extent_sign_lost", "extent_sign_lost_in_overlap")) return w * along + h * across;
+  if (made("extent_of_the_sum", "extent_of_the_sum_in_overlap")) return std::abs(w * along + h * across);
+  if (made("extent_of_the_difference", "extent_of_the_difference_in_overlap"))
+    return std::abs(w * along - h * across);
+  if (made("extent_sides_swapped", "extent_sides_swapped_in_overlap"))
+    return h * std::abs(along) + w * std::abs(across);
+  if (made("extent_of_width_only", "extent_of_width_only_in_overlap")) return w * std::abs(along);
+  if (made("extent_of_height_only", "extent_of_height_only_in_overlap")) return h * std::abs(across);
+  if (made("extent_not_halved", "extent_not_halved_in_overlap"))
+    return 2 * (w * std::abs(along) + h * std::abs(across));
+  if (made("extent_of_a_circle", "extent_of_a_circle_in_overlap")) return std::hypot(w, h);
   return w * std::abs(along) + h * std::abs(across);
 }
 
@@ -50,13 +66,17 @@ std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std:
     for (const Vec2d local : {Vec2d{1, 0}, Vec2d{0, 1}}) {
       if (is("axes_of_the_width_only") && local.x == 0) continue;
       if (is("axes_of_the_height_only") && local.y == 0) continue;
-      const Vec2d axis = is("axes_not_turned") ? local : side(bodies_[box], local);
-      const double overlap = extent(bodies_[a], axis) + extent(bodies_[b], axis) - std::abs(dot(way, axis));
+      constexpr Name kAxes("the axes of two boxes");
+      const Vec2d axis = is("axes_not_turned") || is("axes_not_turned_by_sides") ? local
+                         : turned_hash_ == kAxes.hash ? turned(kAxes, bodies_[box], local)
+                                                      : side(bodies_[box], local);
+      const double overlap =
+          extent(bodies_[a], axis, true) + extent(bodies_[b], axis, true) - std::abs(dot(way, axis));
       if (overlap <= 0) return std::nullopt;
       const bool nearer = is("largest_overlap") ? !best || overlap > best->overlap + 1e-9
                                                 : !best || overlap < best->overlap - 1e-9;
       const Vec2d out = dot(way, axis) > 0 || is("axis_not_turned_to_b") ? axis : -axis;
-      if (nearer) best = Face{box, out, overlap};
+      if (nearer) best = Face{box, out, overlap, local.x != 0};
     }
   }
   return best;
@@ -80,8 +100,12 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   const std::size_t first = is("corners_farthest_out") ? 2 : 0;
   Vec2d from = corners[first], to = corners[first + 1];
   if (dot(from, along) > dot(to, along)) std::swap(from, to);
-  const double half =
-      extent(owner, is("face_of_the_other_side") ? outward : along) * times("width of a face");
+  // By the axis that was chosen, as learners do who keep it with its side.
+  const bool by_sides = is("axes_not_turned_by_sides");
+  const Box sides = box(owner);
+  const double half = by_sides ? (face->of_width ? sides.height : sides.width) / 2
+                               : extent(owner, is("face_of_the_other_side") ? outward : along, false) *
+                                     times("width of a face");
   const double s = dot(from, along), e = dot(to, along);
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const double low = is("clipped_at_the_upper_end_only") ? -kNowhere : -half,
@@ -94,7 +118,8 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   std::array<Vec2d, 2> ends{clipped(s), clipped(e)};
   if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
   const auto before = static_cast<std::ptrdiff_t>(out.size());
-  const double reach = extent(owner, outward);
+  const double reach =
+      by_sides ? (face->of_width ? sides.width : sides.height) / 2 : extent(owner, outward, false);
   if (is("second_end_only")) ends[0] = ends[1];
   for (const Vec2d end : ends) {
     const double depth = reach - dot(end, outward);

@@ -48,6 +48,8 @@ double Edit::replaced(double own, double others, double raw) const {
       return own > 0 ? 1 : 0;
     case Instead::Inverse:
       return own > 0 ? 1 / own : 0;
+    case Instead::Finite:
+      return own > 0 ? own : 1;
     default:
       return raw;
   }

@@ -29,7 +29,8 @@ enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin, Po
 
 /// Replacement of a quantity. `Raw` is the point itself for a contact's arm, the unrotated anchor for a
 /// joint's arm, the inverse mass for an inverse inertia, and the inverse inertia for an inverse mass.
-enum class Instead { Others, Zero, Minus, One, Inverse, Raw };
+/// `Finite` is 1 in place of 0, as of a static body with a mass of 1 kg.
+enum class Instead { Others, Zero, Minus, One, Inverse, Raw, Finite };
 
 struct Edit {
   Quantity quantity = Quantity::None;

@@ -117,8 +117,10 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_way_for_direction")) over = 1;
     if (is("spring_over_rest_length")) over = rest != 0 ? rest : 1;
     if (is("spring_over_square")) over = dot(way, way);
-    const Vec2d along = mixed("direction of a spring", 1 / over * way), v_a = point_velocity(a, arm_a),
-                v_b = point_velocity(end, arm_b);
+    const bool exchanged = is("spring_rate_arms_swapped");
+    const Vec2d along = mixed("direction of a spring", 1 / over * way),
+                v_a = point_velocity(a, exchanged || is("spring_rate_second_arm") ? arm_b : arm_a),
+                v_b = point_velocity(end, exchanged || is("spring_rate_first_arm") ? arm_a : arm_b);
     Vec2d parting = v_b - v_a;
     if (is("spring_damps_the_first_only")) parting = -v_a;
     if (is("spring_damps_the_second_only")) parting = v_b;
@@ -134,19 +136,27 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
       if (is("spring_divided_by_mass_twice")) force *= body.inverse_mass;
       add_to("spring", body, force);
       const double turns = is("spring_never_turns") ? 0 : is("spring_turns_backwards") ? -1 : 1;
+      if (is("spring_turns_the_first_only") && &body != &a) return;
+      if (is("spring_turns_the_second_only") && &body != &end) return;
       body.torque += turns * cross(arm, force);
     };
+    const bool swapped = is("spring_torque_arms_swapped");
+    const Vec2d turns_a = swapped || is("spring_torque_second_arm") ? arm_b : arm_a,
+                turns_b = swapped || is("spring_torque_first_arm") ? arm_a : arm_b;
     Vec2d force = tension * along;
     if (is("spring_damps_the_whole_velocity")) force += spring->damping * (parting - rate * along);
     if (is("spring_by_component")) force += spring->stiffness * (way - Vec2d{rest, rest} - stretch * along);
-    if (!is("spring_pulls_the_second_only")) pull(a, arm_a, is("spring_same_direction") ? -force : force);
-    if (!is("spring_pulls_the_first_only")) pull(end, arm_b, -force);
+    if (!is("spring_pulls_the_second_only")) pull(a, turns_a, is("spring_same_direction") ? -force : force);
+    if (!is("spring_pulls_the_first_only")) pull(end, turns_b, -force);
   }
 }
 
 void StudentWorld::gather_forces() {
   for (Rigid& b : bodies_) {
-    if (!is("force_not_cleared") && !is("force_and_torque_not_cleared")) b.force = {};
+    const bool kept = is("force_not_cleared") || is("force_and_torque_not_cleared") ||
+                      (is("force_of_the_first_not_cleared") && &b == &bodies_.front()) ||
+                      (is("force_of_others_not_cleared") && &b != &bodies_.front());
+    if (!kept) b.force = {};
     if (!is("torque_not_cleared") && !is("force_and_torque_not_cleared")) b.torque = 0;
   }
   const auto rests = [&](const ForceLaw& law) {

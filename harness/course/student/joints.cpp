@@ -163,10 +163,16 @@ void StudentWorld::correct(const Joint& joint) {
   Vec2d error = e.gap;
   if (const auto* stick = std::get_if<DistanceJoint>(&joint))
     error *= 1 - times("length of a stick") * stick->length / length(e.gap);
+  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
+  if (!stick && is("hinge_correction_along_x_only")) error.y = 0;
+  if (!stick && is("hinge_correction_along_y_only")) error.x = 0;
+  if ((stick && is("hinges_corrected_only")) || (!stick && is("sticks_corrected_only"))) return;
   const double size = length(error);
   if (size == 0) return;
-  const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
-  if (stick && (too_long ? is("stick_only_pushes") : is("stick_only_pulls"))) return;
+  const bool never_shortens = is("stick_only_pushes") || is("stick_correction_only_pushes"),
+             never_lengthens = is("stick_only_pulls") || is("stick_correction_only_pulls");
+  if (stick && (too_long ? never_shortens : never_lengthens)) return;
+  if (stick && !too_long && is("stick_correction_sign_lost")) error = -error;
   const Vec2d n = mixed("error of a joint", 1 / size * error);
   const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
   const double k = edited_mass(kCorrectionRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b}, n);

@@ -61,6 +61,7 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (is("normal_components_swapped")) n = {n.y, n.x};
   if (is("y_of_normal_flipped")) n.y = -n.y;
   if (wrong("normal_flipped")) n = -n;
+  n = mixed("normal of two circles", n);
   Vec2d point = bodies_[a].position + ra / d * rim;
   if (is("contact_point_at_first_centre")) point = bodies_[a].position;
   if (is("contact_point_at_second_centre")) point = bodies_[b].position;
@@ -113,6 +114,7 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
                                                       : Vec2d{0, std::copysign(1.0, to_centre.y)};
   if (is("wall_normal_up")) n = {0, -1};
   if (is("wall_normal_along_velocity") && dot(c.velocity, n) > 0) n = 1 / length(c.velocity) * c.velocity;
+  n = -mixed("normal of a wall", -n);
   out.push_back({circle, box, c.position + way, n, r - d});
 }
 

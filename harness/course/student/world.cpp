@@ -22,6 +22,18 @@ Vec2d axis_of(const std::string& text) {
   return {text.ends_with('x') ? sign : 0, text.ends_with('y') ? sign : 0};
 }
 
+// Returns the sign that "|x|" or "-|y|" always has; 0 for "x", "-y" or "0".
+int sign_of(const std::string& text) {
+  if (!text.ends_with('|')) return 0;
+  return text.starts_with('-') ? -1 : 1;
+}
+
+// Returns the text without the bars of an absolute value.
+std::string without_bars(std::string text) {
+  std::erase(text, '|');
+  return text;
+}
+
 std::array<std::size_t, 2> indices(const Scene& scene, const Joint& joint) {
   const std::size_t world = scene.bodies.size();
   return std::visit(
@@ -88,6 +100,13 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
     : scene_(scene), dt_(dt), mistake_(std::move(mistake)), scheme_(scheme), manner_(manner) {
   for (const auto& [name, scaled] : kScaled)
     if (mistake_ == name) mistake_ = scaled;
+  for (const char axis : {'x', 'y'}) {
+    const std::string only = std::string(" in ") + axis + " only";
+    if (!mistake_.ends_with(only)) continue;
+    mistake_.resize(mistake_.size() - only.size());
+    mistaken_in_x_ = axis == 'x';
+    right_ = std::make_unique<StudentWorld>(scene_, dt_, "", scheme_, manner_);
+  }
   read_mistake(mistake_);
   for (const Joint& joint : scene_.joints) ends_.push_back(indices(scene_, joint));
   // Iterations repair errors of a single solve, so engines without iterations make these mistakes, unless
@@ -171,11 +190,18 @@ void StudentWorld::read_mistake(const std::string& mistake) {
   const std::size_t at = mistake.find('@'), comma = mistake.find(',');
   if (at == std::string::npos || comma == std::string::npos) return;
   mixed_hash_ = Name::of(std::string_view(mistake).substr(0, at));
-  axes_ = {axis_of(mistake.substr(at + 1, comma - at - 1)), axis_of(mistake.substr(comma + 1))};
+  const std::string x = mistake.substr(at + 1, comma - at - 1), y = mistake.substr(comma + 1);
+  sign_of_ = {sign_of(x), sign_of(y)};
+  axes_ = {axis_of(without_bars(x)), axis_of(without_bars(y))};
 }
 
 Vec2d StudentWorld::mixed(Name quantity, Vec2d v) const {
-  return quantity.hash == mixed_hash_ ? Vec2d{dot(axes_[0], v), dot(axes_[1], v)} : v;
+  if (quantity.hash != mixed_hash_) return v;
+  const auto part = [&](std::size_t i) {
+    const double own = dot(axes_[i], v);
+    return sign_of_[i] == 0 ? own : sign_of_[i] * std::abs(own);
+  };
+  return {part(0), part(1)};
 }
 
 double StudentWorld::radius(const Rigid& body) const {
@@ -200,7 +226,23 @@ void StudentWorld::step() {
   ++steps_;
 }
 
+// Takes a step. A mistake in one component only leaves the other component as a right step gives it.
 void StudentWorld::advance() {
+  if (right_ == nullptr) return take_step();
+  right_->bodies_ = bodies_;
+  right_->steps_ = steps_;
+  right_->take_step();
+  take_step();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Rigid& mistaken = bodies_[i];
+    const Rigid& right = right_->bodies_[i];
+    for (Vec2d Rigid::*const part : {&Rigid::position, &Rigid::velocity, &Rigid::force, &Rigid::before})
+      mistaken.*part = mistaken_in_x_ ? Vec2d{(mistaken.*part).x, (right.*part).y}
+                                      : Vec2d{(right.*part).x, (mistaken.*part).y};
+  }
+}
+
+void StudentWorld::take_step() {
   keep_arms();
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,10 +58,12 @@ struct Touch {
 class StudentWorld {
  public:
   /// `mistake` is one of: a name; a quantity and the factor by which it is wrong ("radius*0.5"); a vector and
-  /// what replaces its x and y ("drag@x,x", "drag@y,-x", "drag@0,y"); points and how they are rotated ("a
+  /// what replaces its x and y ("drag@x,x", "drag@y,-x", "drag@0,y", "drag@|x|,y"); points and how they are
+  /// rotated ("a
   /// force's point~backwards"); a law and what its force changes ("drag>position by dt"); a quantity and the
-  /// body whose quantity stands for that of all ("mass in F/m#the first"); an edit as text (edit.h). `scheme`
-  /// is semi-implicit Euler, explicit Euler or velocity Verlet.
+  /// body whose quantity stands for that of all ("mass in F/m#the first"); an edit as text (edit.h). Made in
+  /// one component only, a mistake ends with " in x only" or " in y only". `scheme` is semi-implicit Euler,
+  /// explicit Euler or velocity Verlet.
   StudentWorld(const Scene& scene, double dt, std::string mistake,
                reference::Scheme scheme = reference::Scheme::SemiImplicitEuler, const Manner& manner = {});
 
@@ -71,6 +74,7 @@ class StudentWorld {
  private:
   bool is(Name mistake) const { return mistake.hash == mistake_hash_; }
   void advance();
+  void take_step();
   int sweeps() const;
   void write_sweep_state(const std::vector<Touch>& found, std::vector<double>& out) const;
   void answer_touches(bool with_joints);
@@ -105,11 +109,12 @@ class StudentWorld {
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
   void touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
-  double extent(const Rigid& body, Vec2d axis) const;
+  double extent(const Rigid& body, Vec2d axis, bool in_overlap) const;
   struct Face {
     std::size_t box = 0;
     Vec2d normal;  ///< from a to b
     double overlap = 0;
+    bool of_width = false;  ///< the axis is the box's own x
   };
   std::optional<Face> nearest_face(std::size_t a, std::size_t b) const;
   bool left_out(std::size_t a, std::size_t b) const;
@@ -164,7 +169,10 @@ class StudentWorld {
   std::uint64_t turned_hash_ = 0, turned_how_ = 0;    ///< quantity whose points are rotated wrongly, and how
   std::uint64_t acting_hash_ = 0, acting_how_ = 0;    ///< which law acts wrongly, and on what
   std::uint64_t others_hash_ = 0, others_whose_ = 0;  ///< quantity of another body, and of which one
-  std::array<Vec2d, 2> axes_;  ///< directions that give the x and the y of a mixed vector
+  std::array<Vec2d, 2> axes_;            ///< directions that give the x and the y of a mixed vector
+  std::array<int, 2> sign_of_{};         ///< 1 or -1 if the x or the y of a mixed vector always has this sign
+  std::unique_ptr<StudentWorld> right_;  ///< makes no mistake; takes the other component of each step
+  bool mistaken_in_x_ = false;
   reference::Scheme scheme_;
   Manner manner_;
   bool touched_ = false;  ///< there was a contact
