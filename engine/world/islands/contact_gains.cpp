@@ -122,7 +122,8 @@ double push_work(const ContactConstraint<Real>& c, const ContactStep<Real>& step
   double work = 0;
   for (int i = 0; i < c.count; ++i) {
     const Real speed = std::min(rate * std::max(-c.current_separation[i], Real(0)), c.depenetration_speed);
-    work += static_cast<double>(c.normal_impulse[i]) * static_cast<double>(speed);
+    // Direct solutions are non-negative to rounding only.
+    work += std::max(static_cast<double>(c.normal_impulse[i]), 0.0) * static_cast<double>(speed);
   }
   return work;
 }
