@@ -1,4 +1,4 @@
-// What the tests of the npm package have in common: the package that the command line names, and small worlds.
+// Loads the package that the command line names, and makes small worlds, for all tests of the npm package.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
