@@ -102,6 +102,7 @@ CODE = {
     "landings": {"step/expected_impacts.cpp": ["moves_far"]},
     "simultaneous_impacts": {"step/expected_impacts.cpp": ["time_of_contact", "assign_simultaneous_impacts"]},
     "separating_faces": {"step/separating_face.h": []},
+    "open_joints": {"step/open_joints.cpp": [], "step/open_joints.h": []},
     "self_overlap_pass": {"step/pairs.cpp": ["is_mostly_apart", "mark_self_overlaps"]},
     "shared_searches": {"step/pairs.cpp": ["may_share_search", "collect_group", "find_group_pairs"]},
     "common_motion": {"continuous/common_motion.cpp": [], "continuous/common_motion.h": [],

@@ -34,6 +34,17 @@ class RagdollHeap {
   World& world() { return world_; }
   const std::vector<BodyId>& parts() const { return parts_; }
 
+  // Returns the widest gap of a joint, m.
+  double widest_gap() const {
+    double widest = 0;
+    for (const Hinge& hinge : hinges_) {
+      const Vec2d gap =
+          world_.world_point(hinge.b, hinge.anchor_b) - world_.world_point(hinge.a, hinge.anchor_a);
+      widest = std::max(widest, std::sqrt(length_squared(gap)));
+    }
+    return widest;
+  }
+
  private:
   struct Frame {
     Vec2d at;
@@ -48,9 +59,10 @@ class RagdollHeap {
   }
   void hinge(const Frame& frame, BodyId a, BodyId b, Vec2d at, double lower, double upper) {
     const Vec2d point = frame.point(at);
+    hinges_.push_back({a, b, world_.local_point(a, point), world_.local_point(b, point)});
     world_.create_joint(a, b,
-                        {.kind = RevoluteDefinition{.anchor_a = world_.local_point(a, point),
-                                                    .anchor_b = world_.local_point(b, point),
+                        {.kind = RevoluteDefinition{.anchor_a = hinges_.back().anchor_a,
+                                                    .anchor_b = hinges_.back().anchor_b,
                                                     .limits = Range{lower, upper}}});
   }
   void add(Vec2d at, double angle) {
@@ -74,8 +86,14 @@ class RagdollHeap {
     }
   }
 
+  struct Hinge {
+    BodyId a, b;
+    Vec2d anchor_a, anchor_b;
+  };
+
   World world_;
   std::vector<BodyId> parts_;
+  std::vector<Hinge> hinges_;
 };
 
 // Returns the kinetic energy, J, of the parts that move in a step by less than a fifth of their speed times
@@ -112,6 +130,26 @@ TEST(RagdollHeaps, DoNotHangInTheAirWhileTheirWeightSpeedsThemUp) {
           << ragdolls << " ragdolls, seed " << seed << (direct_islands ? "" : ", without direct islands");
     }
   }
+}
+
+// Returns the mean over the heaps of `seeds` of the widest gap in the fifth second, m.
+double mean_widest_gap(int ragdolls, bool direct_islands, std::uint64_t seeds) {
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    RagdollHeap heap(seed, ragdolls, direct_islands);
+    run(heap.world(), 240);
+    double widest = 0;
+    for (int i = 0; i < 60; ++i) heap.world().step(), widest = std::max(widest, heap.widest_gap());
+    sum += widest;
+  }
+  return sum / static_cast<double>(seeds);
+}
+
+// The thinnest part is 8 cm thick: nothing stays between two parts whose joint is open by less than half.
+TEST(RagdollHeaps, KeepTheirJointsClosed) { EXPECT_LT(mean_widest_gap(6, true, 8), 0.04); }
+
+TEST(RagdollHeaps, ThatAreSolvedByIterationsLetNothingStayInTheirJoints) {
+  EXPECT_LT(mean_widest_gap(6, false, 8), 0.08);
 }
 
 }  // namespace

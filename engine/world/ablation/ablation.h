@@ -49,6 +49,7 @@ enum class Switch {
   Landings,
   SimultaneousImpacts,
   SeparatingFaces,
+  OpenJoints,
   SelfOverlapPass,
   SharedSearches,
   // continuous/

@@ -7,17 +7,21 @@
 namespace plumb {
 namespace {
 
-/// Returns the angle, rad, by which to rotate the joint so that no limit is exceeded by more than `slack`.
+/// Returns the angle, rad, by which to rotate the joint so that no limit is exceeded by more than `slack`, or
+/// than at the start of the step. An angle that began beyond a limit is left to the solver: contacts may hold
+/// it there, which this rotation ignores, and continuous collision would undo it, and all other motion of the
+/// body, in each step.
 template <class Real>
 Real project_angular_limits(const JointConstraint<Real, RevoluteRows>& joint, const SolverBody<Real>* motion,
                             Real slack) {
-  const Real angle =
-      static_cast<Real>(joint.angle.start) + (motion[joint.b].delta_angle - motion[joint.a].delta_angle);
+  const Real start = static_cast<Real>(joint.angle.start);
+  const Real angle = start + (motion[joint.b].delta_angle - motion[joint.a].delta_angle);
   for (int i = 0; i < joint.angular.count; ++i) {
     const SolverRule<Real>& rule = joint.angular.rule[i];
     if (rule.role != RowRole::Limit) continue;
-    const Real open = rule.sign * (angle - rule.origin) + slack;
-    if (open < 0) return -rule.sign * open;
+    const auto opening = [&](Real at) { return rule.sign * (at - rule.origin) + slack; };
+    const Real open = opening(angle), least = std::min(opening(start), Real(0));
+    if (open < least) return rule.sign * (least - open);
   }
   return 0;
 }

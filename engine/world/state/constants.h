@@ -94,8 +94,8 @@ inline constexpr double kJointDampingRatio = 2;
 
 /// Impacts drive revolute joints past their limits farther than velocity iterations can stop. After the
 /// motion, angles beyond a limit by more than kLimitSlack (rad) are corrected, in up to kLimitIterations
-/// iterations. Each turns a joint by at most kLimitMaxRotation (rad), so that joints placed beyond a limit
-/// return smoothly.
+/// iterations. Each turns a joint by at most kLimitMaxRotation (rad). Joints that began the step beyond a
+/// limit are only kept from turning farther.
 inline constexpr double kLimitSlack = 0.01;
 inline constexpr double kLimitMaxRotation = 0.1;
 inline constexpr int kLimitIterations = 4;

@@ -8,6 +8,7 @@
 #include "engine/world/step/contact_reading.h"
 #include "engine/world/step/contact_update.h"
 #include "engine/world/step/expected_impacts.h"
+#include "engine/world/step/open_joints.h"
 #include "engine/world/step/pushers.h"
 #include "engine/world/step/step.h"
 
@@ -193,6 +194,26 @@ void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
   decide_impacts_by_hook(w);
 }
 
+// Ends the contacts that are disabled in this step without asking the hook.
+template <class Real>
+void end_disabled_contacts(WorldData<Real>& w) {
+  if (w.disabled_pairs.size() == 0) return;
+  const auto is_disabled = [&](const ContactConstraint<Real>& c) {
+    const ContactRecord& contact = w.contacts[c.contact];
+    return w.disabled_pairs.contains(contact.shape_a, contact.shape_b);
+  };
+  w.scratch.narrow_phase.begun_contacts.for_each(
+      [&](BegunContact<Real>& begun) { begun.disabled = begun.disabled || is_disabled(begun.constraint); });
+  for (std::size_t block = 0; block < w.scratch.narrow_phase.contact_runs.size(); ++block) {
+    const ContactRun<Real>& run = w.scratch.narrow_phase.contact_runs[block];
+    for (int i = 0; i < run.count; ++i) {
+      if (!is_disabled(run.first[i])) continue;
+      w.scratch.narrow_phase.contact_changes[run.first_index + i] |= kEnded;
+      w.scratch.block_firsts[block] |= kEnded;
+    }
+  }
+}
+
 // Collects the recorded changes, in the order of the contacts.
 template <class Real>
 void collect_changes(WorldData<Real>& w) {
@@ -291,7 +312,9 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   if (w.enabled_pairs.size() > 0) w.enabled_pairs.clear();
   if (w.nontouching_contacts.empty() && w.graph.empty()) return;
   try {
+    yield_to_open_joints(w);
     update_each(w, dt, h);
+    end_disabled_contacts(w);
     call_pre_solve_hook(w, dt);
     collect_changes(w);
   } catch (...) {
