@@ -5,23 +5,31 @@
 option(PLUMB_UNITY "Compile several files of a folder as one source" ${PLUMB_LIBRARY_ONLY})
 option(PLUMB_PRECOMPILED "Precompile the headers of libraries for the tests and the program" OFF)
 include(${CMAKE_CURRENT_LIST_DIR}/together.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/supported_options.cmake)
 
 add_library(plumb_options INTERFACE)
 target_compile_features(plumb_options INTERFACE cxx_std_20)
 
 # The same bits everywhere: no fused multiply-add. g++ 12 contracts across statements even with
 # -ffp-contract=off when the target has FMA, so the instructions are taken away as well.
-target_compile_options(plumb_options INTERFACE -ffp-contract=off)
+set(plumb_exact_wanted -ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
-  target_compile_options(plumb_options INTERFACE -mno-fma)
+  list(APPEND plumb_exact_wanted -mno-fma)
 endif()
+plumb_supported_options(plumb_exact ${plumb_exact_wanted})
+if(NOT plumb_exact STREQUAL plumb_exact_wanted)
+  message(WARNING "The compiler does not take all of ${plumb_exact_wanted}: the bits may differ from those of other builds")
+endif()
+target_compile_options(plumb_options INTERFACE ${plumb_exact})
 target_compile_definitions(plumb_options INTERFACE $<$<BOOL:${PLUMB_SCALAR}>:PLUMB_SCALAR>)
 
 if(PLUMB_UNITY)
   # g++ looks for memory to use again from 128 MiB on, for 3 to 10 % of its time; few sources need 512.
   # It also takes sources that another includes for headers, whose hidden types would differ from source to source.
-  target_compile_options(plumb_options INTERFACE
-    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288;-Wno-subobject-linkage>)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    plumb_supported_options(plumb_quick --param=ggc-min-heapsize=524288 -Wno-subobject-linkage)
+    target_compile_options(plumb_options INTERFACE ${plumb_quick})
+  endif()
 endif()
 
 # The rest is for work on plumb itself; a project that takes plumb in keeps its own ways.
@@ -30,8 +38,9 @@ if(PROJECT_IS_TOP_LEVEL)
   if(at GREATER -1)
     set(plumb_sanitized ON)
   endif()
+  plumb_supported_options(plumb_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
   target_compile_options(plumb_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    ${plumb_warnings}
     # g++ 12 sees overlaps in std::string + literal that are not there (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     # With a sanitizer's calls in between it takes variants for uninitialised (its manual, at -fsanitize).

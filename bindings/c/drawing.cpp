@@ -1,3 +1,4 @@
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -19,6 +20,7 @@ using plumb::Vec2d;
 /// Poses of a world of either precision; empty until they are kept.
 struct plumb_past_poses {
   std::variant<std::monostate, PastPoses<float>, PastPoses<double>> poses{};
+  mutable std::atomic<int> drawings = 0;  ///< that read them now
 };
 
 namespace {
@@ -83,21 +85,38 @@ const PastPoses<Real>* kept_poses(const plumb_past_poses* past) {
   throw Error(Error::Kind::Value, "past poses", "precision", "", "are of a world of another precision");
 }
 
+/// Throws Error (Unsupported) while a drawing reads the poses: functions that draw must not change them.
+void require_unused(const plumb_past_poses& past) {
+  if (past.drawings == 0) return;
+  throw Error(Error::Kind::Unsupported, "past poses", "", "",
+              "cannot be changed while a drawing reads them; do it afterwards");
+}
+
+/// Counts a drawing that reads the poses.
+class Reading {
+ public:
+  explicit Reading(const plumb_past_poses& past) : past_(past) { ++past_.drawings; }
+  ~Reading() { --past_.drawings; }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+ private:
+  const plumb_past_poses& past_;
+};
+
 void require_fraction(double fraction) {
   if (std::isfinite(fraction)) return;
   throw Error(Error::Kind::Value, "past poses", "fraction", plumb::shortest(fraction),
               "must be a number: 0 for the kept poses, 1 for the present ones");
 }
 
-/// Returns the pose of the body's origin: the engine's are those of the centre of mass.
+/// Returns the pose of the body's origin.
 template <class Real>
 plumb_pose pose_between(const BasicWorld<Real>& w, const PastPoses<Real>* past, plumb::BodyId body,
                         double fraction) {
   if (past == nullptr) return {out(w.position(body)), w.angle(body)};
-  const plumb::WorldData<Real>& data = w.data();
-  const plumb::Pose<double> pose = past->between(data, static_cast<int>(body.index), fraction);
-  const double angle = past->angle_between(data, static_cast<int>(body.index), fraction);
-  return {out(pose.position - pose.rotation * w.local_point(body, w.centre(body))), angle};
+  const plumb::BodyPose pose = past->pose_between(w, body, fraction);
+  return {out(pose.position), pose.angle};
 }
 
 }  // namespace
@@ -105,10 +124,17 @@ plumb_pose pose_between(const BasicWorld<Real>& w, const PastPoses<Real>* past, 
 plumb_past_poses* plumb_past_poses_create(void) {
   return checked_or<plumb_past_poses*>(nullptr, [] { return new plumb_past_poses; });
 }
-void plumb_past_poses_destroy(plumb_past_poses* past) { delete past; }
+void plumb_past_poses_destroy(plumb_past_poses* past) {
+  if (past == nullptr) return;
+  checked([&] {
+    require_unused(*past);
+    delete past;
+  });
+}
 plumb_status plumb_past_poses_keep(plumb_past_poses* past, const plumb_world* world) {
   return read_checked(world, [&]<class Real>(const BasicWorld<Real>& w) {
-    auto& poses = require(past, "past poses").poses;
+    require_unused(require(past, "past poses"));
+    auto& poses = past->poses;
     if (!std::holds_alternative<PastPoses<Real>>(poses)) poses.template emplace<PastPoses<Real>>();
     std::get<PastPoses<Real>>(poses).keep(w);
   });
@@ -146,6 +172,7 @@ plumb_status plumb_world_draw_between(const plumb_world* world, const plumb_past
     Drawing drawing(require(draw, "draw"));
     const PastPoses<Real>* poses = kept_poses<Real>(past);
     require_fraction(fraction);
+    const Reading reading(*past);
     if (poses == nullptr) return plumb::draw(w, drawing, options_of(options));
     plumb::draw(w, *poses, fraction, drawing, options_of(options));
   });

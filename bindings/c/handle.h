@@ -35,8 +35,9 @@ struct plumb_world {
       world;
 #endif
   plumb_event_arrays events{};
-  mutable std::vector<plumb_vec2> points{};  ///< of the shape or chain that was read last
-  int moves = 0;                             ///< how often the world inside took another place
+  mutable std::vector<plumb_vec2> points{};         ///< of the shape or chain that was read last
+  mutable std::vector<plumb_material> materials{};  ///< of that chain
+  int moves = 0;                                    ///< how often the world inside took another place
 };
 
 namespace plumb::c {

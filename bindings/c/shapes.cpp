@@ -37,6 +37,9 @@ plumb::ChainDefinition definition_of(const plumb_chain_definition& d) {
   result.material = in(d.material), result.filter = in(d.filter);
   result.sensor = d.sensor, result.hit_events = d.hit_events, result.pre_solve = d.pre_solve;
   result.user_data = d.user_data;
+  require_countable("chain", "material_count", d.material_count, kMostItems);
+  if (d.material_count > 0) require(d.materials, "materials");
+  for (std::size_t i = 0; i < d.material_count; ++i) result.materials.push_back(in(d.materials[i]));
   return result;
 }
 
@@ -87,6 +90,13 @@ plumb_material plumb_shape_material(const plumb_world* world, plumb_shape shape)
 }
 plumb_status plumb_shape_set_material(plumb_world* world, plumb_shape shape, plumb_material material) {
   return change_checked(world, [&](auto& w) { w.set_material(in(shape), in(material)); });
+}
+plumb_status plumb_shape_set_geometry(plumb_world* world, plumb_shape shape, const plumb_geometry* geometry,
+                                      plumb_vec2 position, double angle) {
+  return checked([&] {
+    const plumb::ShapeGeometry wanted = in(require(geometry, "geometry"));
+    change(world, [&](auto& w) { w.set_geometry(in(shape), wanted, in(position), angle); });
+  });
 }
 plumb_filter plumb_shape_filter(const plumb_world* world, plumb_shape shape) {
   return read_or(plumb_filter{}, world, [&](const auto& w) { return out(w.filter(in(shape))); });
@@ -182,7 +192,10 @@ plumb_chain_definition plumb_chain_get_definition(const plumb_world* world, plum
     const plumb::ChainDefinition d = w.definition(in(chain));
     world->points.clear();
     for (const plumb::Vec2d point : d.points) world->points.push_back(out(point));
+    world->materials.clear();
+    for (const plumb::Material& material : d.materials) world->materials.push_back(out(material));
     plumb_chain_definition result{};
+    result.materials = world->materials.data(), result.material_count = world->materials.size();
     result.points = world->points.data(), result.point_count = world->points.size();
     result.closed = d.closed;
     result.material = out(d.material), result.filter = out(d.filter);

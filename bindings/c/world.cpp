@@ -282,6 +282,13 @@ size_t plumb_world_contacts(const plumb_world* world, plumb_contact* to, size_t 
     return fill(all, to, capacity);
   });
 }
+bool plumb_shape_contact(const plumb_world* world, plumb_shape a, plumb_shape b, plumb_contact* to) {
+  return read_or(false, world, [&](const auto& w) {
+    const auto found = w.contact(in(a), in(b));
+    if (found) require(to, "out") = out(*found);
+    return found.has_value();
+  });
+}
 size_t plumb_world_moved(const plumb_world* world, plumb_body* to, size_t capacity) {
   return read_or<size_t>(0, world, [&](const auto& w) {
     std::vector<plumb::BodyId> all(w.moved({}));

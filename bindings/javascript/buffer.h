@@ -6,9 +6,9 @@
 
 #include "bindings/c/include/plumb/plumb.h"
 
-/// Functions called from JavaScript (plumb.mjs), over the C interface. Structures pass as numbers through one
-/// buffer, in the order of the structure's members: no layout of memory is known on the other side. Results
-/// of several numbers lie in the same buffer.
+/// Functions called from JavaScript (plumb.memory.mjs), over the C interface. Structures pass as numbers
+/// through one buffer, in the order of the structure's members: no layout of memory is known on the other
+/// side. Results of several numbers lie in the same buffer.
 namespace plumb::javascript {
 
 extern std::vector<double> numbers;

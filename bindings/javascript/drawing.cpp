@@ -6,7 +6,7 @@ using namespace plumb::javascript;
 
 namespace {
 
-/// Kinds of items, as plumb.mjs reads them.
+/// Kinds of items, as plumb.world.mjs reads them.
 enum Item { kPolygon, kCircle, kCapsule, kSegment, kPoint, kText };
 
 Writer& begin(void* context, Item item, plumb_draw_role role) {

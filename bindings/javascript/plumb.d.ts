@@ -46,6 +46,8 @@ export interface ShapeDefinition extends Geometry, Material {
 }
 /** A line of one-sided segments: the front is to the right when walking from point to point. */
 export interface ChainDefinition extends Material {
+  /** one for each segment, in place of the chain's own */
+  materials?: Material[];
   points: Vec2[];
   closed?: boolean;
   filter?: Filter;
@@ -191,6 +193,10 @@ export class Shape extends Handle {
   rayCast(origin: Vec2, translation: Vec2): {point: Vec2; normal: Vec2; fraction: number} | null;
   contains(point: Vec2): boolean;
   material: Material;
+  /** replaces the geometry, in the body's frame (m, rad); all else stays. Contacts end, and begin anew in the next step */
+  setGeometry(geometry: Geometry, position?: Vec2, angle?: number): void;
+  /** after a begin event, normal and separations are those at the beginning of the step that made it */
+  contact(other: Shape): Contact | null;
   get filter(): {category: bigint; mask: bigint; group: number};
   set filter(filter: Filter);
   readonly overlapping: Shape[];
@@ -200,6 +206,8 @@ export class Chain extends Handle {
   readonly valid: boolean;
   readonly body: Body;
   readonly segments: Shape[];
+  /** as at present; it could be created again */
+  readonly definition: ChainDefinition;
   destroy(): void;
 }
 export interface JointReading {

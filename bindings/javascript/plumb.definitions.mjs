@@ -121,12 +121,20 @@ export function geometryOf(shape) {
 }
 const kMaterialFields = new Set(["friction", "restitution", "rollingResistance", "surfaceSpeed"]);
 export const knownMaterial = (m) => known(kMaterialFields, m, "a material");
-const kChainFields = new Set(["points", "closed", "filter", "sensor", "hitEvents", "preSolve", "userData", ...kMaterialFields]);
+const kChainFields = new Set(["points", "closed", "filter", "sensor", "hitEvents", "preSolve", "userData",
+  "materials", ...kMaterialFields]);
 export function chainOf(chain) {
-  const {points, filter, userData} = known(kChainFields, chain, "a chain");
+  const {points, filter, userData, materials = []} = known(kChainFields, chain, "a chain");
   return [flagOf(chain, "closed"), ...materialOf(chain), ...filterOf(filter), flagOf(chain, "sensor"),
     flagOf(chain, "hitEvents"), flagOf(chain, "preSolve"), ...wide(userData, "userData"),
+    listed(materials, "materials").length, ...materials.flatMap((m) => materialOf(knownMaterial(m))),
     listed(points, "points").length, ...points.flatMap((p) => pair(p, "points"))];
+}
+/// Returns the definition of a chain of these points (x and y in turn), whose segments have these materials.
+export function definitionOfChain(closed, n, materials) {
+  const points = Array.from({length: n.length / 2}, (_, i) => ({x: n[2 * i], y: n[2 * i + 1]}));
+  const same = materials.every((m) => JSON.stringify(m) === JSON.stringify(materials[0]));
+  return {points, closed: closed !== 0, ...(same ? materials[0] : {materials})};
 }
 export function materialOf(m) {
   return numbersOf(m, {friction: 0.6, restitution: 0, rollingResistance: 0, surfaceSpeed: 0});

@@ -25,7 +25,8 @@ double* js_chain_create(plumb_world* w, std::uint32_t index, std::uint32_t gener
   d.material = in(material(r)), d.filter = in(filter(r));
   d.sensor = r.flag(), d.hit_events = r.flag(), d.pre_solve = r.flag();
   d.user_data = r.wide();
-  d.points.clear();
+  d.materials.clear(), d.points.clear();
+  for (std::uint32_t count = r.bits(); count > 0; --count) d.materials.push_back(in(material(r)));
   for (std::uint32_t count = r.bits(); count > 0; --count) d.points.push_back(in(r.point()));
   const plumb::BodyId body{index, generation};
   return Writer().id(change(w, [&](auto& world) { return out(world.create_chain(body, d)); })).done();
@@ -48,6 +49,13 @@ PLUMB_EXPORT("shape_material") double* js_shape_material(PLUMB_HANDLE) {
 PLUMB_EXPORT("shape_set_material") void js_shape_set_material(PLUMB_HANDLE) {
   Reader r;
   plumb_shape_set_material(w, {index, generation}, material(r));
+}
+PLUMB_EXPORT("shape_set_geometry") void js_shape_set_geometry(PLUMB_HANDLE) {
+  static std::vector<plumb_vec2> points;  // kept from call to call, as definitions are
+  Reader r;
+  const plumb_geometry g = geometry(r, points);
+  const plumb_vec2 position = r.point();
+  plumb_shape_set_geometry(w, {index, generation}, &g, position, r.number());
 }
 PLUMB_EXPORT("shape_filter") double* js_shape_filter(PLUMB_HANDLE) {
   return Writer().add(plumb_shape_filter(w, {index, generation})).done();
@@ -129,6 +137,14 @@ PLUMB_EXPORT("chain_segments") double* js_chain_segments(PLUMB_HANDLE) {
       .ids(
           all_of<plumb_shape>([&](auto* to, std::size_t n) { return plumb_chain_segments(w, chain, to, n); }))
       .done();
+}
+/// Writes 1 for a closed chain, 0 otherwise, and its points.
+PLUMB_EXPORT("chain_points") double* js_chain_points(PLUMB_HANDLE) {
+  const plumb_chain_definition d = plumb_chain_get_definition(w, {index, generation});
+  Writer out;
+  out.add(d.closed);
+  for (std::size_t i = 0; i < d.point_count; ++i) out.add(d.points[i]);
+  return out.done();
 }
 PLUMB_EXPORT("chain_destroy") void js_chain_destroy(PLUMB_HANDLE) {
   plumb_chain_destroy(w, {index, generation});

@@ -184,6 +184,15 @@ double* js_body_contacts(plumb_world* w, std::uint32_t index, std::uint32_t gene
     write(writer, contact);
   return writer.done();
 }
+/// Writes the contact of two shapes, and nothing for none.
+PLUMB_EXPORT("shape_contact")
+double* js_shape_contact(PLUMB_HANDLE, std::uint32_t other, std::uint32_t other_generation) {
+  plumb_contact contact{};
+  Writer writer;
+  if (plumb_shape_contact(w, {index, generation}, {other, other_generation}, &contact))
+    write(writer, contact);
+  return writer.done();
+}
 PLUMB_EXPORT("world_contacts") double* js_contacts(plumb_world* w) {
   std::vector<plumb_contact> all(plumb_world_contacts(w, nullptr, 0));
   plumb_world_contacts(w, all.data(), all.size());

@@ -179,8 +179,10 @@ void bind_bodies(py::module_& module) {
           "create_chain",
           [](const HeldBody& h, std::vector<Vec2d> points, Flag closed, double friction, double restitution,
              double rolling_resistance, double surface_speed, std::uint64_t category, std::uint64_t mask,
-             std::int32_t group, Flag sensor, Flag hit_events, Flag pre_solve, std::uint64_t user_data) {
+             std::int32_t group, Flag sensor, Flag hit_events, Flag pre_solve, std::uint64_t user_data,
+             std::vector<Material> materials) {
             ChainDefinition d;
+            d.materials = std::move(materials);
             d.points = std::move(points), d.closed = closed;
             d.material = {friction, restitution, rolling_resistance, surface_speed};
             d.filter = {category, mask, group};
@@ -191,8 +193,11 @@ void bind_bodies(py::module_& module) {
           arg("restitution") = 0.0, arg("rolling_resistance") = 0.0, arg("surface_speed") = 0.0,
           arg("category") = Filter{}.category, arg("mask") = Filter{}.mask, arg("group") = 0,
           arg("sensor") = false, arg("hit_events") = false, arg("pre_solve") = false, arg("user_data") = 0,
+          arg("materials") = std::vector<Material>{},
           "Adds a line of one-sided segments through points, m; the front is to the right when walking along "
-          "it. The rest is that of its segments; surface_speed: m/s.")
+          "it. The rest is that of its segments; surface_speed: m/s; materials: one plumb.Material for each "
+          "of them, "
+          "in place of friction and the like.")
       .def(
           "release", [](const HeldBody& h) { h.world->visit([&](auto& w) { w.release(h.id); }); },
           "Releases it from quarantine.")

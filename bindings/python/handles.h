@@ -69,6 +69,7 @@ void bind_joints(py::module_& module);
 void bind_arrays(HeldWorldClass& world);
 void bind_snapshots(HeldWorldClass& world);
 void bind_queries(HeldWorldClass& world);
+void bind_drawing(py::module_& module, HeldWorldClass& world);
 void bind_laws(py::module_& module, HeldWorldClass& world);
 void bind_rollback(py::module_& module);
 

@@ -17,6 +17,16 @@ void bind_joints(py::module_& module) {
       .def_property_readonly("kind", PLUMB_READ(HeldJoint, JointKind(w.kind(h.id))),
                              "Its present definition, a copy: plumb.Revolute(...) and the like.")
       .def_property_readonly(
+          "definition",
+          [](const HeldJoint& h) {
+            const JointDefinition d = h.world->visit([&](auto& w) { return w.definition(h.id); });
+            return py::dict(arg("kind") = d.kind, arg("collide") = d.collide,
+                            arg("break_force") = d.break_force, arg("break_torque") = d.break_torque,
+                            arg("user_data") = d.user_data, arg("report_force") = d.report_force,
+                            arg("report_torque") = d.report_torque);
+          },
+          "As at present: a dict of the arguments of World.create_joint but for the bodies.")
+      .def_property_readonly(
           "bodies",
           [](const HeldJoint& h) {
             const auto [a, b] = h.world->visit([&](auto& w) { return w.bodies(h.id); });

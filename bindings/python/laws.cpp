@@ -1,6 +1,7 @@
 #include <array>
 #include <optional>
 
+#include "bindings/python/considered.h"
 #include "bindings/python/handles.h"
 #include "engine/world/force_laws.h"
 
@@ -157,15 +158,19 @@ void bind_laws(py::module_& module, HeldWorldClass& world) {
           "Pulls between points of two bodies, in the bodies' frames (m): N/m, N s/m, m.")
       .def(
           "explode",
-          [](const WorldPointer& h, Vec2d centre, double radius, double impulse, Flag occlusion) {
+          [](const WorldPointer& h, Vec2d centre, double radius, double impulse, Flag occlusion,
+             const std::optional<HeldBody>& ignore, std::uint64_t category, std::uint64_t mask, Flag sensors,
+             const std::optional<py::function>& condition) {
+            const Considered cover(h, ignore, category, mask, sensors, condition);
             h->visit([&](auto& w) {
-              plumb::explode(w, {centre, radius, impulse}, {.occlusion = occlusion});
+              plumb::explode(w, {centre, radius, impulse}, {occlusion, cover.filter()});
             });
           },
           arg("centre"), py::kw_only(), arg("radius") = Blast{}.radius, arg("impulse") = Blast{}.impulse,
-          arg("occlusion") = false,
+          arg("occlusion") = false, arg("ignore") = py::none(), arg("category") = QueryFilter{}.category,
+          arg("mask") = QueryFilter{}.mask, arg("sensors") = false, arg("condition") = py::none(),
           "Pushes all dynamic bodies within `radius` (m) at once: N s for each m of surface square to it, "
-          "at the centre.");
+          "at the centre. With occlusion it spares what another shape hides; the rest says which can.");
 }
 
 }  // namespace plumb::python

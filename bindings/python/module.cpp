@@ -74,6 +74,22 @@ void bind_definitions(py::module_& module) {
         return repr_of(g, {"start", "end"});
       });
 
+  py::class_<Material>(module, "Material", "What a surface is of.")
+      .def(py::init([](double friction, double restitution, double rolling_resistance, double surface_speed) {
+             return Material{friction, restitution, rolling_resistance, surface_speed};
+           }),
+           arg("friction") = Material{}.friction, arg("restitution") = 0.0, arg("rolling_resistance") = 0.0,
+           arg("surface_speed") = 0.0)
+      .def_readwrite("friction", &Material::friction, "Coulomb's coefficient, at least 0")
+      .def_readwrite("restitution", &Material::restitution, "Newton's coefficient, 0 to 1")
+      .def_readwrite("rolling_resistance", &Material::rolling_resistance,
+                     "lever arm over the rounding radius, at least 0")
+      .def_readwrite("surface_speed", &Material::surface_speed, "m/s")
+      .def(
+          "__eq__", [](const Material& a, const Material& b) { return a == b; }, py::is_operator())
+      .def("__repr__", [](const py::object& m) {
+        return repr_of(m, {"friction", "restitution", "rolling_resistance", "surface_speed"});
+      });
   py::class_<ShapeDefinition>(module, "ShapeDefinition",
                               "A geometry with its pose on a body, density (kg/m^2), material and filter.")
       .def(py::init([](const ShapeGeometry& geometry, Vec2d position, double angle, double density,

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "bindings/python/considered.h"
 #include "bindings/python/handles.h"
 #include "engine/world/mover.h"
 
@@ -10,21 +11,6 @@ namespace {
 
 using py::arg;
 
-/// Holds what a query considers, as its keyword arguments say it.
-struct Considered {
-  const WorldPointer& world;
-  std::optional<HeldBody> ignore;
-  std::uint64_t category, mask;
-  bool sensors;
-
-  QueryFilter filter() const {
-    QueryFilter filter;
-    filter.category = category, filter.mask = mask, filter.sensors = sensors;
-    if (ignore) filter.ignore = id_in(world, *ignore, "ignore");
-    return filter;
-  }
-};
-
 /// Adds a query of the world to its class: `query(world, filter, own arguments...)`, where `filter` is made
 /// from the keyword arguments that all queries have in common. `Own` are the types of its own arguments.
 template <class... Own, class Query, class... Names>
@@ -32,12 +18,13 @@ void bind_query(HeldWorldClass& type, const char* name, Query query, const char*
   type.def(
       name,
       [query](const WorldPointer& h, Own... own, std::optional<HeldBody> ignore, std::uint64_t category,
-              std::uint64_t mask, Flag sensors) {
-        return query(h, Considered{h, ignore, category, mask, sensors}.filter(), own...);
+              std::uint64_t mask, Flag sensors, const std::optional<py::function>& condition) {
+        const Considered considered(h, ignore, category, mask, sensors, condition);
+        return query(h, considered.filter(), own...);
       },
       std::forward<Names>(names)..., py::kw_only(), arg("ignore") = py::none(),
       arg("category") = QueryFilter{}.category, arg("mask") = QueryFilter{}.mask, arg("sensors") = false,
-      about);
+      arg("condition") = py::none(), about);
 }
 
 py::dict hit_of(const WorldReference& held, const auto& hit) {
@@ -147,25 +134,36 @@ void bind_queries(HeldWorldClass& world) {
           "move",
           [](const WorldPointer& h, const Capsule& capsule, Vec2d position, Vec2d velocity, double dt,
              Vec2d up, double max_slope, double step_height, double skin, double mass, double push_force,
-             Flag push) {
-            const MoverOptions o{up, max_slope, step_height, skin, mass, push_force, {}};
+             Flag push, const std::optional<HeldBody>& ignore, std::uint64_t category, std::uint64_t mask,
+             const std::optional<py::function>& condition) {
+            const Considered considered(h, ignore, category, mask, false, condition);
+            const MoverOptions o{up, max_slope, step_height, skin, mass, push_force, considered.filter()};
             return h->visit([&](auto& w) {
               const MoverResult r = move(w, capsule, position, velocity, dt, o);
               if (push) apply_pushes(w, r);
               const bool stands = w.valid(r.ground);
+              py::list hits;
+              for (const MoverHit& hit : r.hits) {
+                py::dict found = hit_of(h, hit);
+                found["impulse"] = hit.impulse;
+                hits.append(found);
+              }
               const py::object ground = stands ? py::cast(HeldBody{h, r.ground}) : py::none();
               return py::dict(arg("position") = r.position, arg("velocity") = r.velocity,
                               arg("on_ground") = r.on_ground, arg("squeezed") = r.squeezed,
                               arg("ground_normal") = r.ground_normal, arg("ground") = ground,
-                              arg("ground_velocity") = r.ground_velocity);
+                              arg("ground_velocity") = r.ground_velocity, arg("hits") = hits);
             });
           },
           arg("capsule"), arg("position"), arg("velocity"), arg("dt"), py::kw_only(), arg("up") = Vec2d{0, 1},
           arg("max_slope") = MoverOptions{}.max_slope, arg("step_height") = MoverOptions{}.step_height,
           arg("skin") = 0.0, arg("mass") = 0.0, arg("push_force") = MoverOptions{}.push_force,
-          arg("push") = true,
+          arg("push") = true, arg("ignore") = py::none(), arg("category") = QueryFilter{}.category,
+          arg("mask") = QueryFilter{}.mask, arg("condition") = py::none(),
           "Moves a character, a capsule, by its velocity (m/s) for dt (s), stopped by bodies. Call it before "
-          "the step. In the dict, `ground` is the body that it stands on, or None.");
+          "the step. In the dict, `ground` is the body that it stands on, or None, and `hits` are the "
+          "surfaces "
+          "that stopped it, each a dict of shape, body, point, normal and impulse.");
 }
 
 }  // namespace plumb::python

@@ -6,6 +6,17 @@ namespace {
 
 using py::arg;
 
+py::dict definition_of_chain(const HeldChain& h) {
+  const ChainDefinition d = h.world->visit([&](auto& w) { return w.definition(h.id); });
+  return py::dict(arg("points") = d.points, arg("closed") = d.closed, arg("friction") = d.material.friction,
+                  arg("restitution") = d.material.restitution,
+                  arg("rolling_resistance") = d.material.rolling_resistance,
+                  arg("surface_speed") = d.material.surface_speed, arg("materials") = d.materials,
+                  arg("category") = d.filter.category, arg("mask") = d.filter.mask,
+                  arg("group") = d.filter.group, arg("sensor") = d.sensor, arg("hit_events") = d.hit_events,
+                  arg("pre_solve") = d.pre_solve, arg("user_data") = d.user_data);
+}
+
 }  // namespace
 
 void bind_shapes(py::module_& module) {
@@ -71,6 +82,27 @@ void bind_shapes(py::module_& module) {
           "Distance to another shape, m, negative: the least translation that separates them; a dict with "
           "the "
           "nearest points of this and the other one, and the normal from this to it.")
+      .def(
+          "set_geometry",
+          [](const HeldShape& h, const ShapeGeometry& geometry, Vec2d position, double angle) {
+            h.world->visit([&](auto& w) { w.set_geometry(h.id, geometry, position, angle); });
+          },
+          arg("geometry"), arg("position") = Vec2d{}, arg("angle") = 0.0,
+          "Replaces the geometry, which lies in the body's frame (m, rad); all else stays. Its contacts end, "
+          "and begin anew in the next step. Refused for a segment of a chain.")
+      .def(
+          "contact",
+          [](const HeldShape& h, const HeldShape& other) -> py::object {
+            const ShapeId to = id_in(h.world, other, "other");
+            const auto found = h.world->visit([&](auto& w) { return w.contact(h.id, to); });
+            return found ? py::object(reading_of(h.world, *found)) : py::none();
+          },
+          arg("other"),
+          "The contact with another shape, a dict, or None. After a begin event its normal and separations "
+          "are those at the beginning of the step that made it, its impulses those of that step.")
+      .def_property("material", PLUMB_READ(HeldShape, w.material(h.id)),
+                    PLUMB_SET(HeldShape, const Material&, w.set_material(h.id, value)),
+                    "Friction and the like, as a whole.")
       .def_property_readonly("overlapping", PLUMB_READ(HeldShape, handles(h.world, w.overlapping(h.id))),
                              "Shapes in a sensor in the last step.")
       .def_property("friction", PLUMB_READ(HeldShape, w.material(h.id).friction),
@@ -116,6 +148,9 @@ void bind_shapes(py::module_& module) {
                              "The body that it is of.")
       .def_property_readonly("segments", PLUMB_READ(HeldChain, handles(h.world, w.segments(h.id))),
                              "Its shapes, in order.")
+      .def_property_readonly("definition", &definition_of_chain,
+                             "As at present: a dict of the arguments of Body.create_chain. Filter and flags "
+                             "are those of the first segment.")
       .def(
           "destroy", [](const HeldChain& h) { h.world->visit([&](auto& w) { w.destroy(h.id); }); },
           "Destroys it with its segments.");

@@ -342,7 +342,7 @@ void bind_world(py::module_& module) {
           "they do "
           "not collide. It must depend on the world's state alone.");
   bind_arrays(bound), bind_snapshots(bound), bind_queries(bound), bind_laws(module, bound);
-  bind_rollback(module);
+  bind_rollback(module), bind_drawing(module, bound);
 }
 
 }  // namespace plumb::python

@@ -74,7 +74,8 @@ struct DrawOptions {
 template <class Real>
 void draw(const BasicWorld<Real>& world, DebugDraw& out, const DrawOptions& options = {});
 
-/// Draws the world interpolated between the poses `before` (`fraction` 0) and the current ones (1).
+/// Draws the world interpolated between the poses `before` (`fraction` 0) and the current ones (1). `before`
+/// must outlive the call: functions of `out` may keep other poses in it, but not destroy it.
 template <class Real>
 void draw(const BasicWorld<Real>& world, const PastPoses<Real>& before, double fraction, DebugDraw& out,
           const DrawOptions& options = {});

@@ -22,6 +22,7 @@ struct Material {
   double restitution = 0;         ///< Newton's coefficient, 0..1
   double rolling_resistance = 0;  ///< lever arm of rolling friction divided by the rounding radius, >= 0
   double surface_speed = 0;       ///< m/s, of the surface, positive to the right of someone standing on it
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 struct ShapeDefinition {
@@ -42,12 +43,13 @@ struct ShapeDefinition {
 struct ChainDefinition {
   std::vector<Vec2d> points{};  ///< m, in the body's frame; 2 or more, 3 or more when closed
   bool closed = false;          ///< the last point is joined to the first
-  Material material{};
+  Material material{};          ///< of all segments, unless `materials` has some
   Filter filter{};
   bool sensor = false;      ///< each of its segments reports overlaps, and collides with nothing
   bool hit_events = false;  ///< reports impacts faster than a threshold
   bool pre_solve = false;   ///< calls the pre-solve hook
   std::uint64_t user_data = 0;
+  std::vector<Material> materials{};  ///< empty, or one per segment, in the order of the points
 };
 
 /// Mass of a body that does not follow from its shapes' densities.

@@ -19,6 +19,8 @@ class PastPoses {
   /// between the stored and the present pose. A body created after the poses were stored gets its present
   /// pose.
   Pose<double> between(const WorldData<Real>& data, int body, double fraction) const;
+  /// Does the same for the pose of its origin.
+  BodyPose pose_between(const BasicWorld<Real>& world, BodyId body, double fraction) const;
   /// Returns the body's angle at `fraction`, rad; it counts whole turns.
   double angle_between(const WorldData<Real>& data, int body, double fraction) const;
 

@@ -77,6 +77,7 @@ class RecordedWorld {
   ShapeId create_shape(BodyId body, const ShapeDefinition& definition);
   void destroy(ShapeId shape);
   void set_material(ShapeId shape, const Material& material);
+  void set_geometry(ShapeId shape, const ShapeGeometry& geometry, Vec2d position = {}, double angle = 0);
   void set_filter(ShapeId shape, const Filter& filter);
   void set_user_data(ShapeId shape, std::uint64_t data);
   void set_density(ShapeId shape, double density);

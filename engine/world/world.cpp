@@ -283,7 +283,6 @@ void BasicWorld<Real>::on_filter(std::function<bool(ShapeId, ShapeId)> filter) {
     const auto id = [&](int shape) {
       return ShapeId{static_cast<std::uint32_t>(shape), w->shapes.generation(shape)};
     };
-    const Lock<Real> lock(*w);  // it is asked between steps too, after changes of shapes
     return filter(id(a), id(b));
   };
 }

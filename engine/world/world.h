@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -200,6 +201,11 @@ class BasicWorld {
   std::vector<ShapeId> shapes(BodyId body) const;           ///< in the order of creation
   std::vector<JointId> joints(BodyId body) const;           ///< in the order of creation
   std::vector<ContactReading> contacts(BodyId body) const;  ///< contacts with points
+  /// Returns the contact of two shapes; nothing unless it has points. After a begin event, normal and
+  /// separations are those at the beginning of the step that made it, and impulses those of that step. Has
+  /// nothing for a bounce whose shapes are apart after the step: see hit events. Takes time in proportion to
+  /// the contacts of the body that has fewer.
+  std::optional<ContactReading> contact(ShapeId a, ShapeId b) const;
 
   // Shapes.
   ShapeId create_shape(BodyId body, const ShapeDefinition& definition);
@@ -216,6 +222,10 @@ class BasicWorld {
   /// Returns the present definition, in the body's frame and rounded to `Real`; it could be added again.
   /// Boxes become polygons; a segment of a chain becomes a segment.
   ShapeDefinition definition(ShapeId shape) const;
+  /// Replaces the geometry, which lies in the body's frame as in ShapeDefinition; all else stays. Its
+  /// contacts end, and begin anew in the next step if it touches; overlaps with sensors go on if they still
+  /// overlap. The body's mass follows, unless it was given. Throws Error (Value) for a segment of a chain.
+  void set_geometry(ShapeId shape, const ShapeGeometry& geometry, Vec2d position = {}, double angle = 0);
   double density(ShapeId shape) const;   ///< kg/m^2
   bool sensor(ShapeId shape) const;      ///< true for a sensor
   bool hit_events(ShapeId shape) const;  ///< hard impacts on it are reported

@@ -49,6 +49,23 @@ std::size_t BasicWorld<Real>::contacts(BodyId body, std::span<ContactReading> ou
   return count;
 }
 template <class Real>
+std::optional<ContactReading> BasicWorld<Real>::contact(ShapeId a, ShapeId b) const {
+  WorldData<Real>& w = *data_;
+  const int shape_a = index_of(a), shape_b = index_of(b);
+  const int body_a = w.shapes[shape_a].body, body_b = w.shapes[shape_b].body;
+  std::optional<ContactReading> found;
+  if (!w.pairs.contains(shape_a, shape_b)) return found;
+  any_between(w.contacts, w.bodies[body_a].first_contact, w.bodies[body_b].first_contact, body_a, body_b,
+              [&](const ContactRecord& contact) {
+                const bool is_theirs = (contact.shape_a == shape_a && contact.shape_b == shape_b) ||
+                                       (contact.shape_a == shape_b && contact.shape_b == shape_a);
+                if (is_theirs && has_points(contact))
+                  found = reading_of(w, contact, constraint_of(w, contact));
+                return is_theirs;
+              });
+  return found;
+}
+template <class Real>
 std::size_t BasicWorld<Real>::contacts(std::span<ContactReading> out) const {
   WorldData<Real>& w = *data_;
   std::size_t count = 0;

@@ -14,15 +14,21 @@
 /// The members of BasicWorld about shapes, chains and joints; world.cpp instantiates them.
 namespace plumb {
 
+/// Throws Error (Value) if the shape's density would give its body a mass that `Real` cannot hold.
+template <class Real>
+void require_mass_fits(const WorldData<Real>& w, int body, const ShapeDefinition& definition) {
+  if constexpr (std::is_same_v<Real, float>) {
+    if (own_type(w, body) == BodyType::Dynamic && !w.bodies[body].mass_given) require_float_mass(definition);
+  }
+}
+
 template <class Real>
 ShapeId BasicWorld<Real>::create_shape(BodyId body, const ShapeDefinition& definition) {
   unlocked(*this);
   const int index = index_of(body);
-  const bool needs_mass_check =
-      own_type(*data_, index) == BodyType::Dynamic && !data_->bodies[index].mass_given;
   with_part_subject(*data_, "shape", index, [&] {
     validate(definition);
-    if (std::is_same_v<Real, float> && needs_mass_check) require_float_mass(definition);
+    require_mass_fits(*data_, index, definition);
   });
   const int shape = add_shape(*data_, index, definition);
   return {static_cast<std::uint32_t>(shape), data_->shapes.generation(shape)};
@@ -64,7 +70,27 @@ void BasicWorld<Real>::set_material(ShapeId shape, const Material& material) {
   const int index = index_of(shape);
   with_part_subject(*data_, "shape " + std::to_string(index), data_->shapes[index].body,
                     [&] { validate(ShapeDefinition{.material = material}); });
+  const Lock<Real> lock(*data_, data_->has_rules());  // a rule may destroy the world
   plumb::set_material(*data_, index, material);
+}
+template <class Real>
+void BasicWorld<Real>::set_geometry(ShapeId shape, const ShapeGeometry& geometry, Vec2d position,
+                                    double angle) {
+  unlocked(*this);
+  const int index = index_of(shape), body = data_->shapes[index].body;
+  if (data_->shapes[index].chain != kNone) {
+    throw Error(Error::Kind::Value, "shape", "handle", std::to_string(index),
+                "is a segment of a chain; create a chain with other points");
+  }
+  const ShapeDefinition definition{.geometry = geometry,
+                                   .position = position,
+                                   .angle = angle,
+                                   .density = static_cast<double>(data_->shapes[index].density)};
+  with_part_subject(*data_, "shape " + std::to_string(index), body, [&] {
+    validate(definition);
+    require_mass_fits(*data_, body, definition);
+  });
+  plumb::set_geometry(*data_, index, definition);
 }
 template <class Real>
 Filter BasicWorld<Real>::filter(ShapeId shape) const {

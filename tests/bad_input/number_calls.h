@@ -108,6 +108,12 @@ void add_force_calls(CallList<Real>& list) {
   list.subject = "shape 2 of body 'box'";
   list.number("set_density", "density", kNotNegative,
               [](T& t, double x) { t.world.set_density(t.shape, x); });
+  list.number("set_geometry", "radius", kPositive,
+              [](T& t, double x) { t.world.set_geometry(t.shape, Circle{x}); });
+  list.vector("set_geometry", "position", [](T& t, Vec2d v) { t.world.set_geometry(t.shape, Box{1, 1}, v); });
+  list.number("set_geometry", "angle", kAny, [](T& t, double x) {
+    t.world.set_geometry(t.shape, Box{1, 1}, {}, x);
+  });
   list.subject = "body 'box'";
   list.number("set_damping", "linear_damping", kNotNegative,
               [](T& t, double x) { t.world.set_damping(t.box, x, 0); });

@@ -260,7 +260,9 @@ TYPED_TEST(WorldDefinitions, OfChains) {
   Rules rules(chain_rules());
   Tally tally;
   for (const bool closed : {false, true}) {
-    const ChainDefinition good{.points = {{-5, 4}, {-4, 3}, {-3, 4.5}}, .closed = closed};
+    const ChainDefinition good{.points = {{-5, 4}, {-4, 3}, {-3, 4.5}},
+                               .closed = closed,
+                               .materials = std::vector<Material>(closed ? 3 : 2)};
     try_every_field<Real>(good, "chain of body 0", rules, tally,
                           [](Place<Real>& place, const ChainDefinition& each) {
                             place.world.create_chain(place.ground, each);

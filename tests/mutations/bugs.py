@@ -199,6 +199,19 @@ MUTATIONS = [
     Mutation("searches for impacts of what spins without end", "engine/world/continuous/swept_pair.cpp",
              "path_.search.toi_iteration_budget -= std::max(", "path_.search.toi_iteration_budget -= 0 * std::max(", "world", ("world/impacts",)),
 
+    Mutation("a replaced geometry wakes nothing that it touches", "engine/world/state/shapes.cpp",
+             "wake_touched(w, shape); } template <class Real> void set_filter(WorldData<Real>& w, int shape,",
+             "} template <class Real> void set_filter(WorldData<Real>& w, int shape,", "world", ("world/waking",)),
+    Mutation("a replaced geometry leaves the mass as it was", "engine/world/state/shapes.cpp",
+             "record_mass_change(w, body); destroy_contacts_of(w, body, shape); destroy_proxy(w, shape);",
+             "destroy_contacts_of(w, body, shape); destroy_proxy(w, shape);", "world", ("world/geometry_changes",)),
+    Mutation("all segments of a chain have the first one's material", "engine/world/state/shapes.cpp",
+             "definition.materials[segment_index]", "definition.materials[0]", "world", ("world/chain_materials",)),
+    Mutation("a contact is found in one order of its shapes alone", "engine/world/world_body_lists.h",
+             "(contact.shape_a == shape_b && contact.shape_b == shape_a)", "false", "world", ("world/contact_lookup",)),
+    Mutation("a combine rule may change the world between steps", "engine/world/world_shapes.h",
+             "const Lock<Real> lock(*data_, data_->has_rules());", "", "world", ("world/callbacks",)),
+
     # Precise.
     Mutation("precise: a hinge's push turns its body the wrong way", "engine/precise/dynamics/hinge_system.cpp",
              "motion[node.b].angular_velocity += node.inertia_b * cross(block.arm_b, push);",

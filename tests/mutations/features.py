@@ -35,6 +35,8 @@ FEATURES = [
             "made.record.density = 2 * static_cast<Real>(definition.density);", "world/readers"),
     feature("Density, sensor, hit events, hook changed later", WORLD + "state/shapes.cpp",
             "record_mass_change(w, body); wake_body(w, body); }", "wake_body(w, body); }", "world/changes"),
+    feature("Geometry replaced", WORLD + "state/shapes.cpp", "made.form.sensor = w.forms[shape].sensor;", "",
+            "world/geometry_changes"),
     feature("Boxes; rays and points at one shape", WORLD + "world_bodies.h", "all = merged(all, current_aabb(*data_, shape));",
             "all = data_->tight_aabbs[shape];", "world/changes"),
 

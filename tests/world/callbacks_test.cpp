@@ -1,6 +1,7 @@
 // The user's code that a world calls may read it but not change it, and worlds that were moved away say so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <span>
@@ -173,6 +174,68 @@ TYPED_TEST(Callbacks, AWorldMayBeDestroyedFromItsOwnCallbacks) {
   add_box(*world, {0, 0.5});
   Looking drawing([&] { world.reset(); });
   draw(*world, drawing);
+}
+
+std::function<void()> in_rule;
+double rule_that_calls(double a, double b) {
+  if (in_rule) in_rule();
+  return std::min(a, b);
+}
+
+// Setting a material calls rules between steps, several times for a shape with several contacts.
+TYPED_TEST(Callbacks, ACombineRuleMayDestroyTheWorldAndChangeNothing) {
+  using Real = TypeParam;
+  for (const bool asleep : {false, true}) {
+    auto world = std::make_unique<BasicWorld<Real>>();
+    const ShapeId ground = world->shapes(add_ground(*world))[0];
+    world->combine_with(rule_that_calls, rule_that_calls);
+    for (int i = 0; i < 5; ++i) add_box(*world, {2.0 * i, 0.5});
+    run(*world, asleep ? 120 : 3);
+    ASSERT_EQ(world->counts().awake == 0, asleep);
+    int refusals = 0;
+    in_rule = [&] {
+      try {
+        world->set_gravity({});
+      } catch (const Error& error) {
+        refusals += error.kind() == Error::Kind::Unsupported ? 1 : 0;
+      }
+    };
+    world->set_material(ground, {.friction = 0.3});
+    EXPECT_GT(refusals, 9);
+    in_rule = [&] { world.reset(); };
+    BasicWorld<Real>& alias = *world;
+    alias.set_material(ground, {.friction = 0.4});
+    EXPECT_EQ(world, nullptr);
+    // Within a step.
+    in_rule = nullptr;
+    world = std::make_unique<BasicWorld<Real>>();
+    add_ground(*world);
+    world->combine_with(rule_that_calls, rule_that_calls);
+    for (int i = 0; i < 5; ++i) add_box(*world, {2.0 * i, 0.5});
+    in_rule = [&] { world.reset(); };
+    BasicWorld<Real>& other = *world;
+    other.step();
+    EXPECT_EQ(world, nullptr);
+    in_rule = nullptr;
+  }
+}
+
+// The filter is asked in steps alone.
+TYPED_TEST(Callbacks, AFilterMayDestroyTheWorld) {
+  using Real = TypeParam;
+  for (const bool fast : {false, true}) {
+    auto world = std::make_unique<BasicWorld<Real>>();
+    const ShapeId ground = world->shapes(add_ground(*world))[0];
+    add_body(*world, {0, fast ? 3 : 0.4}, {.geometry = Circle{0.5}}, {0, fast ? -300.0 : 0});
+    int asked = 0;
+    world->on_filter([&](ShapeId, ShapeId) { return ++asked, world.reset(), true; });
+    world->set_filter(ground, {.category = 2});
+    world->set_geometry(ground, Box{200, 2}, {0, -1});
+    ASSERT_EQ(asked, 0);
+    BasicWorld<Real>& alias = *world;
+    alias.step();
+    EXPECT_EQ(world, nullptr);
+  }
 }
 
 TYPED_TEST(Callbacks, AWorldThatWasMovedAwaySaysSo) {

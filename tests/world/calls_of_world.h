@@ -122,6 +122,14 @@ std::vector<Row<Real>> rows_of_body(BodyId Ids::*who, bool dynamic) {
        }},
       {"set_density", [=](W& w, S& s) { w.set_density(w.shapes(s.*who)[0], 5); }},
       {"set_sensor", [=](W& w, S& s) { w.set_sensor(w.shapes(s.*who)[0], true); }},
+      {"set_geometry",
+       [=](W& w, S& s) {
+         w.set_geometry(w.shapes(s.*who)[0], Circle{0.3}, {0.1, 0});
+       }},
+      {"set_geometry",
+       [=](W& w, S& s) {
+         w.set_geometry(w.shapes(s.*who)[0], Box{1.4, 1.2});
+       }},
       {"set_hit_events", [=](W& w, S& s) { w.set_hit_events(w.shapes(s.*who)[0], true); }},
       {"set_pre_solve", [=](W& w, S& s) { w.set_pre_solve(w.shapes(s.*who)[0], true); }},
       {"destroy", [=](W& w, S& s) { w.destroy(s.*who); }},
@@ -224,6 +232,18 @@ std::vector<Row<Real>> rows_of_world() {
       {"destroy", [](W& w, S& s) { w.destroy(s.rod); }},
       {"destroy", [](W& w, S& s) { w.destroy(s.sensor); }},
       {"set_filter", [](W& w, S& s) { w.set_filter(s.tile, {.mask = 0}); }},
+      {"set_geometry",
+       [](W& w, S& s) {
+         w.set_geometry(s.tile, Box{4, 1}, {0, -1});
+       }},
+      {"set_geometry",
+       [](W& w, S& s) {
+         w.set_geometry(s.tile, Box{6, 2}, {8, 0.2}, 0.1);
+       }},
+      {"set_geometry",
+       [](W& w, S& s) {
+         w.set_geometry(s.sensor, Box{3, 3}, {0, -59});
+       }},
       {"set_sensor", [](W& w, S& s) { w.set_sensor(s.tile, true); }},
       {"set_sensor", [](W& w, S& s) { w.set_sensor(s.sensor, false); }},
       {"set_material", [](W& w, S& s) { w.set_material(s.tile, {.friction = 1, .surface_speed = 1}); }},

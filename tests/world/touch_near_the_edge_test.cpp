@@ -184,6 +184,8 @@ std::vector<Call<Real>> default_calls() {
       {WorldCall::SetEnabled, [](W& w) { w.set_enabled(only_body(w), true); }},
       {WorldCall::SetDensity,
        [](W& w) { w.set_density(w->shapes(only_body(w)).front(), ShapeDefinition{}.density); }},
+      {WorldCall::SetGeometry,
+       [](W& w) { w.set_geometry(w->shapes(only_body(w)).front(), ShapeDefinition{}.geometry); }},
       {WorldCall::SetSensor, [](W& w) { w.set_sensor(w->shapes(only_body(w)).front(), false); }},
       {WorldCall::SetHitEvents, [](W& w) { w.set_hit_events(w->shapes(only_body(w)).front(), false); }},
       {WorldCall::SetShapePreSolve, [](W& w) { w.set_pre_solve(w->shapes(only_body(w)).front(), false); }},

@@ -7,14 +7,14 @@ matplotlib.
 
 from ._contact import Contact
 from ._errors import (Error, FileError, InvalidValue, RunError, SceneSyntaxError, UnknownName, Unsupported)
-from ._plumb import (Batch, Body, Box, Capsule, Chain, Circle, Distance, Friction, Gear, Joint, LawBody, Motor, Mouse,
-                     Polygon, Prismatic, Pulley, Ratchet, Revolute, Rollback, Segment, Shape, ShapeDefinition, Simulation, Weld,
+from ._plumb import (Batch, Body, Box, Capsule, Chain, Circle, Distance, Friction, Gear, Joint, LawBody, Material, Motor, Mouse,
+                     PastPoses, Polygon, Prismatic, Pulley, Ratchet, Revolute, Rollback, Segment, Shape, ShapeDefinition, Simulation, Weld,
                      Wheel, World, __version__, scene_from_json)
 from .harness import compare, hunt, tune
 
 __all__ = [
     "Batch", "Body", "Box", "Capsule", "Chain", "Circle", "Contact", "Distance", "Error", "FileError", "Friction", "Gear",
-    "InvalidValue", "Joint", "LawBody", "Motor", "Mouse", "Polygon", "Prismatic", "Pulley", "Ratchet", "Revolute",
+    "InvalidValue", "Joint", "LawBody", "Material", "Motor", "Mouse", "PastPoses", "Polygon", "Prismatic", "Pulley", "Ratchet", "Revolute",
     "Rollback", "RunError", "SceneSyntaxError", "Segment", "Shape", "ShapeDefinition", "Simulation", "UnknownName", "Unsupported", "Weld",
     "Wheel", "World", "__version__", "compare", "hunt", "scene_from_json", "tune",
 ]

@@ -40,6 +40,14 @@ double PastPoses<Real>::angle_between(const WorldData<Real>& data, int body, dou
   return stored == nullptr ? now : stored->angle + fraction * (now - stored->angle);
 }
 
+template <class Real>
+BodyPose PastPoses<Real>::pose_between(const BasicWorld<Real>& world, BodyId body, double fraction) const {
+  const Vec2d centre = world.local_point(body, world.centre(body));
+  const int index = static_cast<int>(body.index);
+  const Pose<double> pose = between(world.data(), index, fraction);
+  return {pose.position - pose.rotation * centre, angle_between(world.data(), index, fraction)};
+}
+
 template class PastPoses<float>;
 template class PastPoses<double>;
 

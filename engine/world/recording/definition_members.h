@@ -15,7 +15,8 @@ PLUMB_MEMBERS(Segment, start, end)
 PLUMB_MEMBERS(Material, friction, restitution, rolling_resistance, surface_speed)
 PLUMB_MEMBERS(ShapeDefinition, geometry, position, angle, density, material, filter, sensor, hit_events,
               pre_solve, user_data)
-PLUMB_MEMBERS(ChainDefinition, points, closed, material, filter, sensor, hit_events, pre_solve, user_data)
+PLUMB_MEMBERS(ChainDefinition, points, closed, material, filter, sensor, hit_events, pre_solve, user_data,
+              materials)
 PLUMB_MEMBERS(MassProperties, mass, centre, inertia)
 PLUMB_MEMBERS(BodyDefinition, name, type, position, angle, velocity, angular_velocity, mass, gravity_scale,
               linear_damping, angular_damping, lock_x, lock_y, lock_rotation, may_sleep, awake, user_data,

@@ -60,7 +60,8 @@ namespace plumb {
   X(SetShapePreSolve, set_pre_solve, void, ShapeId, bool)                                     \
   X(SetBodyContinuous, set_continuous, void, BodyId, bool)                                    \
   X(SetLoadEvents, set_load_events, void, JointId, double, double)                            \
-  X(SetThresholds, set_thresholds, void, const Thresholds&)
+  X(SetThresholds, set_thresholds, void, const Thresholds&)                                   \
+  X(SetGeometry, set_geometry, void, ShapeId, const ShapeGeometry&, Vec2d, double)
 
 enum class WorldCall : std::uint8_t {
 #define PLUMB_NAME(id, name, result, ...) id,

@@ -11,7 +11,7 @@ namespace {
 
 // Version of the format. Increase it if the meaning of records changes. Appending new calls to the table
 // needs no increase.
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 
 // "plumbrec" in little-endian order.
 constexpr std::uint64_t kMagic = 0x636572626D756C70u;

@@ -62,6 +62,10 @@ template <class Real>
 int add_shape(WorldData<Real>& w, int body, const ShapeDefinition& definition);
 template <class Real>
 void remove_shape(WorldData<Real>& w, int shape);
+/// Replaces a shape's geometry and its place in the body's frame by those of `definition`; all else stays.
+/// Ends its contacts.
+template <class Real>
+void set_geometry(WorldData<Real>& w, int shape, const ShapeDefinition& definition);
 template <class Real>
 void set_filter(WorldData<Real>& w, int shape, const Filter& filter);
 template <class Real>

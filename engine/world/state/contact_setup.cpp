@@ -8,7 +8,6 @@
 #include "engine/world/state/constants.h"
 #include "engine/world/state/contacts.h"
 #include "engine/world/state/internal_edges.h"
-#include "engine/world/state/lock.h"
 
 namespace plumb {
 namespace {
@@ -72,11 +71,8 @@ unsigned pin_of(const WorldData<Real>& w, const ContactRecord& contact, const Co
 }
 
 // Calls a user's combine rule; throws if its result is not a valid coefficient.
-// Setting a material calls it between steps, so it locks the world itself.
-template <class Real>
-double call_combine_rule(const WorldData<Real>& w, CombineFunction rule, double a, double b, const char* what,
-                         double maximum) {
-  const Lock<Real> lock(w);
+// The caller has locked the world: a step, or setting a material.
+double call_combine_rule(CombineFunction rule, double a, double b, const char* what, double maximum) {
   const double result = rule(a, b);
   if (result >= 0 && result <= maximum) return result;
   throw Error(Error::Kind::Value, "combine rule", what, shortest(result),
@@ -91,7 +87,7 @@ Real restitution_between(const WorldData<Real>& w, int shape_a, int shape_b) {
   return static_cast<Real>(
       w.restitution_rule == nullptr
           ? combine(w.settings.combine_restitution, a.restitution, b.restitution)
-          : call_combine_rule(w, w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
+          : call_combine_rule(w.restitution_rule, a.restitution, b.restitution, "restitution", 1));
 }
 
 template <class Real>
@@ -101,7 +97,7 @@ void mix_materials(const WorldData<Real>& w, const ContactRecord& contact, Conta
   c.friction =
       static_cast<Real>(w.friction_rule == nullptr
                             ? combine(w.settings.combine_friction, a.friction, b.friction)
-                            : call_combine_rule(w, w.friction_rule, a.friction, b.friction, "friction", 1e9));
+                            : call_combine_rule(w.friction_rule, a.friction, b.friction, "friction", 1e9));
   c.restitution = restitution_between(w, contact.shape_a, contact.shape_b);
   const Real radius = std::max(form_a.radius, form_b.radius);
   c.rolling_arm = static_cast<Real>(std::max(a.rolling_resistance, b.rolling_resistance)) * radius;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "engine/world/world_data.h"
 
 /// Returns shapes and chains as definitions, from which they could be created again: the arguments of
@@ -48,7 +50,8 @@ ShapeDefinition shape_definition(const WorldData<Real>& w, int shape) {
   return out;
 }
 
-/// Material and filter are those of the first segment.
+/// Filter, user data and flags are those of the first segment. Segments that differ in material give
+/// `materials`.
 template <class Real>
 ChainDefinition chain_definition(const WorldData<Real>& w, int chain) {
   const std::vector<int>& segments = w.chains[chain].shapes;
@@ -60,6 +63,10 @@ ChainDefinition chain_definition(const WorldData<Real>& w, int chain) {
                       .pre_solve = w.shapes[first].pre_solve,
                       .user_data = w.shape_data.get(first)};
   for (const int segment : segments) out.points.push_back(corner_of(w, segment, 0));
+  const auto differs = [&](int segment) { return material_of(w.shapes[segment]) != out.material; };
+  if (std::any_of(segments.begin(), segments.end(), differs)) {
+    for (const int segment : segments) out.materials.push_back(material_of(w.shapes[segment]));
+  }
   // An open end is its own neighbour (see `add_chain`).
   const Vec2<Real> before = w.corners.data()[w.forms[first].corner].point;
   const Vec2<Real> start = w.convex(first).corners[0].point;

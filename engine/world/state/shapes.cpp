@@ -53,6 +53,26 @@ void set_coefficients(ShapeRecord<Real>& record, const Material& material) {
   record.surface_speed = static_cast<Real>(material.surface_speed);
 }
 
+// Stores a shape's corners and sizes, in the frame of its body's centre of mass.
+template <class Real>
+void store_form(WorldData<Real>& w, int body, int shape, const NewShape<Real>& made) {
+  const Vec2d shift = -w.bodies[body].centre.template as<double>();
+  Corner<Real> corners[kMaxCorners + 2];
+  for (std::size_t i = 0; i < made.corners.size(); ++i) {
+    corners[i] = {(made.corners[i].point + shift).template as<Real>(),
+                  made.corners[i].normal.template as<Real>()};
+  }
+  ShapeForm<Real>& form = w.forms[shape];
+  form = made.form;
+  form.corner = w.corners.add({corners, made.corners.size()});
+  form.count = static_cast<std::uint16_t>(made.count);
+  const Convex<Real> convex = w.convex(shape);
+  Vec2<Real> middle{};
+  for (int i = 0; i < made.count; ++i)
+    middle += (Real(1) / static_cast<Real>(made.count)) * convex.corners[i].point;
+  form.extent = convex_extent(convex, middle);
+}
+
 // Calls visit(edge, contact) for the contacts of one shape.
 template <class Real, class Visit>
 void for_each_contact_of(WorldData<Real>& w, int shape, const Visit& visit) {
@@ -60,6 +80,16 @@ void for_each_contact_of(WorldData<Real>& w, int shape, const Visit& visit) {
                 [&](int edge, ContactRecord& contact) {
                   if (contact.shape_a == shape || contact.shape_b == shape) visit(edge, contact);
                 });
+}
+
+// Reserves memory to end a shape's contacts and to insert it into its tree again.
+template <class Real>
+void reserve_renewal(WorldData<Real>& w, int shape) {
+  w.tree_of(w.bodies[w.shapes[shape].body].type).reserve_more(1);
+  ensure_capacity(w.move_buffer, w.move_buffer.size() + 1);
+  std::size_t contacts = 0;
+  for_each_contact_of(w, shape, [&](int, const ContactRecord&) { ++contacts; });
+  ensure_capacity(w.event_buffer().end, w.event_buffer().end.size() + contacts);
 }
 
 }  // namespace
@@ -98,7 +128,9 @@ NewShape<Real> prepare_segment(const ChainDefinition& definition, int index) {
   made.count = 2;  // two of the four corners are the segment's own
   made.form.chain = true;
   made.form.sensor = definition.sensor;
-  set_coefficients(made.record, definition.material);
+  const std::size_t segment_index = static_cast<std::size_t>(index);
+  set_coefficients(made.record,
+                   definition.materials.empty() ? definition.material : definition.materials[segment_index]);
   made.record.filter = definition.filter;
   made.record.hit_events = definition.hit_events, made.record.pre_solve = definition.pre_solve;
   made.user_data = definition.user_data;
@@ -132,29 +164,14 @@ int insert_shape(WorldData<Real>& w, int body, const NewShape<Real>& made) {
   resize_with_growth(w.forms, w.shapes.size()), resize_with_growth(w.tight_aabbs, w.shapes.size());
   w.shape_data.reset(shape, w.shapes.size());
   if (made.user_data != 0) w.shape_data.at(shape, w.shapes.size()) = made.user_data;
-  ShapeForm<Real>& form = w.forms[shape];
-  form = made.form;
-  // Relative to the centre of mass.
-  const Vec2d shift = -w.bodies[body].centre.template as<double>();
-  Corner<Real> corners[kMaxCorners + 2];
-  for (std::size_t i = 0; i < made.corners.size(); ++i) {
-    corners[i] = {(made.corners[i].point + shift).template as<Real>(),
-                  made.corners[i].normal.template as<Real>()};
-  }
-  form.corner = w.corners.add({corners, made.corners.size()});
-  form.count = static_cast<std::uint16_t>(made.count);
-  const Convex<Real> convex = w.convex(shape);
-  Vec2<Real> middle{};
-  for (int i = 0; i < made.count; ++i)
-    middle += (Real(1) / static_cast<Real>(made.count)) * convex.corners[i].point;
-  form.extent = convex_extent(convex, middle);
+  store_form(w, body, shape, made);
   ShapeRecord<Real>& record = w.shapes[shape];
   record.body = body;
   record.next = w.bodies[body].first_shape;
   if (record.next != kNone) w.shapes[record.next].previous = shape;
   w.bodies[body].first_shape = shape;
   w.reports_hits = w.reports_hits || record.hit_events;
-  if (form.sensor) w.sensors.push_back({shape, {}});
+  if (made.form.sensor) w.sensors.push_back({shape, {}});
   return shape;
 }
 
@@ -221,12 +238,28 @@ void remove_shape(WorldData<Real>& w, int shape) {
 }
 
 template <class Real>
+void set_geometry(WorldData<Real>& w, int shape, const ShapeDefinition& definition) {
+  const int body = w.shapes[shape].body;
+  NewShape<Real> made = prepare_shape<Real>(definition);
+  made.form.sensor = w.forms[shape].sensor;
+  typename CornerPool<Real>::Runs runs{};
+  ++runs[made.corners.size()];
+  w.corners.reserve_runs(runs);
+  reserve_renewal(w, shape);
+  wake_body(w, body);
+  record_mass_change(w, body);
+  destroy_contacts_of(w, body, shape);
+  destroy_proxy(w, shape);
+  w.corners.remove(w.forms[shape].corner, w.forms[shape].stored());
+  store_form(w, body, shape, made);
+  grow_extents(w, body, shape);
+  create_proxy(w, shape);
+  wake_touched(w, shape);
+}
+
+template <class Real>
 void set_filter(WorldData<Real>& w, int shape, const Filter& filter) {
-  w.tree_of(w.bodies[w.shapes[shape].body].type).reserve_more(1);
-  ensure_capacity(w.move_buffer, w.move_buffer.size() + 1);
-  std::size_t contacts = 0;
-  for_each_contact_of(w, shape, [&](int, const ContactRecord&) { ++contacts; });
-  ensure_capacity(w.event_buffer().end, w.event_buffer().end.size() + contacts);
+  reserve_renewal(w, shape);
   wake_body(w, w.shapes[shape].body);
   w.shapes[shape].filter = filter;
   destroy_forbidden_contacts(w, shape);
@@ -325,6 +358,7 @@ void set_flags(WorldData<Real>& w, int shape, bool hit_events, bool pre_solve) {
   template void erase_shape(WorldData<Real>&, int);                                          \
   template int add_shape(WorldData<Real>&, int, const ShapeDefinition&);                     \
   template void remove_shape(WorldData<Real>&, int);                                         \
+  template void set_geometry(WorldData<Real>&, int, const ShapeDefinition&);                 \
   template void set_filter(WorldData<Real>&, int, const Filter&);                            \
   template void set_material(WorldData<Real>&, int, const Material&);                        \
   template void set_density(WorldData<Real>&, int, double);                                  \

@@ -172,6 +172,20 @@ void validate(const ChainDefinition& definition) {
     }
   }
   validate(subject, definition.material);
+  const std::size_t segments = definition.points.size() - (definition.closed ? 0 : 1);
+  const std::size_t materials = definition.materials.size();
+  if (materials != 0 && materials != segments) {
+    throw Error(Error::Kind::Value, subject, "materials", std::to_string(materials),
+                "must be none, or " + std::to_string(segments) + ": one per segment");
+  }
+  for (std::size_t i = 0; i < materials; ++i) {
+    try {
+      validate(subject, definition.materials[i]);
+    } catch (const Error& error) {
+      throw Error(error.kind(), subject, "materials[" + std::to_string(i) + "]." + error.field(),
+                  error.value(), error.problem());
+    }
+  }
 }
 
 void validate(const JointDefinition& definition) {

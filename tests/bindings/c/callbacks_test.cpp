@@ -140,6 +140,38 @@ TEST_F(Callbacks, OfDrawingCannotChangeOrEndTheWorld) {
   plumb_past_poses_destroy(past);
   expect_unharmed();
 }
+// Poses that are drawn, and how often functions that draw were refused to change them.
+struct Posed {
+  plumb_past_poses* past;
+  plumb_world* world;
+  int refusals = 0;
+};
+TEST_F(Callbacks, OfDrawingCannotEndOrReplaceThePosesThatAreDrawn) {
+  Posed posed{plumb_past_poses_create(), world};
+  plumb_debug_draw draw{};
+  draw.context = &posed;
+  draw.polygon = [](const plumb_vec2*, size_t, double, plumb_draw_role, void* context) {
+    Posed& p = *static_cast<Posed*>(context);
+    plumb_past_poses_destroy(p.past);
+    p.refusals += plumb_last_error().status == PLUMB_UNSUPPORTED ? 1 : 0;
+    p.refusals += plumb_past_poses_keep(p.past, p.world) == PLUMB_UNSUPPORTED ? 1 : 0;
+    plumb_clear_error();
+    plumb_pose pose;
+    EXPECT_GT(plumb_past_poses_between(p.past, p.world, 0.5, &pose, 1), 0u) << "reading is allowed";
+    plumb_past_poses* other = plumb_past_poses_create();
+    EXPECT_EQ(plumb_past_poses_keep(other, p.world), PLUMB_OK);
+    plumb_past_poses_destroy(other);
+    EXPECT_EQ(plumb_last_error().status, PLUMB_OK);
+  };
+  EXPECT_EQ(plumb_world_draw_between(world, posed.past, 0.5, &draw, nullptr), PLUMB_OK);
+  EXPECT_EQ(posed.refusals, 4) << "nothing was kept yet";
+  EXPECT_EQ(plumb_past_poses_keep(posed.past, world), PLUMB_OK);
+  EXPECT_EQ(plumb_world_draw_between(world, posed.past, 0.5, &draw, nullptr), PLUMB_OK);
+  EXPECT_EQ(posed.refusals, 8);
+  EXPECT_EQ(plumb_past_poses_keep(posed.past, world), PLUMB_OK);
+  plumb_past_poses_destroy(posed.past);
+  EXPECT_EQ(plumb_last_error().status, PLUMB_OK);
+}
 TEST_F(Callbacks, MayEndAnotherWorld) {
   plumb_world* other = plumb_world_create(nullptr);
   plumb_clear_error();

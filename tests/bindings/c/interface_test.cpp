@@ -357,39 +357,6 @@ TEST_F(C, RunsScenesToATolerance) {
   EXPECT_EQ(plumb_body_position(world, body).y, 10);
 }
 
-TEST_F(C, ChangesWhatWasMade) {
-  box(PLUMB_STATIC, {0, -1}, 40, 2);
-  const plumb_body falls = box(PLUMB_DYNAMIC, {0, 3}, 1, 1);
-  plumb_shape shape;
-  ASSERT_EQ(plumb_body_shapes(world, falls, &shape, 1), 1u);
-  EXPECT_EQ(plumb_body_set_user_data(world, falls, 7), PLUMB_OK);
-  EXPECT_EQ(plumb_shape_set_user_data(world, shape, 8), PLUMB_OK);
-  EXPECT_EQ(plumb_body_set_name(world, falls, "crate"), PLUMB_OK);
-  EXPECT_EQ(plumb_shape_set_density(world, shape, 3), PLUMB_OK);
-  EXPECT_EQ(plumb_body_user_data(world, falls), 7u);
-  EXPECT_EQ(plumb_shape_user_data(world, shape), 8u);
-  EXPECT_STREQ(plumb_body_name(world, falls), "crate");
-  EXPECT_EQ(plumb_body_mass(world, falls), 3);
-  const plumb_box_bounds bounds = plumb_body_box(world, falls);
-  EXPECT_EQ(bounds.lower.x, -0.5);
-  EXPECT_EQ(plumb_shape_box(world, shape).upper.y, 3.5);
-  EXPECT_TRUE(plumb_shape_contains(world, shape, {0.4, 3.4}));
-  double fraction = 0;
-  EXPECT_TRUE(plumb_shape_ray_cast(world, shape, {0, 5}, {0, -3}, &fraction, nullptr));
-  EXPECT_NEAR(fraction, 0.5, 1e-9);
-  EXPECT_EQ(plumb_shape_chain(world, shape).index, PLUMB_NO_INDEX);
-  EXPECT_EQ(plumb_world_moved(world, nullptr, 0), 1u);
-  EXPECT_EQ(plumb_body_set_enabled(world, falls, false), PLUMB_OK);
-  plumb_world_step(world, kDt, 4);
-  EXPECT_FALSE(plumb_body_enabled(world, falls));
-  EXPECT_EQ(plumb_body_position(world, falls).y, 3);
-  EXPECT_EQ(plumb_shape_set_sensor(world, shape, true), PLUMB_OK);
-  EXPECT_TRUE(plumb_shape_sensor(world, shape));
-  EXPECT_EQ(plumb_shape_set_hit_events(world, shape, false), PLUMB_OK);
-  EXPECT_EQ(plumb_shape_set_pre_solve(world, shape, true), PLUMB_OK);
-  EXPECT_EQ(plumb_last_error().status, PLUMB_OK);
-}
-
 TEST_F(C, HooksDisableContacts) {
   box(PLUMB_STATIC, {0, -1}, 40, 2);
   plumb_body_definition body = plumb_default_body();

@@ -148,6 +148,64 @@ test("bodies and shapes are changed after they were made, and asked alone", () =
   assert.ok(shape.sensor);
 });
 
+test("the geometry of a shape is replaced, and all else stays", () => {
+  const {world, ground} = withGround();
+  const body = world.createBody({position: {x: 0, y: 0.5}, shapes: [{box: {width: 1, height: 1}, density: 2, hitEvents: true}]});
+  const [shape] = body.shapes, [floor] = ground.shapes;
+  for (let i = 0; i < 90; ++i) world.step();
+  shape.setGeometry({capsule: {start: {x: 0, y: 0}, end: {x: 1, y: 0}, radius: 0.5}}, {x: 0, y: 1});
+  assert.ok(shape.valid && shape.hitEvents && body.awake);
+  assert.deepEqual(shape.definition.capsule, {start: {x: 0, y: 1}, end: {x: 1, y: 1}, radius: 0.5});
+  near(body.mass, 2 * (1 + Math.PI / 4), 1e-5);
+  floor.setGeometry({polygon: {points: [{x: -20, y: 0}, {x: 20, y: 0}, {x: 0, y: -3}]}}, {x: 0, y: 0.25}, 0);
+  assert.deepEqual(floor.box.upper, {x: 20, y: -0.75});
+  const before = world.fullHash();
+  assert.throws(() => shape.setGeometry({box: {width: 1, height: -1}}), {kind: "InvalidValue", field: "height"});
+  assert.throws(() => shape.setGeometry({circle: {radius: 1}}, {x: NaN, y: 0}), {field: "position"});
+  assert.throws(() => shape.setGeometry({ball: 1}), {kind: "InvalidValue", field: "shape"});
+  assert.throws(() => shape.setGeometry({circle: {radius: 1}}, undefined, "1"), {field: "angle"});
+  assert.equal(world.fullHash(), before);
+});
+
+test("segments of a chain have their own materials", () => {
+  const world = new World(), ground = world.createBody({type: "static"});
+  const points = [{x: 4, y: 0}, {x: 0, y: 0}, {x: -4, y: 0}];
+  const materials = [{friction: 0, restitution: 0.5, rollingResistance: 0, surfaceSpeed: 0},
+    {friction: 0.75, restitution: 0, rollingResistance: 0, surfaceSpeed: 2}];
+  const chain = ground.createChain({points, materials});
+  assert.deepEqual(chain.segments.map((segment) => segment.material), materials);
+  assert.deepEqual(chain.definition.materials, materials);
+  assert.deepEqual(chain.definition.points, points);
+  const again = ground.createChain(chain.definition);
+  assert.deepEqual(again.definition, chain.definition);
+  const even = ground.createChain({points, friction: 0.25, closed: true});
+  assert.deepEqual([even.definition.friction, even.definition.closed, even.definition.materials], [0.25, true, undefined]);
+  assert.throws(() => ground.createChain({points, materials: materials.slice(1)}), {kind: "InvalidValue", field: "materials"});
+  assert.throws(() => ground.createChain({points, materials: [{}, {frition: 1}]}), {kind: "UnknownName", field: "frition"});
+  assert.throws(() => chain.segments[0].setGeometry({circle: {radius: 1}}), {kind: "InvalidValue", field: "handle"});
+});
+
+test("the contact of a begin event is found by its shapes", () => {
+  const {world, ground} = withGround();
+  const ball = world.createBody({position: {x: 0, y: 0.6}, shapes: [{circle: {radius: 0.5}, hitEvents: true}]});
+  const [shape] = ball.shapes, [floor] = ground.shapes;
+  assert.equal(shape.contact(floor), null);
+  let begun = 0;
+  for (let i = 0; i < 30; ++i) {
+    world.step();
+    for (const {shapeA, shapeB} of world.events.begin) {
+      const contact = shapeA.contact(shapeB);
+      assert.deepEqual(shapeB.contact(shapeA), contact);
+      assert.ok(contact.stepImpulse > 0 && contact.points.length === 1);
+      near(contact.points[0].point.y, 0, 0.02);
+      ++begun;
+    }
+  }
+  assert.equal(begun, 1);
+  assert.throws(() => shape.contact(ball), {field: "other"});
+  assert.throws(() => shape.contact(new World().createBody({shapes: [{circle: {radius: 1}}]}).shapes[0]), /of another world/);
+});
+
 test("the package is small, and its types name what it exports", () => {
   const files = JSON.parse(readFileSync(path.join(folder, "package.json"))).files;
   const size = files.reduce((sum, file) => sum + gzipSync(readFileSync(path.join(folder, file))).length, 0);

@@ -24,6 +24,10 @@ world.draw(to, {bounds: {lower: {x: 0, y: 0}, upper: {x: 1, y: 1}}});
 const [shape] = ball.shapes;
 const category: bigint = shape!.filter.category;
 shape!.filter = {mask: -1};
+shape!.setGeometry({box: {width: 1, height: 2}}, {x: 0, y: 1});
+const began: number | undefined = shape!.contact(shape!)?.stepImpulse;
+const chained = ground.createChain({points: [{x: 1, y: 0}, {x: 0, y: 0}], materials: [{friction: 1}]});
+ground.createChain(chained.definition);
 ball.locks = {rotation: true};
 const locked: boolean = ball.locks.x;
 const hit = world.rayCast({x: 0, y: 9}, {x: 0, y: -9}, {condition: (each) => !each.sensor});
@@ -41,4 +45,4 @@ ball.mass = 3;
 // @ts-expect-error: an unknown role is no function
 world.draw({triangle() {}});
 
-export {category, copy, lines, locked, reading, y};
+export {began, category, copy, lines, locked, reading, y};

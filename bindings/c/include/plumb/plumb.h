@@ -224,10 +224,12 @@ typedef struct plumb_chain_definition {
   const plumb_vec2* points; /* m, in the body's frame; 2 or more, 3 or more when closed */
   size_t point_count;
   bool closed;
-  plumb_material material;
+  plumb_material material; /* of all segments, unless there are `materials` */
   plumb_filter filter;
   bool sensor, hit_events, pre_solve;
   uint64_t user_data;
+  const plumb_material* materials; /* one per segment, or none */
+  size_t material_count;
 } plumb_chain_definition;
 
 /* Parts of joints; `on` says that they are there. */
@@ -462,6 +464,11 @@ typedef struct plumb_contact {
 PLUMB_API size_t plumb_body_contacts(const plumb_world* world, plumb_body body, plumb_contact* out,
                                      size_t capacity);
 PLUMB_API size_t plumb_world_contacts(const plumb_world* world, plumb_contact* out, size_t capacity);
+/* Finds the contact of two shapes, in either order; false unless it has points. After a begin event its
+ * normal and separations are those at the beginning of the step that made it, and its impulses those of that
+ * step. */
+PLUMB_API bool plumb_shape_contact(const plumb_world* world, plumb_shape a, plumb_shape b,
+                                   plumb_contact* out);
 
 /* ---- Shapes and chains ------------------------------------------------------------------------------- */
 
@@ -474,6 +481,12 @@ PLUMB_API uint64_t plumb_shape_user_data(const plumb_world* world, plumb_shape s
 PLUMB_API plumb_material plumb_shape_material(const plumb_world* world, plumb_shape shape);
 PLUMB_API plumb_status plumb_shape_set_material(plumb_world* world, plumb_shape shape,
                                                 plumb_material material);
+/* Replaces the geometry, which lies in the body's frame (m, rad) as in a definition; all else stays. Its
+ * contacts end, and begin anew in the next step; the body's mass follows, unless it was given. Refuses
+ * segments of chains. */
+PLUMB_API plumb_status plumb_shape_set_geometry(plumb_world* world, plumb_shape shape,
+                                                const plumb_geometry* geometry, plumb_vec2 position,
+                                                double angle);
 PLUMB_API plumb_filter plumb_shape_filter(const plumb_world* world, plumb_shape shape);
 PLUMB_API plumb_status plumb_shape_set_filter(plumb_world* world, plumb_shape shape, plumb_filter filter);
 PLUMB_API plumb_status plumb_shape_set_user_data(plumb_world* world, plumb_shape shape, uint64_t data);
@@ -506,8 +519,8 @@ PLUMB_API bool plumb_chain_valid(const plumb_world* world, plumb_chain chain);
 PLUMB_API plumb_body plumb_chain_body(const plumb_world* world, plumb_chain chain);
 PLUMB_API size_t plumb_chain_segments(const plumb_world* world, plumb_chain chain, plumb_shape* out,
                                       size_t capacity);
-/* Returns the present definition; its points are valid until the next call of this function or of
- * `plumb_shape_get_definition` for the world. */
+/* Returns the present definition; its points and materials are valid until the next call of this function or
+ * of `plumb_shape_get_definition` for the world. */
 PLUMB_API plumb_chain_definition plumb_chain_get_definition(const plumb_world* world, plumb_chain chain);
 
 /* ---- Joints ------------------------------------------------------------------------------------------ */
@@ -885,7 +898,8 @@ PLUMB_API plumb_status plumb_monitor_reset(plumb_monitor* monitor);
 /* ---- Drawing ----------------------------------------------------------------------------------------- */
 
 /* Poses before a step, for frames that come at other times than steps: keep them before each step, and draw
- * between them and the present ones. */
+ * between them and the present ones. From functions that draw between them, destroying them and keeping
+ * others sets the error PLUMB_UNSUPPORTED and changes nothing. */
 typedef struct plumb_past_poses plumb_past_poses;
 PLUMB_API plumb_past_poses* plumb_past_poses_create(void);
 PLUMB_API void plumb_past_poses_destroy(plumb_past_poses* past);
