@@ -194,7 +194,8 @@ void call_pre_solve_hook(WorldData<Real>& w, Real dt) {
   decide_impacts_by_hook(w);
 }
 
-// Ends the contacts that are disabled in this step without asking the hook.
+// Ends the contacts that are disabled in this step, by the hook or because they yield to an open joint,
+// unless they are destroyed.
 template <class Real>
 void end_disabled_contacts(WorldData<Real>& w) {
   if (w.disabled_pairs.size() == 0) return;
@@ -207,8 +208,9 @@ void end_disabled_contacts(WorldData<Real>& w) {
   for (std::size_t block = 0; block < w.scratch.narrow_phase.contact_runs.size(); ++block) {
     const ContactRun<Real>& run = w.scratch.narrow_phase.contact_runs[block];
     for (int i = 0; i < run.count; ++i) {
-      if (!is_disabled(run.first[i])) continue;
-      w.scratch.narrow_phase.contact_changes[run.first_index + i] |= kEnded;
+      std::uint8_t& change = w.scratch.narrow_phase.contact_changes[run.first_index + i];
+      if ((change & kSeparated) != 0 || !is_disabled(run.first[i])) continue;
+      change |= kEnded;
       w.scratch.block_firsts[block] |= kEnded;
     }
   }
@@ -314,8 +316,8 @@ void update_contacts(WorldData<Real>& w, Real dt, Real h) {
   try {
     yield_to_open_joints(w);
     update_each(w, dt, h);
-    end_disabled_contacts(w);
     call_pre_solve_hook(w, dt);
+    end_disabled_contacts(w);
     collect_changes(w);
   } catch (...) {
     invalidate_all(w);
