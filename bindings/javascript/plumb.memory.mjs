@@ -10,7 +10,7 @@ async function unpack() {
 const kKinds = ["SyntaxError", "InvalidValue", "UnknownName", "Unsupported", "RunError", "FileError"];
 const kNoSystem = 52;  // WASI's ENOSYS: there are no files and no processes
 
-/// What the engine asks the user's functions; plumb.asking.mjs sets them.
+/// Holds the functions that the engine calls back, for answers of the user; plumb.asking.mjs sets them.
 export const answers = {preSolve: null, filter: null, condition: null};
 
 const imports = {
