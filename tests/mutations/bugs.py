@@ -571,6 +571,8 @@ MUTATIONS = [
              "record.restitution = static_cast<Real>(", "record.restitution = static_cast<float>(", "simulation"),
     Mutation("pairs of moving bodies are known a step late", "engine/world/step/finalize.cpp",
              "predicted_aabb(box, dt * motion.velocity, rotation_distance, extent)", "box", "simulation"),
+    Mutation("contacts of turning presses do not yield", "engine/world/solvers/driven_contacts.cpp",
+             "c.hardness = ContactHardness::Driven; any = true;", "any = true;", "world", ("world/squeezed_planks",)),
     Mutation("short steps forget the impulses of long ones", "engine/world/state/impulse_memory.cpp",
              "(1 - h_ / w_.impulse_h) * shrunk / w_.impulse_h)", "0)", "world", ("world/variable_step",)),
     Mutation("forces at their limit point along a diagonal", "engine/linear_algebra/bounded_rows.cpp",

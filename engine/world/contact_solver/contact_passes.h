@@ -41,6 +41,20 @@ template <class Number, class Real>
           select(is_gap, Number(soft[1].impulse_scale), Number(soft[0].impulse_scale))};
 }
 
+/// Lets a driven contact yield to what exceeds its load (solvers/driven_contacts.h).
+template <class Number, class Pair, class Contact>
+[[gnu::always_inline]] inline void yield_to_excess(Pair& pair, Contact& c) {
+  using std::max;
+  using Real = Scalar<Number>;
+  Number yielded[2];
+  for (int i = 0; i < 2; ++i) {
+    yielded[i] = Real(-kDrivenYield) * max(c.normal_impulse[i] - c.load_estimate[i], Number(0));
+    c.normal_impulse[i] += yielded[i];
+  }
+  pair.apply_normal(yielded[0] + yielded[1], c.arm_a[0] * yielded[0] + c.arm_a[1] * yielded[1],
+                    c.arm_b[0] * yielded[0] + c.arm_b[1] * yielded[1]);
+}
+
 template <class Number, class Pair, class Contact, class Real>
 [[gnu::always_inline]] inline void solve_contact(Pair& pair, Contact& c, const ContactStep<Real>& step) {
   using std::min;
@@ -61,6 +75,8 @@ template <class Number, class Pair, class Contact, class Real>
     solve_normal(pair, c,
                  soft_bias<Number>(c.current_separation[0], gap_tolerance, min_bias, soft, step.inverse_h));
   }
+  if (is_driven(c)) [[unlikely]]
+    yield_to_excess<Number>(pair, c);
   if (c.tracking != ImpactTracking::Off) record_max_impulse(c);
 }
 
@@ -165,6 +181,8 @@ template <class Number, class Pair, class Contact, class Real>
                ends = old_squared - limit * limit;
   if (const auto lanes = max(begins, ends) > Number(0); any(lanes)) [[unlikely]]
     solve_coupled_friction<Number, Real>(pair, c, lanes, bias_p, bias_q);
+  if (is_driven(c)) [[unlikely]]
+    yield_to_excess<Number>(pair, c);
   const Number total_normal = normal_sum(c);
   if (c.tracking != ImpactTracking::Off) c.step_impulse += total_normal;
   if (rolls(c)) {

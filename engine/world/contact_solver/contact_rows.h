@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "engine/world/contact_solver/contact_constraint.h"
 #include "engine/world/contact_solver/locked_axes.h"
@@ -36,11 +37,11 @@ struct ContactPair {
     return inverse > 0 ? 1 / inverse : Real(0);
   }
 
-  /// Applies impulses that bring the chosen points' velocities along n to `target`, such that their sums stay
-  /// >= 0. The points are coupled by the bodies' rotation and solved together (Catto, 2007). A point that
-  /// would have to pull gets no impulse, and the other one is solved alone.
-  void solve_normal_block(const Real (&target)[2], bool first, bool second) {
-    const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
+  /// Returns the changes of impulses that bring the chosen points' velocities along n to `target`, such that
+  /// their sums with the impulses `p` and `q` stay >= 0. The points are coupled by the bodies' rotation and
+  /// solved together (Catto, 2007). A point that would have to pull gets no impulse, and the other one is
+  /// solved alone.
+  std::array<Real, 2> normal_block(const Real (&target)[2], bool first, bool second, Real p, Real q) const {
     const Real compliance = driver_compliance(a, b, c, ContactRow::Normal);
     const Real rate_p = normal_velocity(0) + compliance * p - target[0],
                rate_q = normal_velocity(1) + compliance * q - target[1];
@@ -62,7 +63,17 @@ struct ContactPair {
     } else if (second) {
       dq = std::max(-c.mass[1] * rate_q, -q);
     }
-    apply_normal(dp, dq);
+    return {dp, dq};
+  }
+  /// Applies them. Driven contacts yield to what exceeds their load (solvers/driven_contacts.h).
+  void solve_normal_block(const Real (&target)[2], bool first, bool second) {
+    const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
+    std::array<Real, 2> by = normal_block(target, first, second, p, q);
+    if (is_driven(c)) {
+      by[0] -= Real(kDrivenYield) * std::max(p + by[0] - c.load_estimate[0], Real(0));
+      by[1] -= Real(kDrivenYield) * std::max(q + by[1] - c.load_estimate[1], Real(0));
+    }
+    apply_normal(by[0], by[1]);
   }
   void apply_normal(Real first, Real second) {
     c.normal_impulse[0] += first, c.normal_impulse[1] += second;

@@ -25,7 +25,7 @@ void warm_start_one(ContactPair<Real> pair, Real ratio) {
   const Real normal[2] = {ratio * c.normal_impulse[0], ratio * c.normal_impulse[1]};
   const Real friction = ratio * c.tangent_impulse, rolling = ratio * c.rolling_impulse;
   c.normal_impulse[0] = c.normal_impulse[1] = c.tangent_impulse = c.rolling_impulse = 0;
-  c.load_estimate[0] = c.load_estimate[1] = 0;
+  if (!is_driven(c)) c.load_estimate[0] = c.load_estimate[1] = 0;
   pair.apply_normal(normal[0], normal[1]);
   pair.set_friction(friction);
   if (c.rolling_arm > 0) pair.set_rolling(rolling);

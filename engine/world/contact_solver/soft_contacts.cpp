@@ -138,12 +138,15 @@ template <class Real>
                                                               const SolverBody<Real>* motion,
                                                               const std::vector<char>& excluded) {
   const bool stopped_rolling = !rolls(c) && c.rolling_impulse != 0;
-  const bool is_single = c.hardness == ContactHardness::Rigid || stopped_rolling || c.locks != 0 ||
-                         (!excluded.empty() && excluded[c.contact]);
+  const bool is_single =
+      is_rigid(c) || stopped_rolling || c.locks != 0 || (!excluded.empty() && excluded[c.contact]);
   if (is_single) return kSingle;
   const int kind = (c.count == 2) + 2 * rolls(c);
   if (c.hardness == ContactHardness::Soft) return kind;
-  return kind + (is_dynamic(motion[c.body_a]) ? 4 : is_dynamic(motion[c.body_b]) ? 8 : 12);
+  return kind + (is_driven(c) ? 12 : 0) +
+         (is_dynamic(motion[c.body_a])   ? 4
+          : is_dynamic(motion[c.body_b]) ? 8
+                                         : 12);
 }
 
 // Calls `add_block(contacts, count)` and `add_single(contact)`.

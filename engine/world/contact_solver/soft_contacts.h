@@ -74,7 +74,7 @@ class SoftContacts {
     ColourEnd start{};  ///< indices of its first block and of its first single contact
   };
 
-  static constexpr int kKinds = 16;       ///< of contacts that share a block
+  static constexpr int kKinds = 28;       ///< of contacts that share a block
   static constexpr int kSingle = kKinds;  ///< stands for single contacts
   static constexpr int kSegment = 1024;   ///< contacts; the last block of each kind may be partly filled
 

@@ -1,12 +1,14 @@
 #include "engine/world/islands/direct_islands.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "engine/world/ablation/ablation.h"
 #include "engine/world/contact_solver/contact_passes.h"
+#include "engine/world/contact_solver/contact_rows.h"
 #include "engine/world/integration/free_motion.h"
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/islands/island_choice.h"
@@ -19,6 +21,7 @@ namespace {
 // Returns a contact's hardness outside of direct islands.
 template <class Real>
 ContactHardness hardness_of(const WorldData<Real>& w, const ContactConstraint<Real>& c) {
+  if (is_driven(c)) return ContactHardness::Driven;
   return w.is_dynamic(c.body_a) && w.is_dynamic(c.body_b) ? ContactHardness::Soft : ContactHardness::Stiff;
 }
 
@@ -111,6 +114,7 @@ bool add_rows(const WorldData<Real>& w, DirectIsland<Real>& island, Real dt, boo
       row.impulse = &c->normal_impulse[i];
       row.unilateral = true;
       row.block = block;
+      if (is_driven(*c)) row.softening = float(kDrivenCompliance);
       rows.push_back(row);
     }
     if (static_cast<int>(rows.size()) > before) ++block;
@@ -220,6 +224,19 @@ void for_each_direct(WorldData<Real>& w, const Act& act) {
   });
 }
 
+// Sets the loads that the rows of a driven contact bear without yielding, no more than what the contact would
+// bear if nothing else held its bodies: an impact ends within the step for whose whole length its load is
+// known.
+template <class Real>
+void set_loads(WorldData<Real>& w, ContactConstraint<Real>& c, DirectRow<Real>* const (&rows)[2]) {
+  const Real p = c.normal_impulse[0], q = c.normal_impulse[1];
+  const Real target[2] = {rows[0] ? -rows[0]->bias : Real(0), rows[1] ? -rows[1]->bias : Real(0)};
+  const std::array<Real, 2> by =
+      ContactPair<Real>(w.motion.data(), c).normal_block(target, rows[0], rows[1], p, q);
+  if (rows[0]) rows[0]->load = std::min(c.load_estimate[0], p + by[0]);
+  if (rows[1]) rows[1]->load = std::min(c.load_estimate[1], q + by[1]);
+}
+
 }  // namespace
 
 template <class Real>
@@ -248,7 +265,8 @@ void prepare_direct_islands(WorldData<Real>& w, Real dt) {
       return solve_by_iterations(w, island);
     if (!add_rows(w, island, dt, any_distance) && !(any_distance && add_rows(w, island, dt, false)))
       return solve_by_iterations(w, island);
-    for (ContactConstraint<Real>* c : island.contacts) c->hardness = ContactHardness::Rigid;
+    for (ContactConstraint<Real>* c : island.contacts)
+      c->hardness = is_driven(*c) ? ContactHardness::DrivenRigid : ContactHardness::Rigid;
     island.system.assemble(w.motion.data());
   });
   prepare_jointed_islands(w);
@@ -262,7 +280,7 @@ void renew_island_of(WorldData<Real>& w, const ContactConstraint<Real>& c) {
   if (index == kNone) return;
   if (index < s.jointed_count && s.jointed_islands[index].root == root)
     return load_impulses(s.jointed_islands[index]);
-  if (c.hardness != ContactHardness::Rigid) return;
+  if (!is_rigid(c)) return;
   DirectIsland<Real>& island = s.direct_islands[index];
   if (!add_rows(w, island, Real(0), true)) return solve_by_iterations(w, island);
   island.system.assemble(w.motion.data());
@@ -275,16 +293,19 @@ void solve_direct_islands(WorldData<Real>& w, const ContactStep<Real>& step, boo
     if (island.system.rows.empty()) return;  // solved by iterations
     std::size_t next = 0;
     for (ContactConstraint<Real>* c : island.contacts) {
+      DirectRow<Real>* of_point[2] = {};
       for (int k = 0; k < c->count; ++k) {
         if (next >= island.system.rows.size() || island.system.rows[next].impulse != &c->normal_impulse[k])
           continue;
         DirectRow<Real>& row = island.system.rows[next++];
+        of_point[k] = &row;
         const Real s = current_separation(w.motion.data(), row, c->separation[k]);
         const Real rate = step.softness[static_cast<int>(ContactHardness::Rigid)][0].bias_rate;
         row.bias = s > 0      ? s * step.inverse_h
                    : use_bias ? std::max(rate * s, -c->depenetration_speed)
                               : Real(0);
       }
+      if (is_driven(*c)) set_loads(w, *c, of_point);
     }
     if (island.system.solve_impulses(w.motion.data(), use_bias)) {
       island.system.apply(w.motion.data());

@@ -9,6 +9,7 @@
 
 #include "engine/core/union_find.h"
 #include "engine/world/integration/free_motion.h"
+#include "engine/world/state/drivers.h"
 
 namespace plumb {
 namespace {
@@ -148,14 +149,6 @@ bool closes_or_opens(const ContactConstraint<Real>& c, const SolverBody<Real>& a
     if (std::abs(rate) > tolerance) return true;
   }
   return false;
-}
-
-// Returns true if a kinematic body moves.
-template <class Real>
-bool is_driver(const WorldData<Real>& w, int body) {
-  const SolverBody<Real>& motion = w.motion[body];
-  return w.bodies[body].type == BodyType::Kinematic &&
-         (motion.velocity.x != 0 || motion.velocity.y != 0 || motion.angular_velocity != 0);
 }
 
 }  // namespace

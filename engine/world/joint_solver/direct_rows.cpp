@@ -131,11 +131,12 @@ template <class Real>
 void DirectRows<Real>::factorise(Factors& factors, int from) {
   EnvelopeMatrix& matrix = factors.matrix;
   for (int i = from; i < matrix.size(); ++i) {
-    const bool active = rows[rows_in_order_[i]].active;
+    const DirectRow<Real>& row = rows[rows_in_order_[i]];
+    const bool active = row.active;
     for (int j = first_columns_[i]; j < i; ++j)
       matrix.at(i, j) = active && rows[rows_in_order_[j]].active ? matrix_.at(i, j) : 0;
-    matrix.at(i, i) =
-        active ? matrix_.at(i, i) * (1 + regularisation_) : 1;  // 1: no coupling, and no impulse
+    matrix.at(i, i) = active ? matrix_.at(i, i) * (1 + regularisation_ + row.softening)
+                             : 1;  // 1: no coupling, and no impulse
   }
   matrix.factorise(from);
 }
@@ -181,7 +182,7 @@ bool DirectRows<Real>::solve_impulses(SolverBody<Real>* motion, bool use_bias) {
     for (int i = 0, count = matrix_.size(); i < count; ++i) {
       DirectRow<Real>& row = all[rows_in_order[i]];
       row.violated = row.unilateral && (row.active ? double(*row.impulse) + x[i] < 0
-                                                   : velocity_error(motion, row) + velocity_response(i) <
+                                                   : velocity_error(motion, i) + velocity_response(i) <
                                                          -kViolationTolerance * max_rate);
       if (row.violated) ++violated, last = &row;
     }
@@ -213,7 +214,7 @@ double DirectRows<Real>::solve_active(const SolverBody<Real>* motion, const Enve
   double* const x = x_.data();
   for (int i = 0; i < count; ++i) {
     const DirectRow<Real>& row = all[rows_in_order[i]];
-    x[i] = row.active ? -velocity_error(motion, row) : 0;
+    x[i] = row.active ? -velocity_error(motion, i) : 0;
     max_rate = std::max(max_rate, std::abs(x[i]));
     load = std::max(load, diagonal[i] * double(*row.impulse));
   }
@@ -244,10 +245,13 @@ double DirectRows<Real>::solve_active(const SolverBody<Real>* motion, const Enve
 
 // Returns the velocity error of a row, m/s: J v + bias.
 template <class Real>
-double DirectRows<Real>::velocity_error(const SolverBody<Real>* motion, const DirectRow<Real>& row) const {
+double DirectRows<Real>::velocity_error(const SolverBody<Real>* motion, int position) const {
+  const DirectRow<Real>& row = rows[rows_in_order_[position]];
   const SolverBody<Real>&a = motion[row.a], &b = motion[row.b];
-  return double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
-                dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias);
+  const double rate = double(dot(row.linear_a, a.velocity) + row.angular_a * a.angular_velocity +
+                             dot(row.linear_b, b.velocity) + row.angular_b * b.angular_velocity + row.bias);
+  if (row.softening == 0) return rate;
+  return rate + row.softening * diagonal_[position] * double(*row.impulse - row.load);
 }
 
 // Returns the velocity that the solution causes along a row, m/s.

@@ -22,6 +22,8 @@ struct DirectRow {
   bool violated = false;     ///< set by `solve_impulses`: it would pull, or is inactive but must push
   Real removed_impulse = 0;  ///< removed by `solve_impulses`, because the row is no longer active
   int block = 0;             ///< index of its constraint
+  float softening = 0;  ///< compliance, as a fraction of its mobility, to what its impulse exceeds `load`
+  Real load = 0;        ///< N s
 };
 
 /// The rows of a few connected constraints, solved together: J M^-1 J^T x = -(J v + bias), sparsely. It
@@ -76,7 +78,7 @@ class DirectRows {
   void factorise(Factors& factors, int from);
   int exchange_violated(Factors& factors);
   double solve_active(const SolverBody<Real>* motion, const EnvelopeMatrix& matrix);
-  double velocity_error(const SolverBody<Real>* motion, const DirectRow<Real>& row) const;
+  double velocity_error(const SolverBody<Real>* motion, int position) const;
   double velocity_response(int position) const;
   void remove_inactive(SolverBody<Real>* motion);
   void restore_removed(SolverBody<Real>* motion);

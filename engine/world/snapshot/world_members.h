@@ -19,7 +19,7 @@ inline constexpr int kEnumerators<Integrator> = 3;
 template <>
 inline constexpr int kEnumerators<ContactHome> = 4;
 template <>
-inline constexpr int kEnumerators<ContactHardness> = 3;
+inline constexpr int kEnumerators<ContactHardness> = 5;
 template <>
 inline constexpr int kEnumerators<ImpactTracking> = 3;
 template <>

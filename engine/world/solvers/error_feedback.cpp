@@ -58,12 +58,14 @@ void add_contacts(WorldData<Real>& w, Real rate) {
     for (int i = 0; i < c.count; ++i) {
       const Real overlap = -pair.separation(i) - kSlop * c.depenetration_speed;
       if (!(overlap > 0) || !(c.mass[i] > 0)) continue;
-      add_row(w, {.body_a = c.body_a,
-                  .body_b = c.body_b,
-                  .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
-                  .target_speed = std::min(rate * overlap, c.depenetration_speed),
-                  .compliance = driver_compliance(pair.a, pair.b, c, ContactRow::Normal),
-                  .min_impulse = 0});
+      add_row(w,
+              {.body_a = c.body_a,
+               .body_b = c.body_b,
+               .row = {-c.normal, c.normal, -c.arm_a[i], c.arm_b[i], 0},
+               .target_speed = std::min(rate * overlap, c.depenetration_speed),
+               .compliance = driver_compliance(pair.a, pair.b, c, ContactRow::Normal) +
+                             (is_driven(c) && c.mass[i] > 0 ? Real(kDrivenCompliance) / c.mass[i] : Real(0)),
+               .min_impulse = 0});
     }
   });
 }

@@ -1,5 +1,6 @@
 #include "engine/world/contact_solver/sequential_contacts.h"
 #include "engine/world/integration/free_motion.h"
+#include "engine/world/solvers/driven_contacts.h"
 #include "engine/world/solvers/error_feedback.h"
 #include "engine/world/solvers/solvers.h"
 #include "engine/world/state/constants.h"
@@ -30,6 +31,8 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
 
   prepare_integration(w, h, substeps, Integrator::SemiImplicitEuler);
   if (jointed) w.joint_set.prepare(bodies, joints);
+  const bool driven = mark_driven_contacts(w);
+  if (driven) set_driver_loads(w);
   for (int substep = 0; substep < substeps; ++substep) {
     integrate_velocities(w);
     if (jointed) w.joint_set.warm_start(bodies, joints);
@@ -46,6 +49,7 @@ void solve_sequential_impulses(WorldData<Real>& w, double h, int substeps) {
     if (jointed && substep + 1 < substeps) w.joint_set.evaluate(bodies, joints);
     contacts.warm_start = 1;
   }
+  if (driven) unmark_driven_contacts(w);
 }
 
 template void solve_sequential_impulses(WorldData<float>&, double, int);

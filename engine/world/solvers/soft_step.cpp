@@ -11,6 +11,7 @@
 #include "engine/world/islands/hinge_trees.h"
 #include "engine/world/islands/joint_gaps.h"
 #include "engine/world/islands/jointed_islands.h"
+#include "engine/world/solvers/driven_contacts.h"
 #include "engine/world/solvers/restitution.h"
 #include "engine/world/solvers/solvers.h"
 #include "engine/world/solvers/turning_contacts.h"
@@ -132,12 +133,16 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   const Real warm_start = static_cast<Real>(warm_start_ratio(w, h));
   // A step shorter than those before keeps their stiffness, so that overlaps at rest do not change.
   const double longest = std::max(h, w.impulse_h), length_ratio = h / longest;
+  const Softness<Real> stiff = contact_softness<Real>(tuning::kStiffFrequencyRatio, h, longest),
+                       direct{static_cast<Real>(length_ratio * tuning::kDirectPushFraction / longest), 1, 0};
   ContactStep<Real> contacts{
       .h = static_cast<Real>(h),
       .inverse_h = static_cast<Real>(1 / h),
       .softness = {{contact_softness<Real>(tuning::kContactFrequencyRatio, h, longest)},
-                   {contact_softness<Real>(tuning::kStiffFrequencyRatio, h, longest)},
-                   {{static_cast<Real>(length_ratio * tuning::kDirectPushFraction / longest), 1, 0}}},
+                   {stiff},
+                   {direct},
+                   {{stiff.bias_rate, 1, 0}},  // driven ones yield in their own way
+                   {direct}},
       .warm_start = warm_start,
       .bounce_threshold = bounce_threshold(w, h * substeps),
       .load_push_fraction = Real(tuning::kLoadPushFraction)};
@@ -153,7 +158,9 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
                          .stiff_rate = rigid.bias_rate,
                          .warm_start = warm_start};
   const SolverBodies<Real> bodies = w.solver_bodies();
+  const bool driven = mark_driven_contacts(w);
   prepare_direct_islands(w, static_cast<Real>(h * substeps));
+  if (driven) set_driver_loads(w);
   begin_contact_gains(w, static_cast<Real>(h * substeps));
   if (jointed) w.joint_set.prepare(bodies, joints, joints_in_islands(w), &w.scheduler);
   const bool iterated = jointed && any_joint_iterated(w);
@@ -218,6 +225,7 @@ void solve_soft_steps(WorldData<Real>& w, double h, int substeps) {
   if (jointed) w.joint_set.finish(bodies, &w.scheduler);
   if (jointed) add_impact_loads(w, joints);
   finish_direct_islands(w);
+  if (driven) unmark_driven_contacts(w);
 }
 
 template void solve_soft_steps(WorldData<float>&, double, int);
