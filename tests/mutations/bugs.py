@@ -571,6 +571,8 @@ MUTATIONS = [
              "record.restitution = static_cast<Real>(", "record.restitution = static_cast<float>(", "simulation"),
     Mutation("pairs of moving bodies are known a step late", "engine/world/step/finalize.cpp",
              "predicted_aabb(box, dt * motion.velocity, rotation_distance, extent)", "box", "simulation"),
+    Mutation("slips are sought in steps that grow", "engine/world/islands/friction_cones.h",
+             "std::max(cone.last_step / (cone.last_missing - missing), cone.gain / 4)", "std::max(cone.gain / 2, 1.0)", "world", ("world/wedge_lift",)),
     Mutation("contacts of turning presses do not yield", "engine/world/solvers/driven_contacts.cpp",
              "c.hardness = ContactHardness::Driven; any = true;", "any = true;", "world", ("world/squeezed_planks",)),
     Mutation("short steps forget the impulses of long ones", "engine/world/state/impulse_memory.cpp",

@@ -38,6 +38,7 @@ struct ContactBlock {
   ImpactTracking tracking;          ///< the maximum of all contacts
   bool bounces;                     ///< at least one has restitution
   bool rolls;                       ///< all have rolling resistance
+  bool plain;                       ///< none is tracked, driven or has rolling resistance
   Number rolling_arm, rolling_impulse, max_normal_impulse[2], step_impulse;
   Constraint* contact[kLanes];
 };
@@ -49,6 +50,17 @@ bool rolls(const ContactConstraint<Real>& c) {
 template <class Number>
 [[gnu::always_inline]] inline bool rolls(const ContactBlock<Number>& block) {
   return block.rolls;
+}
+
+/// Returns true if a contact is neither tracked nor driven, and has no rolling resistance: one test for what
+/// most contacts do not need.
+template <class Real>
+bool is_plain(const ContactConstraint<Real>& c) {
+  return c.tracking == ImpactTracking::Off && !is_driven(c) && !rolls(c);
+}
+template <class Number>
+[[gnu::always_inline]] inline bool is_plain(const ContactBlock<Number>& block) {
+  return block.plain;
 }
 
 /// Copies four members of each contact of a block, beginning with a given one, to or from the block's rows.
@@ -126,6 +138,7 @@ template <class Number, class Real>
 
   const Constraint& first = *block.contact[0];
   block.hardness = first.hardness, block.count = first.count, block.rolls = rolls(first);
+  block.plain = block.tracking == ImpactTracking::Off && !is_driven(first) && !block.rolls;
   const bool both = first.hardness == ContactHardness::Soft;
   block.is_dynamic_a = both || is_dynamic(motion[first.body_a]);
   block.is_dynamic_b = both || is_dynamic(motion[first.body_b]);

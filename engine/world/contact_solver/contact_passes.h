@@ -75,8 +75,8 @@ template <class Number, class Pair, class Contact, class Real>
     solve_normal(pair, c,
                  soft_bias<Number>(c.current_separation[0], gap_tolerance, min_bias, soft, step.inverse_h));
   }
-  if (is_driven(c)) [[unlikely]]
-    yield_to_excess<Number>(pair, c);
+  if (is_plain(c)) return;
+  if (is_driven(c)) yield_to_excess<Number>(pair, c);
   if (c.tracking != ImpactTracking::Off) record_max_impulse(c);
 }
 
@@ -181,8 +181,8 @@ template <class Number, class Pair, class Contact, class Real>
                ends = old_squared - limit * limit;
   if (const auto lanes = max(begins, ends) > Number(0); any(lanes)) [[unlikely]]
     solve_coupled_friction<Number, Real>(pair, c, lanes, bias_p, bias_q);
-  if (is_driven(c)) [[unlikely]]
-    yield_to_excess<Number>(pair, c);
+  if (is_plain(c)) return;
+  if (is_driven(c)) yield_to_excess<Number>(pair, c);
   const Number total_normal = normal_sum(c);
   if (c.tracking != ImpactTracking::Off) c.step_impulse += total_normal;
   if (rolls(c)) {

@@ -34,7 +34,9 @@ inline FrictionRays rays_of(const ContactImpulses& c, double friction) {
 /// Makes the rows of friction cones for the slip that was found. Returns true if a slip has changed so much
 /// that another solve is needed. For a single contact, the slip u that results depends on the slip s for
 /// which its rows were made by du/ds = mu^2 k / (1 + mu^2 k), with k the mobility along its tangent over that
-/// along its normal. So changing s by (1 + mu^2 k) (u - s) leads to u = s at once.
+/// along its normal. So changing s by (1 + mu^2 k) (u - s) leads to u = s at once. Joints and other contacts
+/// change du/ds, on a wedge that is nearly self-locking to below -1, where equal steps never end: later
+/// changes follow the secant through the last two.
 template <class Real>
 bool update_slips(JointedIsland<Real>& island, bool midpoint) {
   // Tolerated error of a velocity along the normal, as a fraction of the largest one. Contacts that stick
@@ -56,10 +58,13 @@ bool update_slips(JointedIsland<Real>& island, bool midpoint) {
       sliding = 0.5 * (sliding + along(before_b.start_velocity - before_a.start_velocity, before_a.start_spin,
                                        before_b.start_spin));
     const double missing = std::abs(sliding - double(c.surface_speed)) - cone.slip;
-    if (missing * cone.last_change < 0) cone.gain = std::max(0.5 * cone.gain, 1.0);
-    cone.last_change = missing;
+    // Where the last change was too large, the secant says by how much. Other cones change as well, and rows
+    // reach bounds: with 1/16 in place of 1/4 half as many again of a crowd's islands stay unsolved.
+    if (missing * cone.last_missing < 0)
+      cone.gain = std::max(cone.last_step / (cone.last_missing - missing), cone.gain / 4);
     const double slip = std::max(cone.slip + cone.gain * missing, 0.0);
-    const double change = cone.friction * (slip - cone.slip) * (midpoint ? 2 : 1);
+    cone.last_missing = missing, cone.last_step = slip - cone.slip;
+    const double change = cone.friction * cone.last_step * (midpoint ? 2 : 1);
     for (int i = cone.first; i < cone.first + cone.count; ++i) {
       BoundedRow& row = island.system.rows[i];
       row.target -= change;

@@ -29,9 +29,11 @@ bool mark_driven_contacts(WorldData<Real>& w) {
     return false;
   bool any = false;
   for_each_with_ground(w, [&](ContactConstraint<Real>& c) {
-    // Contacts of locked bodies have a compliance of their own (contact_solver/locked_axes.h).
+    // Contacts of locked bodies have a compliance of their own (contact_solver/locked_axes.h), and in islands
+    // with joints others yield (islands/island_rows.h).
     if (c.hardness != ContactHardness::Stiff || c.locks != 0 ||
-        !(is_driver(w, c.body_a) || is_driver(w, c.body_b)))
+        !(is_driver(w, c.body_a) || is_driver(w, c.body_b)) ||
+        w.bodies[w.is_dynamic(c.body_a) ? c.body_a : c.body_b].first_joint != kNone)
       return;
     c.hardness = ContactHardness::Driven;
     any = true;

@@ -55,10 +55,11 @@ template <class Real>
 struct FrictionCone {
   const ContactConstraint<Real>* contact = nullptr;
   int block = 0;
-  int first = 0, count = 0;          ///< rows
-  double friction = 0;               ///< coefficient
-  double slip = 0;                   ///< m/s, along the tangent: the slip for which the rows were made
-  double gain = 1, last_change = 0;  ///< factor of the next change of `slip`; m/s, the last change
+  int first = 0, count = 0;                ///< rows
+  double friction = 0;                     ///< coefficient
+  double slip = 0;                         ///< m/s, along the tangent: the slip for which the rows were made
+  double gain = 1;                         ///< factor of the next change of `slip`
+  double last_missing = 0, last_step = 0;  ///< m/s: what `slip` missed before its last change; that change
 };
 
 /// Impulses of a contact, N s and N m s.
