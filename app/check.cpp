@@ -151,7 +151,10 @@ int start_check(const CheckOptions& options) {
   const reference::ProcessLimits limits{.seconds = seconds};
   auto engine = reference::make_process_backend(kOwnEngine, options.command, "", limits);
   const reference::Identity identity = engine->identity();
-  if (!identity.available) throw UsageError(identity.reason);
+  if (!identity.available) {
+    const bool late = identity.reason.find("did not answer within") != std::string::npos;
+    throw UsageError(identity.reason + (late ? "; --timeout sets the limit, in s" : ""));
+  }
   if (!identity.own_name.empty())
     engine = reference::make_process_backend(identity.own_name, options.command, "", limits);
   return examine_engine(options, *engine);

@@ -115,6 +115,8 @@ Finding scene_says_gravity(const Lab& lab) {
   Scene scene = scene_of("throw", gravity, {make(Ball{.velocity = v0})});
   const Trace trace = lab.run(scene, 1), other = lab.run(falling(), 1);
   const double t = trace.duration();
+  // With the signs of both components reversed.
+  const Trace up = lab.run(scene_of("throw up", -gravity, {make(Ball{.velocity = v0})}), 1);
   const Vec2d v = trace.last(0).velocity, right = v0 + t * gravity;
   const double tolerance = lab.rounding(8, t);
   // If a different gravity adds the same velocity, the engine uses a constant.
@@ -125,6 +127,10 @@ Finding scene_says_gravity(const Lab& lab) {
       .read("vx after 1 s", "m/s", v.x, right.x, tolerance)
       .read("vy after 1 s", "m/s", v.y, right.y, tolerance)
       .read("x after 1 s", "m", trace.last(0).position.x, lab.way(v0.x, gravity.x, t), tolerance)
+      .read("vx after 1 s, with gravity to the left and up", "m/s", up.last(0).velocity.x,
+            v0.x - t * gravity.x, tolerance)
+      .read("vy after 1 s, with gravity to the left and up", "m/s", up.last(0).velocity.y,
+            v0.y - t * gravity.y, tolerance)
       .read("way of a slow ball, without gravity", "m", slow.way, slow.due, tolerance)
       .read("way of a fast ball, without gravity", "m", fast.way, fast.due, lab.rounding(kFast, 1))
       .proven_if(slow.held && !fast.held, "slow_is_stopped", kSlowIsHeld)

@@ -22,7 +22,14 @@ bool is(const Error& error, ProcessError::Fault fault) {
 }
 
 constexpr const char* kGrowsForEver =
-    ". Numbers that grow without end often come from an impulse with the wrong sign, or from a missing dt.";
+    ". Numbers that grow without end come from impulses or forces of the wrong sign or too large: from a "
+    "term "
+    "that is missing in an effective mass, as (r x n)^2/I, from a missing dt, or from a force that grows "
+    "faster "
+    "than the steps follow.";
+
+constexpr const char* kSlowEngine =
+    ". A slow engine may take longer: --timeout sets the limit of a line, in s.";
 
 constexpr const char* kWrongStep =
     "The steps do not have the length that was asked for: each is \"dt\" of the settings, in seconds, and is "
@@ -32,7 +39,13 @@ constexpr const char* kWrongStep =
 Finding not_yet(const Check& check, const std::string& reason) {
   Finding out;
   out.verdict = Verdict::NotYet;
-  out.says = fmt::format("{}. This check needs {}", reason, check.wants);
+  // Engines refuse scenes for reasons of their own, whatever they declare.
+  const bool lacks = reason.find("does not declare") != std::string::npos;
+  out.says = lacks ? fmt::format("{}. This check needs {}", reason, check.wants)
+                   : fmt::format(
+                         "The engine declares what this check needs, and refuses a scene: \"{}\". The scenes "
+                         "have {}",
+                         reason, check.wants);
   return out;
 }
 
@@ -89,7 +102,8 @@ Finding run(const Check& check, const Lab& lab, int& timeouts) {
     if (error.kind() == Error::Kind::Unsupported) return not_yet(check, error.what());
     if (is(error, ProcessError::Fault::Timeout)) ++timeouts;
     const bool grows = is(error, ProcessError::Fault::Diverged);
-    Finding out = broken(error.what() + std::string(grows ? kGrowsForEver : ""));
+    const bool late = is(error, ProcessError::Fault::Timeout);
+    Finding out = broken(error.what() + std::string(grows ? kGrowsForEver : late ? kSlowEngine : ""));
     out.diverged = grows;
     if (is(error, ProcessError::Fault::Time)) {
       out.mistake = "wrong_dt";

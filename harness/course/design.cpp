@@ -34,6 +34,8 @@ std::vector<Manner> variants(int chapter) {
     case 4:
       return {{},
               {.clips = true},
+              {.clips = true, .against = true},
+              {.clips = true, .deepest_first = true},
               {.clips = true, .turning_push = true},
               {.clips = true, .extends = true},
               {.clips = true, .extends = true, .turning_push = true},
@@ -60,6 +62,8 @@ constexpr int kForces = 2, kBoxes = 4;
 // Overlap of two bodies at the start, radius of the balls, m, and the number of steps.
 constexpr double kDeep = 0.1, kRadius = 0.4;
 constexpr int kSteps = 6;
+
+double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
 // Returns what a step removes of an overlap, given the overlap after each step.
 std::optional<Push> push_of(const Trace& trace, const std::function<double(std::size_t)>& deep) {
@@ -168,7 +172,7 @@ std::optional<int> measured_corrections(const Lab& lab, Manner like, double left
 
 std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
   // The centres are 1 m apart, so that a normal that is not normalised is right too.
-  constexpr double kRadius = 0.505, kDeep = 0.01, kGravity = 9.81;  // m, m, m/s^2
+  constexpr double kUnevenRadius = 0.505, kUnevenDepth = 0.01, kGravity = 9.81;  // m, m, m/s^2
   constexpr int kMost = 60;
   const Body floor =
       fixed(make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}));
@@ -177,16 +181,17 @@ std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
                      .position = {0, y},
                      .velocity = {0, vy},
                      .mass = mass,
-                     .radius = kRadius,
+                     .radius = kUnevenRadius,
                      .restitution = 0});
   };
   // The second scene has no static body, for engines that treat those wrongly.
   const Scene scenes[] = {
       scene_of("heavy on light", {0, -kGravity},
-               {ball("light", kRadius - kDeep, 1), ball("heavy", 3 * kRadius - 2 * kDeep, 50), floor}),
+               {ball("light", kUnevenRadius - kUnevenDepth, 1),
+                ball("heavy", 3 * kUnevenRadius - 2 * kUnevenDepth, 50), floor}),
       scene_of("light between heavy", {},
-               {ball("light", 0, 1), ball("upper", 2 * kRadius - kDeep, 50, -1),
-                ball("lower", -2 * kRadius + kDeep, 40, 1)})};
+               {ball("light", 0, 1), ball("upper", 2 * kUnevenRadius - kUnevenDepth, 50, -1),
+                ball("lower", -2 * kUnevenRadius + kUnevenDepth, 40, 1)})};
   for (const Scene& scene : scenes) {
     const auto speeds = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
     const std::vector<BodyState> due = speeds(lab);
@@ -199,6 +204,91 @@ std::optional<int> measured_sweeps(const Lab& lab, Manner like) try {
     }
   }
   return std::nullopt;
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+namespace {
+
+// A body that lies on a floor without an overlap, under gravity.
+Scene lying(const Body& body) {
+  return scene_of(
+      "lying", {0, -9.81},
+      {body, fixed(make(Crate{
+                 .name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}))});
+}
+
+// A box that overlaps a floor at rest.
+Scene overlapping_box() {
+  return scene_of(
+      "overlapping box", {},
+      {make(Crate{.position = {0.1, 0.4}, .width = 1.2, .height = 0.9, .restitution = 0}),
+       fixed(
+           make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}))});
+}
+
+// Three balls at rest in a row that overlap.
+Scene overlapping_row() {
+  Scene scene = scene_of("overlapping row", {}, {});
+  for (const double place : {0, 1, 2})
+    scene.bodies.push_back(make(Ball{.name = "ball " + std::to_string(scene.bodies.size()),
+                                     .position = {place * (2 * kRadius - kDeep), 0},
+                                     .radius = kRadius,
+                                     .restitution = 0}));
+  return scene;
+}
+
+// A ball at rest on a stick of the world that is too long and pulls it into a floor.
+Scene ball_between() {
+  Scene scene = scene_of(
+      "ball between", {},
+      {make(Ball{.position = {0, kRadius - kDeep}, .radius = kRadius, .restitution = 0}),
+       fixed(
+           make(Crate{.name = "floor", .position = {0, -0.5}, .width = 20, .height = 1, .restitution = 0}))});
+  DistanceJoint stick;
+  stick.name = "stick";
+  stick.body_a = std::string(kWorld);
+  stick.body_b = scene.bodies[0].name;
+  stick.anchor_a = {0.3, -1};
+  stick.length = 1;
+  scene.joints.emplace_back(stick);
+  return scene;
+}
+
+// Two rods at rest whose hinge gapes, both turned, with the anchors off their centres.
+Scene gaping_hinge() {
+  Scene scene = scene_of(
+      "gaping hinge", {},
+      {make(Crate{.name = "a", .angle = 0.4, .mass = 2, .width = 0.8, .height = 0.2}),
+       make(Crate{
+           .name = "b", .position = {0.8, 0.3}, .angle = -0.7, .mass = 1, .width = 0.8, .height = 0.2})});
+  RevoluteJoint hinge;
+  hinge.name = "hinge";
+  hinge.body_a = "a";
+  hinge.body_b = "b";
+  hinge.anchor_a = {0.4, 0.05};
+  hinge.anchor_b = {-0.4, 0.02};
+  scene.joints.emplace_back(hinge);
+  return scene;
+}
+
+}  // namespace
+
+std::optional<bool> measured(const Lab& lab, const Scene& scene, Manner like, bool Manner::*property) try {
+  const auto places = [&](const Lab& of) { return of.run(scene, 1.5 * lab.dt()).states[1]; };
+  const std::vector<BodyState> due = places(lab);
+  const auto is = [&](bool has) {
+    like.*property = has;
+    const auto student = make_student("", lab.scheme(), like);
+    const std::vector<BodyState> now = places(Lab(*student, lab.plain_settings()));
+    double off = 0;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      off += length(now[i].position - due[i].position) + std::abs(now[i].angle - due[i].angle);
+    return off < 1e-9;
+  };
+  const bool without = is(false), with = is(true);
+  if (without == with) return std::nullopt;
+  return with;
 } catch (const std::exception&) {
   return std::nullopt;
 }
@@ -221,10 +311,22 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
     for (const Manner& manner : with(unmeasured, *of_two)) out.push_back(manner);
   if (chapter < kBoxes && !turns_bodies(lab))
     for (Manner& manner : out) manner.turns = false;
+  const Scene ball = lying(make(Ball{.position = {0, 0.5}, .radius = 0.5, .restitution = 0}));
+  const Scene box = lying(make(Crate{.position = {0, 0.5}, .restitution = 0}));
+  if (chapter != kForces && measured(lab, ball, out.front(), &Manner::circles_touch_at_0).value_or(false))
+    for (Manner& manner : out) manner.circles_touch_at_0 = true;
+  if (chapter >= kBoxes && measured(lab, box, out.front(), &Manner::boxes_touch_at_0).value_or(false))
+    for (Manner& manner : out) manner.boxes_touch_at_0 = true;
   if (chapter != kForces)
     if (const auto sweeps = measured_sweeps(lab, out.front()))
       for (Manner& manner : out)
         if (manner.sweeps == Manner{}.sweeps) manner.sweeps = *sweeps;
+  if (chapter != kForces && measured(lab, overlapping_row(), out.front(), &Manner::in_turn).value_or(false))
+    for (Manner& manner : out) manner.in_turn = true;
+  Manner clips = out.front();
+  clips.clips = true;
+  if (chapter >= kBoxes && measured(lab, overlapping_box(), clips, &Manner::per_point).value_or(false))
+    for (Manner& manner : out) manner.per_point = true;
   if (chapter <= kBoxes) return out;
   // A mistake may spoil the correction of errors of one sign, or of joints of the world.
   double too_long = kTooLong;
@@ -243,6 +345,19 @@ std::vector<Manner> manners_of(int chapter, const Lab& lab) {
       manner.corrections = corrections.value_or(std::max(1, manner.sweeps / 4));
       manner.joint_share = std::abs(1 - std::pow(*left, 1.0 / manner.corrections));
     }
+  if (measured(lab, ball_between(), out.front(), &Manner::joints_first).value_or(false))
+    for (Manner& manner : out) manner.joints_first = true;
+  const auto by_rows = measured(lab, gaping_hinge(), out.front(), &Manner::by_rows);
+  if (by_rows == true)
+    for (Manner& manner : out) manner.by_rows = true;
+  // A mistake at hinges hides how their gaps are closed: the designs that do it along the gap are followed by
+  // the same ones by rows.
+  constexpr std::size_t kPlain = 3;
+  for (std::size_t i = 0; i < kPlain && !by_rows; ++i) {
+    Manner manner = out[i];
+    manner.by_rows = true;
+    out.push_back(manner);
+  }
   return out;
 }
 

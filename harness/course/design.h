@@ -44,6 +44,11 @@ std::optional<int> measured_corrections(const Lab& lab, Manner like, double left
 /// other properties.
 std::optional<int> measured_sweeps(const Lab& lab, Manner like);
 
+/// Returns true if the engine has a property of the design, and false if it does not: the one of the two that
+/// gives its places and angles after a step of a scene. nullopt if both do, or neither. `like` has the other
+/// properties.
+std::optional<bool> measured(const Lab& lab, const Scene& scene, Manner like, bool Manner::*property);
+
 /// Returns the design variants of the learner's engine for a chapter, with the measured properties. If a
 /// mistake makes results depend on the number of iterations, variants with different numbers are included.
 std::vector<Manner> manners_of(int chapter, const Lab& lab);

@@ -238,11 +238,17 @@ bool flies_freely(const Recorded& run) {
 
 std::optional<Seen> seen_in_flight(const Recorded& run) {
   if (!forces_are_constant(run.scene) || !run.scene.joints.empty()) return std::nullopt;
+  std::optional<Seen> general;
+  bool all = true;  // every body that flies long enough shows what the first one shows
   for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
     if (run.scene.bodies[b].type != BodyType::Dynamic || run.scene.bodies[b].shapes.empty()) continue;
-    if (auto seen = seen_of(run, b)) return seen;
+    auto seen = seen_of(run, b);
+    if (seen && !seen->general) return seen;
+    if (length_of_flight(run, b) <= kFewest) continue;
+    if (!general && all) general = seen;
+    all = all && seen && seen->says == general->says;
   }
-  return std::nullopt;
+  return all ? general : std::nullopt;
 }
 
 }  // namespace plumb::course

@@ -11,6 +11,10 @@ std::vector<Predictable> mistakes_of_motion();
 std::vector<Predictable> mistakes_of_contacts();
 std::vector<Predictable> mistakes_of_boxes();
 std::vector<Predictable> mistakes_of_joints();
+
+/// Returns every way to use arms and directions of joints that were computed in an earlier step.
+std::vector<Predictable> mistakes_of_kept_joints();
+
 std::vector<Predictable> mistakes_of_order();
 
 /// Returns every way to mix up the x and y of a vector, for every vector of an engine.

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "harness/course/predictable.h"
@@ -15,6 +18,8 @@ struct Vector {
 
 constexpr Vector kVectors[] = {
     {"gravity", "1", "gravity"},
+    {"first velocity", "1", "the velocity at the start"},
+    {"first position", "1", "the position at the start"},
     {"velocity in the position's change", "1", "the velocity by which a position changes"},
     {"force", "2", "a force"},
     {"drag", "2", "drag"},
@@ -134,6 +139,15 @@ std::vector<Predictable> mistakes_of_axes() {
     for (const char* axis : {"x", "y"})
       out.push_back({fmt::format("{} in {} only", halved.mistake, axis), halved.name, halved.chapters,
                      fmt::format(fmt::runtime(halved.says), axis), true});
+  // The other mistakes with forces.
+  for (const Predictable& whole : mistakes_of_motion()) {
+    const bool listed = std::any_of(std::begin(kHalved), std::end(kHalved),
+                                    [&](const Halved& halved) { return whole.planted == halved.mistake; });
+    if (listed || whole.generated || whole.exactly || whole.chapters.find('2') == std::string::npos) continue;
+    for (const char* axis : {"x", "y"})
+      out.push_back({fmt::format("{} in {} only", whole.planted, axis), whole.name, whole.chapters,
+                     fmt::format("Along {} only: {}", axis, whole.says), true});
+  }
   return out;
 }
 

@@ -18,6 +18,10 @@ constexpr const char* kArmOfTheOther =
 constexpr const char* kBoxNotTurned =
     "A circle meets a turned box as if the box stood upright: turn the circle's centre by -angle into the "
     "box's frame, find the nearest point there, and turn that point by +angle back.";
+constexpr const char* kPointAtBox =
+    "The point where a circle touches a box is wrong: it is the box's nearest point to the circle's centre, "
+    "turned by the "
+    "box's angle and moved to its centre, and each body's r runs from its centre to it.";
 constexpr const char* kPointAtCentre =
     "The point of contact of two circles is taken at a centre: it is on the rim, where friction acts.";
 constexpr const char* kFrictionOnOne =
@@ -362,6 +366,26 @@ std::vector<Predictable> mistakes_of_boxes() {
        "Friction does not depend on the impulse along the normal: its impulse is at most mu times that one."},
       {"friction_without_mu", "friction_without_mu", "4",
        "Friction is as strong as the impulse along the normal: it is at most mu times that one."},
+      {"circle_at_box_point_from_origin", "contact_point_wrong", "4", kPointAtBox},
+      {"circle_at_box_point_at_box", "contact_point_wrong", "4", kPointAtBox},
+      {"circle_at_box_point_at_circle", "contact_point_at_centre", "4", kPointAtBox},
+      {"circle_at_box_point_on_circle_beyond", "contact_point_wrong", "4", kPointAtBox},
+      {"distance_along_axis_signed", "distance_sign_lost", "4",
+       "The distance of two boxes along an axis keeps its sign, so that some never separate and others "
+       "overlap too much: "
+       "the overlap along the axis n is the sum of both extents minus |d . n|."},
+      {"distance_along_axis_reversed", "distance_sign_lost", "4",
+       "The distance of two boxes along an axis has a sign, and the wrong one: the overlap along the axis n "
+       "is the sum of "
+       "both extents minus |d . n|."},
+      {"distance_along_axis_squared", "square_of_distance", "4",
+       "The distance of two boxes along an axis is squared: the overlap along the axis n is the sum of both "
+       "extents minus "
+       "|d . n|."},
+      {"distance_along_axis_left_out", "distance_left_out", "4",
+       "The distance of two boxes along an axis is left out: the overlap along the axis n is the sum of both "
+       "extents minus "
+       "|d . n|."},
       {"box_taken_upright", "box_not_turned", "4", kBoxNotTurned},
       {"side_of_box_not_turned", "box_not_turned", "4", kBoxNotTurned},
       {"point_of_box_not_turned", "box_not_turned", "4", kBoxNotTurned},

@@ -5,6 +5,14 @@ namespace plumb::course {
 namespace {
 
 // Causes that several mistakes share.
+constexpr const char* kDistanceBySum =
+    "The distance of two centres is taken as |dx| + |dy|: it is the root of dx^2 + dy^2, for the comparison "
+    "with r1 + "
+    "r2, the normal and the overlap.";
+constexpr const char* kDistanceByLargest =
+    "The distance of two centres is taken as the larger of |dx| and |dy|: it is the root of dx^2 + dy^2, for "
+    "the "
+    "comparison with r1 + r2, the normal and the overlap.";
 constexpr const char* kAlongAxis =
     "The normal of two circles is taken along an axis: it points along the line of centres, (b - a)/|b - a|.";
 constexpr const char* kPairsLeftOut =
@@ -115,6 +123,10 @@ std::vector<Predictable> mistakes_of_contacts() {
        "They touch at twice the radius of the second: they touch at r1 + r2."},
       {"mean_of_radii", "mean_of_radii", "3", "They touch at (r1 + r2)/2: they touch at r1 + r2."},
       {"mean_of_radii_in_depth", "mean_of_radii", "3", "They touch at (r1 + r2)/2: they touch at r1 + r2."},
+      {"distance_by_sum", "distance_by_sum", "3", kDistanceBySum},
+      {"distance_by_sum_in_test", "distance_by_sum", "3", kDistanceBySum},
+      {"distance_by_largest", "distance_by_sum", "3", kDistanceByLargest},
+      {"distance_by_largest_in_test", "distance_by_sum", "3", kDistanceByLargest},
       {"square_for_distance", "square_of_distance", "3",
        "The square of the distance stands for the distance: take the root, for the comparison with r1 + r2, "
        "the "
@@ -200,6 +212,8 @@ std::vector<Predictable> mistakes_of_contacts() {
        "Both velocities change by j times the first ball's inverse mass: each has its own."},
       {"inverse_mass_of_the_second", "one_inverse_mass", "3",
        "Both velocities change by j times the second ball's inverse mass: each has its own."},
+      {"inverse_mass_mean", "one_inverse_mass", "3",
+       "Both velocities change by j times the mean of the two inverse masses: each has its own."},
       {"masses_in_place_of_inverses", "masses_in_place_of_inverses", "3",
        "The impulse is too weak: it is divided by m1 + m2, which is right only for two masses of 1. It is "
        "-(1 + e) vn/(1/m1 + 1/m2)."},
@@ -210,6 +224,8 @@ std::vector<Predictable> mistakes_of_contacts() {
       {"masses_swapped_of_moving", "masses_swapped", "3", "Each ball gets the other's inverse mass."},
       {"effective_mass_forgotten", "effective_mass_forgotten", "3",
        "The impulse is not divided by 1/m1 + 1/m2."},
+      {"effective_mass_multiplied", "effective_mass_forgotten", "3",
+       "The impulse is multiplied by 1/m1 + 1/m2: divide by it."},
       {"multiplied_by_mass", "multiplied_by_mass", "3", "The impulse is multiplied by the masses: divide."},
       {"first_inverse_mass_only", "masses_wrong", "3",
        "The impulse is divided by the wrong sum: it is -(1 + e) vn/(1/ma + 1/mb)."},

@@ -36,6 +36,7 @@ struct Places {
 constexpr Places kSpeed{kInSpeed, "the speed of the two points in"}, kMass{kInMass, "the effective mass of"},
     kChange{kInChange, "what changes the two bodies in"},
     kMassAndChange{kInMass | kInChange, "the masses of"},
+    kGap{kInGap, "the gap C = (xb + rb) - (xa + ra) of"},
     kEverywhere{kInSpeed | kInMass | kInChange, "all of"};
 
 struct Kind {
@@ -53,7 +54,7 @@ std::vector<Kind> kinds() {
        "wrong_arm",
        "the arm",
        "each body has its own r, from its centre to the point, turned with it",
-       {kSpeed, kMass, kChange, kEverywhere},
+       {kSpeed, kMass, kChange, kEverywhere, kGap},
        {{Instead::Others, kOthers},
         {Instead::Zero, kZero},
         {Instead::Minus, kMinus},
@@ -108,6 +109,8 @@ constexpr unsigned kBoth = 3;
 // and for those that repeat another edit. An arm appears only in products with the spin and with the inverse
 // inertia, so leaving the arm out, or changing its sign, equals doing so with the other factor.
 bool matters(const Rows& rows, const Places& places, const Kind& kind, Instead instead) {
+  constexpr unsigned kJoints = kJointRow | kCorrectionRow;
+  if (places.places == kInGap) return (rows.rows & ~kJoints) == 0;
   const bool positions = (rows.rows & ~(kOverlapRow | kCorrectionRow)) == 0;
   if (positions && (places.places & ~kInSpeed) == 0) return false;
   if (kind.quantity != Quantity::Arm) return true;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "harness/course/predictable.h"
 
 // The mistakes of chapter 5.
@@ -26,6 +28,41 @@ constexpr const char* kOneEnd =
     "Correcting a joint's positions moves one end only: both move, each by its share of the inverse masses.";
 
 }  // namespace
+
+std::vector<Predictable> mistakes_of_kept_joints() {
+  struct Part {
+    unsigned parts;
+    const char* what;
+  };
+  constexpr Part kParts[] = {{1, "the first body's arm is"},
+                             {2, "the second body's arm is"},
+                             {3, "the arms are"},
+                             {4, "the direction of a stick is"},
+                             {7, "the arms and the direction of a stick are"}};
+  struct When {
+    int when;
+    const char* what;
+  };
+  constexpr When kWhen[] = {{1, "the first step"}, {2, "the step before"}};
+  struct Rows {
+    unsigned rows;
+    const char* what;
+  };
+  constexpr Rows kRows[] = {{8, "a joint's impulse"},
+                            {16, "the correction of a joint's positions"},
+                            {24, "a joint's impulse and its correction"}};
+  std::vector<Predictable> out;
+  for (const Part& part : kParts)
+    for (const When& when : kWhen)
+      for (const Rows& rows : kRows)
+        out.push_back(
+            {fmt::format("stale:{}:{}:{}", part.parts, when.when, rows.rows), "joint_not_updated", "5",
+             fmt::format("In {}, {} that of {}: turn the anchors by the angles of now, and take the "
+                         "direction from them, in each step.",
+                         rows.what, part.what, when.what),
+             true});
+  return out;
+}
 
 std::vector<Predictable> mistakes_of_joints() {
   return {

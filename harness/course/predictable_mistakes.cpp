@@ -5,8 +5,8 @@ namespace plumb::course {
 std::vector<Predictable> predictable_mistakes() {
   std::vector<Predictable> out = mistakes_of_motion();
   for (const auto& more :
-       {mistakes_of_contacts(), mistakes_of_boxes(), mistakes_of_joints(), mistakes_of_order(),
-        mistakes_of_axes(), mistakes_of_places(), mistakes_of_edits()})
+       {mistakes_of_contacts(), mistakes_of_boxes(), mistakes_of_joints(), mistakes_of_kept_joints(),
+        mistakes_of_order(), mistakes_of_axes(), mistakes_of_places(), mistakes_of_edits()})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }

@@ -14,6 +14,10 @@ constexpr const char* kMassOfAnother =
     "All forces are divided by the mass of one body: each body's sum of forces is divided by its own mass.";
 constexpr const char* kTimeForStep =
     "A step multiplies by the time since the start, which grows: it multiplies by dt, the length of a step.";
+constexpr const char* kClampIncomplete =
+    "The centre's x and y are not limited to the box on all four sides: the nearest point of a box has "
+    "min(max(x, low), "
+    "high), and the same for y.";
 constexpr const char* kClampExchanged =
     "The nearest point of a box is always the same corner: min and max are exchanged where the centre's x "
     "and y are "
@@ -218,6 +222,14 @@ std::vector<Predictable> mistakes_of_motion() {
        "The bounce changes the speed along the wall as well: only the part along the normal changes."},
       {"threshold_reversed", "threshold_reversed", "13",
        "Slow impacts bounce and fast ones do not: restitution is 0 below the threshold, and acts above it."},
+      {"clamp_above_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_below_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_of_x_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_of_y_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_of_x_above_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_of_x_below_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_of_y_above_only", "clamp_incomplete", "134", kClampIncomplete},
+      {"clamp_of_y_below_only", "clamp_incomplete", "134", kClampIncomplete},
       {"clamp_exchanged", "clamp_exchanged", "134", kClampExchanged},
       {"clamp_exchanged_below", "clamp_exchanged", "134", kClampExchanged},
       {"threshold_too_high", "threshold_too_high", "13",
@@ -257,6 +269,8 @@ std::vector<Predictable> mistakes_of_motion() {
        "The restitution of the body that comes second counts: \"contact_rules\" says maximum, of both."},
       {"restitution_of_the_moving", "restitution_of_one", "1",
        "The ball's restitution counts: \"contact_rules\" says maximum, of both."},
+      {"restitution_of_the_static", "restitution_of_wall", "1",
+       "The wall's restitution counts: \"contact_rules\" says maximum, of both."},
       {"restitution_sum", "restitution_sum", "13",
        "The two restitutions are added: \"contact_rules\" says maximum."},
       {"sinks", "sinks", "1",
@@ -324,9 +338,14 @@ std::vector<Predictable> mistakes_of_motion() {
        "The force acts for one step only: it acts in all steps that begin from start to start + duration."},
       {"push_a_step_late", "push_a_step_late", "2",
        "The force begins a step late: it acts in the step that begins at \"start\" as well."},
-      {"inactive_force_ends_the_loop", "forces_after_another_lost", "2",
-       "A force that does not act now ends the loop over all forces, so that those after it in the list do "
-       "not act: go on with the next one (continue, not break or return)."},
+      {"endless_never_acts", "endless_force_ends", "2",
+       "A force without \"duration\" never acts, as if its duration were 0: it never ends."},
+      {"untimed_never_acts", "endless_force_ends", "2",
+       "What has no \"duration\" never acts, neither pushes nor drag and springs: it never ends."},
+      {"endless_for_one_step", "endless_force_ends", "2",
+       "A force without \"duration\" acts for one step only: it never ends."},
+      {"endless_for_one_second", "endless_force_ends", "2",
+       "A force without \"duration\" acts for a second only: it never ends."},
       {"push_outside_its_time", "push_outside_its_time", "2",
        "The push acts before \"start\" and after its end, and not between: its test is reversed."},
       {"push_from_zero", "push_from_zero", "2",
@@ -338,6 +357,18 @@ std::vector<Predictable> mistakes_of_motion() {
       {"drag_pushes", "drag_pushes", "2", "Drag speeds the ball up: it is -c v, against the velocity."},
       {"drag_not_divided", "drag_not_divided", "2", "Drag is a force: divide it by the mass."},
       {"drag_divided_twice", "drag_divided_twice", "2", "Drag is divided by the mass twice."},
+      {"drag_on_the_first_body", "force_on_wrong_body", "2",
+       "Drag acts on the first body of the scene, whichever it is for: it acts on its \"body\"."},
+      {"drag_on_the_last_body", "force_on_wrong_body", "2",
+       "Drag acts on the last body of the scene, whichever it is for: it acts on its \"body\"."},
+      {"force_on_the_first_body", "force_on_wrong_body", "24",
+       "A force acts on the first body of the scene, whichever it is for: it acts on its \"body\"."},
+      {"force_on_the_last_body", "force_on_wrong_body", "24",
+       "A force acts on the last body of the scene, whichever it is for: it acts on its \"body\"."},
+      {"drag_quadratic_by_component", "drag_quadratic", "2",
+       "Drag grows with the square of each component, as -c |vx| vx along x: it is -c v."},
+      {"drag_constant_by_component", "drag_constant", "2",
+       "Drag along x and y has the size c at any speed: it is -c v."},
       {"drag_constant", "drag_constant", "2", "Drag does not grow with speed: it is c v, not c."},
       {"drag_by_position", "drag_of_another_vector", "2",
        "Drag acts against the position: it is -c v, against the velocity."},
@@ -427,6 +458,10 @@ std::vector<Predictable> mistakes_of_motion() {
       {"spring_pulls_the_second_only", "spring_at_one_end", "2", kSpringAtOneEnd},
       {"spring_same_direction", "same_direction_for_both", "2",
        "Both ends of the spring are pulled in the same direction: a is pulled towards b, and b towards a."},
+      {"spring_pulls_both_as_the_first", "same_direction_for_both", "2",
+       "Both ends of the spring are pulled in the same direction: a is pulled towards b, and b towards a."},
+      {"rest_length_of_start", "rest_length_of_start", "2",
+       "A spring is at rest at the length that it has at the start: take \"rest_length\" from the scene."},
       {"length_squared", "length_squared", "2",
        "The spring takes the square of the distance for its length: take the root."},
       {"drag_dt_twice", "drag_dt_twice", "2",

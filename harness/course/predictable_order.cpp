@@ -19,6 +19,12 @@ constexpr const char* kForcesAfterSolving =
 constexpr const char* kOnePartner =
     "A body that touches two others is answered by the first of them only: go over all pairs, and do not end "
     "the loop at the first contact.";
+constexpr const char* kOpening =
+    "Contacts whose bodies do not close before the first sweep are left out of all sweeps: an impulse at "
+    "another "
+    "contact may close them in the same step. Keep them, and let the sum of impulses, which stays at 0 or "
+    "above, "
+    "decide in each sweep.";
 constexpr const char* kOrderOfPair =
     "Pairs are left out by which of the two bodies comes first in the scene: a pair is left out only if both "
     "are static.";
@@ -48,8 +54,24 @@ std::vector<Predictable> mistakes_of_order() {
   return {
       {"static_pair_ends_the_loop", "pair_ends_the_loop", "134", kStaticEndsTheLoop},
       {"joined_pair_ends_the_loop", "pair_ends_the_loop", "5", kPairEndsTheLoop},
+      {"inactive_force_ends_the_loop", "forces_after_another_lost", "2",
+       "A force that does not act now ends the loop over all forces, so that those after it in the list do "
+       "not act: go on with the next one (continue, not break or return)."},
+      {"force_to_come_ends_the_loop", "forces_after_another_lost", "2",
+       "A force that has not begun ends the loop over all forces, so that those after it in the list do not "
+       "act: go on "
+       "with the next one (continue, not break or return)."},
+      {"force_over_ends_the_loop", "forces_after_another_lost", "2",
+       "A force that is over ends the loop over all forces, so that those after it in the list do not act: "
+       "go on with "
+       "the next one (continue, not break or return)."},
       {"first_partner_only", "pairs_missed", "34", kOnePartner},
       {"one_partner_for_each", "pairs_missed", "34", kOnePartner},
+      {"one_partner_for_each_moving", "pairs_missed", "34", kOnePartner},
+      {"one_contact_of_the_first", "pairs_missed", "34", kOnePartner},
+      {"one_contact_of_the_second", "pairs_missed", "34", kOnePartner},
+      {"opening_contacts_left_out", "opening_contacts_left_out", "34", kOpening},
+      {"parting_contacts_left_out", "opening_contacts_left_out", "34", kOpening},
       {"pairs_of_a_static_first_left_out", "pairs_left_out", "134", kOrderOfPair},
       {"pairs_of_a_static_second_left_out", "pairs_left_out", "134", kOrderOfPair},
       {"normal_flipped_if_box_first", "normal_flipped", "14", kFlippedInOneOrder},
@@ -59,7 +81,14 @@ std::vector<Predictable> mistakes_of_order() {
        "on "
        "with the next one (continue, not break or return)."},
       {"forces_after_solving", "forces_after_solving", "1345", kForcesAfterSolving},
+      {"moves_before_contacts", "forces_after_solving", "45", kForcesAfterSolving},
       {"contacts_before_forces", "forces_after_solving", "5", kForcesAfterSolving},
+      {"distance_of_centres_at_box", "distance_of_centres", "134",
+       "The distance from a box is that of the two centres: it is the distance of the circle's centre from "
+       "the box's "
+       "nearest point."},
+      {"distance_by_sum_at_box", "distance_by_sum", "134",
+       "The distance from a box's nearest point is taken as |dx| + |dy|: it is the root of dx^2 + dy^2."},
       {"bounds_not_turned", "bounds_too_small", "45", kBounds},
       {"bounds_of_first_angle", "bounds_too_small", "45", kBounds},
       {"bounds_sign_lost", "bounds_too_small", "45", kBounds},

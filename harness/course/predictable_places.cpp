@@ -15,6 +15,7 @@ struct Points {
 constexpr Points kPoints[] = {
     {"a force's point", "4", "the point of a force", false},
     {"a spring's anchors", "4", "a spring's anchors", false},
+    {"the point where a circle touches a box", "4", "the point where a circle touches a box", true},
     {"a box", "45", "the sides and corners of a box", true},
     {"a static box", "4", "the sides and corners of static boxes", true},
     {"a box's sides", "45", "the directions of a box's sides", true},

@@ -157,11 +157,11 @@ bool renamed(const std::vector<Predictable>& mistakes, const Predictable& mistak
 // Searches for the mistakes that fit, the best first, until the learner's engine has taken `until` steps in
 // all. First come mistakes that explain the whole chapter according to another check (`likely`). Other
 // mistakes are returned only if none of these fits, and generated families only if no other mistake explains
-// everything. Mistakes that give the tested engine's exact paths precede those that come near them; the
-// latter count only for engines of an unknown design.
+// everything, or with `all`. Mistakes that give the tested engine's exact paths precede those that come near
+// them; the latter count only for engines of an unknown design.
 Search search(const std::vector<Predictable>& mistakes, Predictions& predictions,
               const std::vector<Outcome>& chapter, std::size_t check, const std::string& named,
-              const std::vector<Fit>& likely, long until) {
+              const std::vector<Fit>& likely, long until, bool all = false) {
   Search found;
   std::vector<Fit>& out = found.fits;
   const Outcome& outcome = chapter[check];
@@ -175,8 +175,8 @@ Search search(const std::vector<Predictable>& mistakes, Predictions& predictions
       add_fits({fit.planted.mistake, fit.name, "", fit.says, fit.generated, false}, predictions, outcome,
                check, exactly, out);
     for (const bool generated : {false, true}) {
-      if (any_unrefuted(out) && !likely.empty()) break;
-      if (generated && std::any_of(out.begin(), out.end(), explains_all)) break;
+      if (!all && any_unrefuted(out) && !likely.empty()) break;
+      if (!all && generated && std::any_of(out.begin(), out.end(), explains_all)) break;
       for (const Predictable& mistake : mistakes) {
         if (mistake.generated != generated || (mistake.exactly && !exactly)) continue;
         // Includes mistakes of earlier chapters, because an engine with such a mistake may have passed those
@@ -408,10 +408,17 @@ void name_by_motion(const Lab& lab, std::vector<Outcome>& chapter, const std::ve
     // Leaves half of the remaining steps to later checks, which may be more informative.
     const long until = predictions.steps() + (kSteps - predictions.steps()) / 2;
     const bool all = in_vain < kSearches;
-    found[i] = search(all ? mistakes : listed, predictions, chapter, i, named, likely, until);
     std::vector<Fit>& fits = found[i].fits;
-    narrow(fits, chapter[i]);
-    predictions.tell_apart(fits);
+    const auto look = [&](bool at_families) {
+      found[i] = search(all ? mistakes : listed, predictions, chapter, i, named, likely, until, at_families);
+      const bool any = !fits.empty();
+      narrow(fits, chapter[i]);
+      predictions.tell_apart(fits);
+      return any;
+    };
+    // If the experiments show another motion than each mistake that explains the checks, a mistake of a
+    // family, such as one in a single component, may explain both.
+    if (look(false) && fits.empty()) look(true);
     fits = one_for_each_name(fits);
     if (finding.diverged) std::erase_if(fits, [](const Fit& fit) { return !fit.exact; });
     // The checks of earlier chapters contradict a mistake as well.

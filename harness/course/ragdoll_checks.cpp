@@ -124,16 +124,9 @@ Finding ragdoll_flies(const Lab& lab) {
       .read("spin kept", "of all", l / l0, 1, lost)
       .read("widest gap in a joint", "m", gap, 0, 0.02 * lab.coarseness())
       .mistake_if(gap > 0.5, "joint_ignored", "The limbs fly off: hinges hold the two anchors together.")
-      .symptom_if(
-          std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off,
-          "The centre of mass does not fall as a single ball does. Chapter 1 checks the fall itself; if that "
-          "is "
-          "right, joints push the whole ragdoll: their two impulses must be opposite, and corrections of "
-          "positions shared by inverse mass.")
-      .symptom_if(std::abs(l / l0 - 1) > lost,
-                  "Joints change the angular momentum of the whole: an impulse at an anchor changes each "
-                  "body's spin by r x j/I, and a correction its angle by r x push/I, with the body's own r, "
-                  "turned by its angle.")
+      .symptom_if(std::abs(centre.x) > 0.01 || std::abs(centre.y - fall) > off,
+                  "The centre of mass does not fall as a single ball does.")
+      .symptom_if(std::abs(l / l0 - 1) > lost, "Joints change the angular momentum of the whole.")
       .mistake_if(gap > 0.02 * lab.coarseness(), "too_few_iterations",
                   "Joints come apart: go over them several times a step.")
       .finding();
@@ -171,13 +164,8 @@ Finding ragdoll_drops(const Lab& lab) {
           "bodies from colliding with each other, and with nothing else. Keep a list of pairs, not of "
           "bodies.")
       .mistake_if(in_ground > 0.5, "falls_through", "The ragdoll falls through the ground.")
-      .symptom_if(
-          gap > 0.1 * lab.coarseness(),
-          "The ragdoll comes apart when it lands: solve joints and contacts together, several times a step.")
-      .symptom_if(
-          fastest > 1.5,
-          "The ragdoll does not settle: restitution is 0 here, and corrections must not add energy. Correct "
-          "positions by a share of the error each step, 0.1 to 0.3.")
+      .symptom_if(gap > 0.1 * lab.coarseness(), "The ragdoll comes apart when it lands.")
+      .symptom_if(fastest > 1.5, "The ragdoll does not settle.")
       .finding();
 }
 

@@ -202,11 +202,8 @@ Finding stick_keeps_its_length(const Lab& lab) {
                "of the error each step.")
       .mistake_if(trace.still(0), "starts_at_rest",
                   "The balls never move: add v dt to the position; v begins with the scene's \"velocity\".")
-      .symptom_if(
-          worst <= tolerance && spin < slowest,
-          "The stick loses its spin: correcting positions or velocities must act along the stick only.")
-      .symptom_if(worst <= tolerance && spin > fastest,
-                  "The stick gains spin: is a correction of positions counted as velocity twice?")
+      .symptom_if(worst <= tolerance && spin < slowest, "The stick loses its spin.")
+      .symptom_if(worst <= tolerance && spin > fastest, "The stick gains spin.")
       .finding();
 }
 
@@ -280,7 +277,7 @@ Finding stick_weighs_masses(const Lab& lab) {
           "It is -dC/dt/(1/ma + 1/mb), not divided by ma + mb, and each end changes by it times its "
           "own inverse mass.")
       .symptom_if(std::abs(momentum - force * t) > 0.05 * force * t,
-                  "The stick changes the total momentum: its two ends must get opposite impulses.")
+                  "The total momentum is not that of the push.")
       .finding();
 }
 
@@ -336,12 +333,8 @@ Finding pendulum(const Lab& lab) {
                  "A stick between two balls holds, and one to \"world\" does not: the end named \"world\" is "
                  "a fixed "
                  "point, at anchor_a.")
-      .symptom_if(
-          high > 1.1 * amplitude,
-          "It swings higher each time: something adds energy. A joint's impulse only stops the change of "
-          "length, and a correction of positions leaves velocities as they are.")
-      .symptom_if(high < lowest,
-                  "It swings lower each time: correct along the string only, and by a share of the error.")
+      .symptom_if(high > 1.1 * amplitude, "It swings higher each time: energy grows.")
+      .symptom_if(high < lowest, "It swings lower each time.")
       .mistake("weight_not_divided", {due / std::sqrt(3.0), kAny, kAny},
                "It swings as under three times the gravity, with 3 kg: divide the weight by the mass.")
       .mistake("gravity_divided_by_mass", {due * std::sqrt(3.0), kAny, kAny},

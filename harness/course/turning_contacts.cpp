@@ -367,11 +367,9 @@ Finding slides(const Lab& lab) {
           fmt::format("Friction multiplies the speed by {:.6g} in each step: it does not depend on the "
                       "speed. Its impulse is at most mu times the one along the normal.",
                       ratio.value_or(1)))
-      .symptom_if(
-          std::abs(acts - mu) > 0.05 * mu,
-          fmt::format("The box is slowed as by a coefficient of {:.3g}, and the rule gives {:.3g}: the "
-                      "impulse of friction is at most mu times the one along the normal.",
-                      acts, mu))
+      .symptom_if(std::abs(acts - mu) > 0.05 * mu,
+                  fmt::format("The box is slowed as by a coefficient of {:.3g}, and the rule gives {:.3g}.",
+                              acts, mu))
       .mistake(
           "friction_twice", {with(2 * mu), kAny, kAny},
           "Friction is twice too strong: each of two contact points is limited by the impulse at that point.")
@@ -402,14 +400,17 @@ Finding box_rests(const Lab& lab) {
   const Tilt right = tips_over_an_end(lab, 1, true), left = tips_over_an_end(lab, -1, true),
              right_below = tips_over_an_end(lab, 1, false), left_below = tips_over_an_end(lab, -1, false);
   const BodyState& end = trace.last(0);
+  // Falls by g dt^2 in a step without a contact; what one end of the pillar keeps of it longer than the other
+  // tilts the plank.
+  const double tilt = 0.02 * lab.coarseness();
   const double sunk = side / 2 - end.position.y, tolerance = kGravity * lab.dt() * lab.dt() + 0.03 * side;
   return Judgement()
       .read("sunk after 4 s", "m", sunk, 0, tolerance)
       .read("angle", "rad", end.angle, 0, 0.02)
       .read("vy", "m/s", end.velocity.y, 0, 2 * kGravity * lab.dt())
       .read("slid", "m", end.position.x, 0, 0.02)
-      .read("angle of a plank that stands on a pillar", "rad", on_pillar(false), 0, 0.02)
-      .read("angle of a plank on a pillar that comes first in the scene", "rad", on_pillar(true), 0, 0.02)
+      .read("angle of a plank that stands on a pillar", "rad", on_pillar(false), 0, tilt)
+      .read("angle of a plank on a pillar that comes first in the scene", "rad", on_pillar(true), 0, tilt)
       .read("angle of a plank whose centre is to the right of a pillar that comes first", "rad", right.is,
             right.due, right.tolerance)
       .read("angle of a plank whose centre is to the left of a pillar that comes first", "rad", left.is,
@@ -424,9 +425,7 @@ Finding box_rests(const Lab& lab) {
                   "The box tips on flat ground: both of its lower corners must be contacts.")
       .mistake_if(sunk > tolerance, "sinks",
                   "The box sinks: correct its position by a share of the overlap each step.")
-      .symptom_if(-sunk > tolerance,
-                  "The box does not settle: restitution is 0 here, and the speed that gravity adds in a step "
-                  "must not bounce.")
+      .symptom_if(-sunk > tolerance, "The box does not settle.")
       .finding();
 }
 

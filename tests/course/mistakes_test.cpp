@@ -75,6 +75,7 @@ constexpr Seed kSeeds[] = {
     {"inverse_mass_forgotten", "heavy_hits_light", "inverse_mass_forgotten"},
     {"masses_in_place_of_inverses", "heavy_hits_light", "masses_in_place_of_inverses"},
     {"effective_mass_forgotten", "heavy_hits_light", "effective_mass_forgotten"},
+    {"effective_mass_multiplied", "equal_masses_swap", "effective_mass_forgotten"},
     {"masses_swapped", "heavy_hits_light", "masses_swapped"},
     {"always_elastic", "restitution_of_two", "always_elastic"},
     {"restitution_zero", "restitution_of_two", "restitution_ignored"},

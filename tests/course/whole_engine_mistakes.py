@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 from warm_start import WarmStart
+from whole_engine_designs import MISTAKES as OF_DESIGNS
 from whole_engine_order import MISTAKES as OF_ORDER
 from whole_engine_parts import MISTAKES as OF_PARTS
 
@@ -138,7 +139,7 @@ MISTAKES = [
      "hinge_one_axis"),
     ('anchor of the world ignored', 5,
      'Point(a, *j["anchor_a"])',
-     'Point(a, *(j["anchor_a"] if a is not WORLD else (1.0, 0.0)))',
+     'Point(a, *(j["anchor_a"] if a is not WORLD else (1.0, 0.25)))',
      "joint_ignored"),
     ('joined bodies collide', 5,
      'if not j["collide"]:',
@@ -380,7 +381,7 @@ MISTAKES = [
      'c["kt"] = inverse_mass(a, b, rax, ray, rbx, rby, -ny, nx)',
      'c["kt"] = a.im + b.im + cross(rax, ray, -ny, nx) * a.ii + cross(rbx, rby, -ny, nx) * b.ii', "lever_not_squared"),
 ]
-MISTAKES += OF_ORDER + OF_PARTS
+MISTAKES += OF_ORDER + OF_PARTS + OF_DESIGNS
 
 
 def first_named(plumb, command, chapter, named=False):

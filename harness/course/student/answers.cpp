@@ -25,6 +25,7 @@ double StudentWorld::restitution(const Touch& touch) const {
   if (is("restitution_of_the_first")) return a;
   if (is("restitution_of_the_second")) return b;
   if (is("restitution_of_the_moving")) return bodies_[touch.a].inverse_mass > 0 ? a : b;
+  if (is("restitution_of_the_static")) return bodies_[touch.a].inverse_mass > 0 ? b : a;
   if (is("restitution_squared")) return e * e;
   if (is("restitution_average")) return (a + b) / 2;
   if (is("restitution_product")) return a * b;
@@ -240,6 +241,7 @@ void StudentWorld::answer(Touch& touch) {
     k = (a.inverse_mass > 0 ? 1 / a.inverse_mass : 0) + (b.inverse_mass > 0 ? 1 / b.inverse_mass : 0);
   if (is("masses_in_place_of_inverses")) k = 1 / a.inverse_mass + 1 / b.inverse_mass;
   if (is("effective_mass_forgotten")) k = 1;
+  if (is("effective_mass_multiplied")) k = 1 / k;
   if (is("masses_ignored")) k = (a.inverse_mass > 0) + (b.inverse_mass > 0);
   const auto in_change =
       edit_(Quantity::Arm, kContactRow, kInChange, std::array{arm_a, arm_b}, {touch.point, touch.point});
@@ -266,6 +268,7 @@ void StudentWorld::answer(Touch& touch) {
   if (is("other_body_only")) share_a = 0;
   if (is("inverse_mass_of_the_first")) share_b = share_a > 0 && share_b > 0 ? share_a : share_b;
   if (is("inverse_mass_of_the_second")) share_a = share_a > 0 && share_b > 0 ? share_b : share_a;
+  if (is("inverse_mass_mean") && share_a > 0 && share_b > 0) share_a = share_b = (share_a + share_b) / 2;
   if (is("multiplied_by_mass")) {
     share_a = share_a > 0 ? 1 / share_a : 0;
     share_b = share_b > 0 ? 1 / share_b : 0;
@@ -385,18 +388,22 @@ void StudentWorld::rub(Touch& touch) {
   change(kFrictionRow, a, b, {turns_a, turns_b}, raw, j * t);
 }
 
-void StudentWorld::push_out() {
+void StudentWorld::push_out(const std::vector<Touch>& found) {
   if (is("correction_split_evenly")) {
-    for (const Touch& touch : touches()) {
+    for (const Touch& touch : found) {
       const Vec2d push = manner_.share / 2 * std::max(0.0, touch.depth - manner_.slop) * touch.normal;
       bodies_[touch.a].position -= push;
       bodies_[touch.b].position += push;
     }
     return;
   }
-  if (is("sinks") || is("turned_every_step") || is("ignores_slow")) return;
-  const double part = manner_.after_move ? 1 : manner_.share, left = manner_.after_move ? 0 : manner_.slop;
-  for (const Touch& touch : touches()) {
+  const double left = manner_.after_move ? 0 : manner_.slop;
+  for (const Touch& touch : found) {
+    const auto of_pair = std::count_if(found.begin(), found.end(), [&](const Touch& other) {
+      return other.a == touch.a && other.b == touch.b;
+    });
+    const double part =
+        (manner_.after_move ? 1 : manner_.share) / static_cast<double>(manner_.per_point ? of_pair : 1);
     Rigid &a = bodies_[touch.a], &b = bodies_[touch.b];
     const Vec2d zero{};
     const Arms arms =

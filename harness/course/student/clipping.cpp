@@ -56,6 +56,14 @@ double StudentWorld::extent(const Rigid& body, Vec2d axis, bool in_overlap) cons
   return w * std::abs(along) + h * std::abs(across);
 }
 
+// Returns the distance of two boxes' centres along an axis, as the mistake has it.
+double StudentWorld::apart_along(double along) const {
+  if (is("distance_along_axis_signed")) return along;
+  if (is("distance_along_axis_reversed")) return -along;
+  if (is("distance_along_axis_squared")) return along * along;
+  return is("distance_along_axis_left_out") ? 0 : std::abs(along);
+}
+
 // Returns the face along whose axis two boxes overlap least; nullopt if they do not overlap.
 std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std::size_t b) const {
   std::optional<Face> best;
@@ -71,11 +79,11 @@ std::optional<StudentWorld::Face> StudentWorld::nearest_face(std::size_t a, std:
                          : turned_hash_ == kAxes.hash ? turned(kAxes, bodies_[box], local)
                                                       : side(bodies_[box], local);
       const double overlap =
-          extent(bodies_[a], axis, true) + extent(bodies_[b], axis, true) - std::abs(dot(way, axis));
-      if (overlap <= 0) return std::nullopt;
+          extent(bodies_[a], axis, true) + extent(bodies_[b], axis, true) - apart_along(dot(way, axis));
+      if (overlap < 0 || (overlap == 0 && !manner_.boxes_touch_at_0)) return std::nullopt;
       const bool nearer = is("largest_overlap") ? !best || overlap > best->overlap + 1e-9
                                                 : !best || overlap < best->overlap - 1e-9;
-      const Vec2d out = dot(way, axis) > 0 || is("axis_not_turned_to_b") ? axis : -axis;
+      const Vec2d out = dot(way, axis) >= 0 || is("axis_not_turned_to_b") ? axis : -axis;
       if (nearer) best = Face{box, out, overlap, local.x != 0};
     }
   }
@@ -99,7 +107,8 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
                    [&](Vec2d p, Vec2d q) { return dot(p, outward) < dot(q, outward); });
   const std::size_t first = is("corners_farthest_out") ? 2 : 0;
   Vec2d from = corners[first], to = corners[first + 1];
-  if (dot(from, along) > dot(to, along)) std::swap(from, to);
+  const bool swapped = dot(from, along) > dot(to, along);
+  if (swapped) std::swap(from, to);
   // By the axis that was chosen, as learners do who keep it with its side.
   const bool by_sides = is("axes_not_turned_by_sides");
   const Box sides = box(owner);
@@ -116,6 +125,7 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   };
   if (!manner_.extends && !is("face_not_clipped") && (s > high || e < low)) return;
   std::array<Vec2d, 2> ends{clipped(s), clipped(e)};
+  if (manner_.deepest_first ? swapped : manner_.against) std::swap(ends[0], ends[1]);
   if (is("middle_of_the_side")) ends[0] = ends[1] = 0.5 * (ends[0] + ends[1]);
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   const double reach =
@@ -123,7 +133,7 @@ void StudentWorld::touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>&
   if (is("second_end_only")) ends[0] = ends[1];
   for (const Vec2d end : ends) {
     const double depth = reach - dot(end, outward);
-    if (depth > 0)
+    if (depth > 0 || (depth == 0 && manner_.boxes_touch_at_0))
       out.push_back(
           {a, b, owner.position + end, face->normal, is("depth_of_the_overlap") ? face->overlap : depth});
     if (is("middle_of_the_side") || is("first_end_only") || is("second_end_only")) break;

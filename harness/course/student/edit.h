@@ -21,8 +21,9 @@ enum Row : unsigned {
   kCorrectionRow = 16
 };
 
-/// Places in a row's formulas: the relative speed, the effective mass, and the change of the two bodies.
-enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4 };
+/// Places in a row's formulas: the relative speed, the effective mass, the change of the two bodies, and a
+/// joint's gap C.
+enum Place : unsigned { kInSpeed = 1, kInMass = 2, kInChange = 4, kInGap = 8 };
 
 /// `PointVelocity` stands for the velocity and the spin of a body, together.
 enum class Quantity { None, Arm, InverseMass, InverseInertia, Velocity, Spin, PointVelocity };

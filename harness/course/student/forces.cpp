@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
 double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
 }  // namespace
@@ -18,7 +21,16 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
   const auto names = ends_of(law);
   const auto index = find_body(scene_, names[1] == kWorld ? names[0] : names[1]);
-  Rigid& b = bodies_[index.value_or(bodies_.size() - 1)];
+  const auto acts_on = [&](std::size_t own) {
+    const bool drags = std::holds_alternative<LinearDrag>(law),
+               pushes = std::holds_alternative<PointForce>(law);
+    if ((drags && is("drag_on_the_first_body")) || (pushes && is("force_on_the_first_body")))
+      return std::size_t{0};
+    if ((drags && is("drag_on_the_last_body")) || (pushes && is("force_on_the_last_body")))
+      return bodies_.size() - 2;
+    return own;
+  };
+  Rigid& b = bodies_[acts_on(index.value_or(bodies_.size() - 1))];
   const auto add_to = [&](Name law_name, Rigid& body, Vec2d force) {
     if (is("last_force_only")) body.force = {};
     if (is("first_force_lost") && first && !last) return;
@@ -28,6 +40,11 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     act(law_name, body, force);
   };
   const auto acts = [&](double start, double duration) {
+    if (std::isinf(duration)) {
+      if (is("endless_never_acts")) return false;
+      if (is("endless_for_one_step")) duration = dt_;
+      if (is("endless_for_one_second")) duration = 1;
+    }
     if (is("push_never_ends")) return time() >= start - dt_ / 2;
     if (is("push_always")) return true;
     if (is("push_starts_at_once")) return time() < start + duration - 1e-9;
@@ -73,6 +90,10 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("drag_slows_spin")) b.torque += c * b.spin;
     if (is("drag_constant") && speed > 0) return add(c / speed * b.velocity);
     if (is("drag_quadratic")) return add(c * speed * b.velocity);
+    const Vec2d v = b.velocity;
+    if (is("drag_quadratic_by_component")) return add({c * std::abs(v.x) * v.x, c * std::abs(v.y) * v.y});
+    if (is("drag_constant_by_component"))
+      return add({v.x == 0 ? 0 : std::copysign(c, c * v.x), v.y == 0 ? 0 : std::copysign(c, c * v.y)});
     if (is("drag_dt_twice")) return add(c * dt_ * b.velocity);
     if (is("drag_divided_twice")) return add(c * b.inverse_mass * b.velocity);
     if (is("drag_by_position")) return add(c * b.position);
@@ -95,8 +116,15 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_second_anchor_for_both")) arm_a = turned("a spring's anchors", a, spring->anchor_b);
     if (is("spring_anchors_not_turned")) arm_a = spring->anchor_a, arm_b = spring->anchor_b;
     const Vec2d way = end.position + arm_b - a.position - arm_a;
-    const double rest = spring->rest_length * times("rest length of a spring"),
-                 stretch = (is("length_squared") ? dot(way, way) : length(way)) - rest;
+    const auto first_place = [&](const Rigid& body, Vec2d anchor) {
+      if (body.body == nullptr) return anchor;
+      const double angle = body.body->angle;
+      return body.body->position + Rotation<double>{std::cos(angle), std::sin(angle)} * anchor;
+    };
+    double rest = spring->rest_length * times("rest length of a spring");
+    if (is("rest_length_of_start"))
+      rest = length(first_place(end, spring->anchor_b) - first_place(a, spring->anchor_a));
+    const double stretch = (is("length_squared") ? dot(way, way) : length(way)) - rest;
     double tension = spring->stiffness * stretch * times("stiffness of a spring");
     if (is("spring_always_pulls")) tension = std::abs(tension);
     if (is("spring_always_pushes")) tension = -std::abs(tension);
@@ -147,7 +175,8 @@ void StudentWorld::apply(const ForceLaw& law, bool first, bool last) {
     if (is("spring_damps_the_whole_velocity")) force += spring->damping * (parting - rate * along);
     if (is("spring_by_component")) force += spring->stiffness * (way - Vec2d{rest, rest} - stretch * along);
     if (!is("spring_pulls_the_second_only")) pull(a, turns_a, is("spring_same_direction") ? -force : force);
-    if (!is("spring_pulls_the_first_only")) pull(end, turns_b, -force);
+    if (!is("spring_pulls_the_first_only"))
+      pull(end, turns_b, is("spring_pulls_both_as_the_first") ? force : -force);
   }
 }
 
@@ -163,8 +192,18 @@ void StudentWorld::gather_forces() {
     const auto* push = std::get_if<PointForce>(&law);
     return push != nullptr && (time() < push->start - 1e-9 || time() >= push->start + push->duration - 1e-9);
   };
+  const auto has_no_time = [&](const ForceLaw& law) {
+    const auto* push = std::get_if<PointForce>(&law);
+    const auto* torque = std::get_if<Torque>(&law);
+    return std::isinf(push != nullptr ? push->duration : torque != nullptr ? torque->duration : kForEver);
+  };
   for (std::size_t i = 0; i < scene_.forces.size(); ++i) {
-    if (is("inactive_force_ends_the_loop") && rests(scene_.forces[i])) break;
+    if (is("untimed_never_acts") && has_no_time(scene_.forces[i])) continue;
+    const bool comes =
+        rests(scene_.forces[i]) && time() < std::get<PointForce>(scene_.forces[i]).start - 1e-9;
+    const bool over = rests(scene_.forces[i]) && !comes;
+    if (is("inactive_force_ends_the_loop") && (comes || over)) break;
+    if ((is("force_to_come_ends_the_loop") && comes) || (is("force_over_ends_the_loop") && over)) break;
     apply(scene_.forces[i], i == 0, i + 1 == scene_.forces.size());
   }
 }

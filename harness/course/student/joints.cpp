@@ -15,7 +15,7 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 
 }  // namespace
 
-StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
+StudentWorld::Ends StudentWorld::ends(const Joint& joint, Row row) const {
   const auto [first, second] = ends_[static_cast<std::size_t>(&joint - scene_.joints.data())];
   return std::visit(
       [&, first = first, second = second](const auto& j) -> Ends {
@@ -46,7 +46,9 @@ StudentWorld::Ends StudentWorld::ends(const Joint& joint) const {
                 kept_arms_[static_cast<std::size_t>(&joint - scene_.joints.data())];
           out.raw_a = anchor_a;
           out.raw_b = anchor_b;
-          out.gap = b.position + out.arm_b - a.position - out.arm_a;
+          const auto r =
+              edit_(Quantity::Arm, row, kInGap, std::array{out.arm_a, out.arm_b}, {out.raw_a, out.raw_b});
+          out.gap = b.position + r[1] - a.position - r[0];
         }
         return out;
       },
@@ -59,10 +61,34 @@ void StudentWorld::keep_arms() {
   if (!is("joint_arms_of_before")) return;
   std::vector<std::pair<Vec2d, Vec2d>> now;
   for (const Joint& joint : scene_.joints) {
-    const Ends e = ends(joint);
+    const Ends e = ends(joint, kCorrectionRow);
     now.emplace_back(e.arm_a, e.arm_b);
   }
   kept_arms_ = std::move(now);
+}
+
+// Keeps arms and directions of all joints for the mistake that uses them in later steps.
+void StudentWorld::keep_held() {
+  if (stale_.when == Stale::kNever || (stale_.when == Stale::kFirstStep && !held_.empty())) return;
+  const Stale stale = std::exchange(stale_, {});
+  std::vector<Held> now;
+  for (const Joint& joint : scene_.joints) {
+    const Ends e = ends(joint, kJointRow);
+    const double gap = length(e.gap);
+    now.push_back({e.arm_a, e.arm_b, gap > 0 ? 1 / gap * e.gap : Vec2d{1, 0}});
+  }
+  stale_ = stale;
+  held_ = held_next_.empty() || stale.when == Stale::kFirstStep ? now : held_next_;
+  held_next_ = now;
+}
+
+// Returns a joint's arms and direction, or those of an earlier step that the mistake uses in their place.
+StudentWorld::Held StudentWorld::held(const Joint& joint, Row row, const Held& now) const {
+  if (stale_.when == Stale::kNever || (stale_.rows & row) == 0) return now;
+  const Held& old = held_[static_cast<std::size_t>(&joint - scene_.joints.data())];
+  return {(stale_.parts & Stale::kFirstArm) != 0 ? old.arm_a : now.arm_a,
+          (stale_.parts & Stale::kSecondArm) != 0 ? old.arm_b : now.arm_b,
+          (stale_.parts & Stale::kDirection) != 0 ? old.along : now.along};
 }
 
 bool StudentWorld::joined(std::size_t a, std::size_t b) const {
@@ -81,7 +107,7 @@ bool StudentWorld::joined(std::size_t a, std::size_t b) const {
 
 // A stick as one row along it, a hinge as two, x and y, one after the other.
 void StudentWorld::solve(const Joint& joint) {
-  Ends e = ends(joint);
+  Ends e = ends(joint, kJointRow);
   if (is("lever_forgotten")) e.arm_a = e.arm_b = {};
   Rigid &a = bodies_[e.a], &b = bodies_[e.b];
   const bool stick = std::holds_alternative<DistanceJoint>(joint);
@@ -91,6 +117,10 @@ void StudentWorld::solve(const Joint& joint) {
     const Vec2d centres = b.position - a.position;
     along = 1 / length(centres) * centres;
   }
+  const Held used = held(joint, kJointRow, {e.arm_a, e.arm_b, along});
+  e.arm_a = used.arm_a;
+  e.arm_b = used.arm_b;
+  along = used.along;
   const bool one_row = stick || is("hinge_as_stick");
   if (one_row && !stick && gap < 1e-12) return;
   for (const Vec2d n : {one_row ? along : Vec2d{1, 0}, Vec2d{0, 1}}) {
@@ -158,9 +188,16 @@ void StudentWorld::solve(const Joint& joint) {
 }
 
 void StudentWorld::correct(const Joint& joint) {
-  const Ends e = ends(joint);
+  if (!manner_.by_rows || std::holds_alternative<DistanceJoint>(joint)) return correct_along(joint, {1, 1});
+  correct_along(joint, {1, 0});
+  correct_along(joint, {0, 1});
+}
+
+// Closes a hinge's gap along one of the two axes, or along the gap itself for an axis of (1, 1).
+void StudentWorld::correct_along(const Joint& joint, Vec2d axis) {
+  Ends e = ends(joint, kCorrectionRow);
   Rigid &a = bodies_[e.a], &b = bodies_[e.b];
-  Vec2d error = e.gap;
+  Vec2d error{axis.x * e.gap.x, axis.y * e.gap.y};
   if (const auto* stick = std::get_if<DistanceJoint>(&joint))
     error *= 1 - times("length of a stick") * stick->length / length(e.gap);
   const bool stick = std::holds_alternative<DistanceJoint>(joint), too_long = dot(error, e.gap) > 0;
@@ -173,7 +210,11 @@ void StudentWorld::correct(const Joint& joint) {
              never_lengthens = is("stick_only_pulls") || is("stick_correction_only_pulls");
   if (stick && (too_long ? never_shortens : never_lengthens)) return;
   if (stick && !too_long && is("stick_correction_sign_lost")) error = -error;
-  const Vec2d n = mixed("error of a joint", 1 / size * error);
+  const Vec2d own = 1 / size * error;
+  const Held used = held(joint, kCorrectionRow, {e.arm_a, e.arm_b, stick && !too_long ? -own : own});
+  e.arm_a = used.arm_a;
+  e.arm_b = used.arm_b;
+  const Vec2d n = mixed("error of a joint", !stick ? own : too_long ? used.along : -used.along);
   const double sa = cross(e.arm_a, n), sb = cross(e.arm_b, n);
   const double k = edited_mass(kCorrectionRow, a, b, {e.arm_a, e.arm_b}, {e.raw_a, e.raw_b}, n);
   const double share = manner_.by_positions ? 1 : manner_.joint_share;

@@ -18,11 +18,19 @@ struct Manner {
   double slop = 0.001;        ///< m of overlap that is not removed, so that resting bodies stay in contact
   bool clips = false;    ///< boxes touch along the axis of least overlap, at the ends of the clipped side
   bool extends = false;  ///< a side that lies beyond the face's end is extended to it, not dropped
+  bool against = false;  ///< the two points of a clipped side are answered from the other end
+  bool deepest_first = false;  ///< the deeper of the two points is answered first
   bool turning_push = false;  ///< an overlap is corrected at the point of contact, which turns bodies as well
   double joint_share = 0.5;   ///< fraction of a joint's error that a correction removes
   int corrections = 0;        ///< corrections of joints per step; 0: a quarter of the sweeps
   bool turns = true;          ///< contacts rotate bodies; engines of the first three chapters may not
-  double fed = 0;             ///< fraction of a joint's error that velocities (not positions) close in a step
+  bool circles_touch_at_0 = false;  ///< circles are in contact if their distance is exactly 0
+  bool boxes_touch_at_0 = false;    ///< the same for boxes
+  bool by_rows = false;             ///< a hinge's gap is closed along x, then along y; else along the gap
+  bool joints_first = false;        ///< joints are corrected before overlaps
+  bool per_point = false;           ///< the points of two boxes share the correction of their overlap
+  bool in_turn = false;  ///< each pair's overlap is found when the pairs before it have been corrected
+  double fed = 0;        ///< fraction of a joint's error that velocities (not positions) close in a step
 };
 
 /// A learner's engine, as the course builds it: circles and boxes, sequential impulses, hinges and sticks. It

@@ -14,7 +14,11 @@ double length(Vec2d a) { return std::hypot(a.x, a.y); }
 void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const {
   const double ra = radius(another("radius", bodies_[a])), rb = radius(another("radius", bodies_[b]));
   const Vec2d way = bodies_[b].position - bodies_[a].position;
-  const double d = is("square_for_distance") ? dot(way, way) : length(way);
+  const double by_sum = std::abs(way.x) + std::abs(way.y),
+               by_largest = std::max(std::abs(way.x), std::abs(way.y));
+  double d = is("square_for_distance") ? dot(way, way) : length(way);
+  if (is("distance_by_sum")) d = by_sum;
+  if (is("distance_by_largest")) d = by_largest;
   // The overlap is computed from r1 + r2, or from the mistake's wrong sum.
   constexpr std::string_view kInDepth = "_in_depth";
   const bool in_depth = mistake_.ends_with(kInDepth);
@@ -34,7 +38,11 @@ void StudentWorld::touch_circles(std::size_t a, std::size_t b, std::vector<Touch
   if (wrong("first_radius_twice")) reach = 2 * ra;
   if (wrong("second_radius_twice")) reach = 2 * rb;
   if (is("no_detection")) reach = 0;
-  const bool apart = (is("square_of_distance") ? d * d : d) >= reach;
+  const double compared = is("square_of_distance")            ? d * d
+                          : is("distance_by_sum_in_test")     ? by_sum
+                          : is("distance_by_largest_in_test") ? by_largest
+                                                              : d;
+  const bool apart = manner_.circles_touch_at_0 ? compared > reach : compared >= reach;
   const bool squares_touch = is("circles_as_squares") && std::abs(way.x) < reach && std::abs(way.y) < reach;
   if (d <= 0 || (!squares_touch && apart != is("overlap_test_reversed"))) return;
   Vec2d n = 1 / d * way, rim = way;
@@ -81,11 +89,23 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   const Vec2d local = (backwards ? q : q.inverse()) * (c.position - b.position);
   Vec2d nearest{std::clamp(local.x, -size.width / 2, size.width / 2),
                 std::clamp(local.y, -size.height / 2, size.height / 2)};
+  if (is("clamp_above_only"))
+    nearest = {std::min(local.x, size.width / 2), std::min(local.y, size.height / 2)};
+  if (is("clamp_below_only"))
+    nearest = {std::max(local.x, -size.width / 2), std::max(local.y, -size.height / 2)};
+  if (is("clamp_of_x_only")) nearest.y = local.y;
+  if (is("clamp_of_y_only")) nearest.x = local.x;
+  if (is("clamp_of_x_above_only")) nearest.x = std::min(local.x, size.width / 2);
+  if (is("clamp_of_x_below_only")) nearest.x = std::max(local.x, -size.width / 2);
+  if (is("clamp_of_y_above_only")) nearest.y = std::min(local.y, size.height / 2);
+  if (is("clamp_of_y_below_only")) nearest.y = std::max(local.y, -size.height / 2);
   if (is("clamp_exchanged")) nearest = {size.width / 2, size.height / 2};
   if (is("clamp_exchanged_below")) nearest = {-size.width / 2, -size.height / 2};
   Vec2d way = is("point_of_box_not_turned") ? b.position + nearest - c.position : q * (nearest - local);
   if (backwards) way = b.position + q * nearest - c.position;
-  const double d = is("square_for_distance_at_box") ? dot(way, way) : length(way);
+  double d = is("square_for_distance_at_box") ? dot(way, way) : length(way);
+  if (is("distance_of_centres_at_box")) d = length(b.position - c.position);
+  if (is("distance_by_sum_at_box")) d = std::abs(way.x) + std::abs(way.y);
   if (d == 0 && manner_.deep) {
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
     const Vec2d out_of =
@@ -100,7 +120,7 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
     out.push_back({circle, box, c.position + way, q * n, std::min(in.x, in.y)});
     return;
   }
-  if (d <= 0 || d >= r) return;
+  if (d <= 0 || d > r || (d == r && !manner_.circles_touch_at_0)) return;
   const Vec2d at = b.position;
   if ((is("wall_missing") && at.x > 1) || (is("left_wall_missing") && at.x < -1)) return;
   if ((is("upper_wall_missing") && at.y > 1) || (is("lower_wall_missing") && at.y < -1)) return;
@@ -115,7 +135,14 @@ void StudentWorld::touch_circle_box(std::size_t circle, std::size_t box, std::ve
   if (is("wall_normal_up")) n = {0, -1};
   if (is("wall_normal_along_velocity") && dot(c.velocity, n) > 0) n = 1 / length(c.velocity) * c.velocity;
   n = -mixed("normal of a wall", -n);
-  out.push_back({circle, box, c.position + way, n, r - d});
+  Vec2d point = c.position + way;
+  constexpr Name kPoint("the point where a circle touches a box");
+  if (turned_hash_ == kPoint.hash) point = b.position + turned(kPoint, b, nearest);
+  if (is("circle_at_box_point_from_origin")) point = q * nearest;
+  if (is("circle_at_box_point_at_box")) point = b.position;
+  if (is("circle_at_box_point_at_circle")) point = c.position;
+  if (is("circle_at_box_point_on_circle_beyond")) point = c.position - r * n;
+  out.push_back({circle, box, point, n, r - d});
 }
 
 // The corners of a box that lie in another box.
@@ -128,7 +155,7 @@ void StudentWorld::touch_corners(std::size_t box, std::size_t corners, std::vect
     const Vec2d corner = c.position + this->corner(c, {sign.x * other.width / 2, sign.y * other.height / 2});
     const Vec2d way = corner - b.position, local{dot(along, way), dot(across, way)};
     const double in_x = size.width / 2 - std::abs(local.x), in_y = size.height / 2 - std::abs(local.y);
-    if (in_x <= 0 || in_y <= 0) continue;
+    if (in_x < 0 || in_y < 0 || (in_x * in_y == 0 && !manner_.boxes_touch_at_0)) continue;
     const Vec2d n = (in_x < in_y) != is("largest_overlap") ? Vec2d{std::copysign(1.0, local.x), 0}
                                                            : Vec2d{0, std::copysign(1.0, local.y)};
     Vec2d normal = n.x * along + n.y * across;
@@ -167,22 +194,45 @@ bool StudentWorld::left_out(std::size_t a, std::size_t b) const {
   return is("static_pairs_left_out") && !both_move;
 }
 
-std::vector<Touch> StudentWorld::touches() const {
-  std::vector<Touch> out;
+template <class Touches>
+void StudentWorld::each_pair(const Touches& touches) const {
   std::vector<bool> has_partner(bodies_.size());
   for (std::size_t a = 0; a + 1 < bodies_.size(); ++a) {
     for (std::size_t b = a + 1; b + 1 < bodies_.size(); ++b) {
       if (ends_the_loop(a, b)) break;
       if (bodies_[a].inverse_mass + bodies_[b].inverse_mass == 0 || joined(a, b) || left_out(a, b)) continue;
       if (is("one_partner_for_each") && (has_partner[a] || has_partner[b])) continue;
-      const std::size_t before = out.size();
-      touch(a, b, out);
-      if (out.size() == before) continue;
+      const auto taken = [&](std::size_t i) { return bodies_[i].inverse_mass > 0 && has_partner[i]; };
+      if (is("one_partner_for_each_moving") && (taken(a) || taken(b))) continue;
+      if (is("one_contact_of_the_first") && taken(a)) continue;
+      if (is("one_contact_of_the_second") && taken(b)) continue;
+      if (!touches(a, b)) continue;
       has_partner[a] = has_partner[b] = true;
       if (is("first_partner_only")) break;
     }
   }
+}
+
+std::vector<Touch> StudentWorld::touches() const {
+  std::vector<Touch> out;
+  each_pair([&](std::size_t a, std::size_t b) {
+    const std::size_t before = out.size();
+    touch(a, b, out);
+    return out.size() > before;
+  });
   return out;
+}
+
+void StudentWorld::push_out() {
+  if (is("sinks") || is("turned_every_step") || is("ignores_slow")) return;
+  if (!manner_.in_turn) return push_out(touches());
+  std::vector<Touch> of_pair;
+  each_pair([&](std::size_t a, std::size_t b) {
+    of_pair.clear();
+    touch(a, b, of_pair);
+    push_out(of_pair);
+    return !of_pair.empty();
+  });
 }
 
 void StudentWorld::touch(std::size_t a, std::size_t b, std::vector<Touch>& out) const {

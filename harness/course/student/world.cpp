@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <utility>
 
@@ -121,6 +122,8 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
   if (is("contacts_once")) manner_.once = true;
   for (const Body& body : scene_.bodies) {
     Rigid rigid{.position = body.position, .velocity = body.velocity, .force = {}, .angle = body.angle};
+    rigid.velocity = rigid.before = mixed("first velocity", body.velocity);
+    rigid.position = mixed("first position", body.position);
     rigid.spin = body.angular_velocity;
     rigid.body = &body;
     rigid.turns = times("angle of a point");
@@ -144,7 +147,7 @@ StudentWorld::StudentWorld(const Scene& scene, double dt, std::string mistake, r
   if (is("length_of_start") || is("length_of_centres_at_start"))
     for (Joint& joint : scene_.joints)
       if (auto* stick = std::get_if<DistanceJoint>(&joint)) {
-        const Ends e = ends(joint);
+        const Ends e = ends(joint, kJointRow);
         const Vec2d centres = bodies_[e.b].position - bodies_[e.a].position;
         const Vec2d way = is("length_of_start") ? e.gap : centres;
         stick->length = std::hypot(way.x, way.y);
@@ -178,6 +181,8 @@ void StudentWorld::read_mistake(const std::string& mistake) {
     factor_ = std::stod(mistake.substr(star + 1));
   }
   if (const auto edit = Edit::read(mistake)) edit_ = *edit;
+  if (int when = 0; std::sscanf(mistake.c_str(), "stale:%u:%d:%u", &stale_.parts, &when, &stale_.rows) == 3)
+    stale_.when = static_cast<Stale::When>(when);
   const auto split = [&](char sign, std::uint64_t& what, std::uint64_t& how) {
     const std::size_t place = mistake.find(sign);
     if (place == std::string::npos) return;
@@ -244,26 +249,34 @@ void StudentWorld::advance() {
 
 void StudentWorld::take_step() {
   keep_arms();
+  keep_held();
   gather_forces();
   const bool moves_first = is("explicit_euler") || scheme_ == reference::Scheme::ExplicitEuler;
   if (moves_first) move();
+  const bool after_move = manner_.after_move || is("moves_before_contacts");
   const bool forces_last = is("forces_after_solving") || is("contacts_before_forces");
   if (!forces_last) accelerate();
   if (forces_last && !manner_.by_positions) {
-    if (manner_.after_move && !moves_first) move();
+    if (after_move && !moves_first) move();
     answer_touches(is("forces_after_solving"));
     accelerate();
     if (is("contacts_before_forces")) answer_joints();
-    if (!manner_.after_move && !moves_first) move();
+    if (!after_move && !moves_first) move();
   } else if (manner_.by_positions && !scene_.joints.empty()) {
     move_and_project(!moves_first);
     answer_touches(false);
   } else {
-    if (manner_.after_move && !moves_first) move();
+    if (after_move && !moves_first) move();
     answer_touches(true);
-    if (!manner_.after_move && !moves_first) move();
+    if (!after_move && !moves_first) move();
   }
-  push_out();
+  if (!manner_.joints_first) push_out();
+  close_joints();
+  if (manner_.joints_first) push_out();
+}
+
+// Closes the joints' errors by positions, unless the engine or the mistake does without.
+void StudentWorld::close_joints() {
   if (is("no_position_correction") || manner_.by_positions || manner_.fed > 0) return;
   if (scales("share of a joint's error without dt")) return;
   correct_all(manner_.corrections > 0 ? manner_.corrections : std::max(1, sweeps() / 4));
@@ -289,6 +302,7 @@ void StudentWorld::answer_touches(bool with_joints) {
     prepare(touch);
     bodies_[touch.a].touched = bodies_[touch.b].touched = true;
   }
+  std::erase_if(found, [&](const Touch& touch) { return opens(touch); });
   start_with_last_sums(found);
   const bool any_joints = with_joints && !scene_.joints.empty();
   if (found.empty()) last_found_.clear();
@@ -305,6 +319,14 @@ void StudentWorld::answer_touches(bool with_joints) {
   }
   touched_ = touched_ || !found.empty();
   last_found_ = std::move(found);
+}
+
+// Returns true for a contact that the mistake leaves out of all iterations, because its bodies do not close
+// before the first.
+bool StudentWorld::opens(const Touch& touch) const {
+  const double closing = dot(relative_velocity(touch), touch.normal);
+  return (is("opening_contacts_left_out") && closing >= 0) ||
+         (is("parting_contacts_left_out") && closing > 0);
 }
 
 // Iterates over joints alone.

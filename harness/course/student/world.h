@@ -54,6 +54,15 @@ struct Touch {
   int of_pair = 0;  ///< number among the contacts of its two bodies
 };
 
+/// Quantities of joints that are computed once and used again later: a mistake as text,
+/// "stale:arms:when:rows".
+struct Stale {
+  enum Part : unsigned { kFirstArm = 1, kSecondArm = 2, kDirection = 4 };
+  enum When { kNever, kFirstStep, kStepBefore };
+  unsigned parts = 0, rows = 0;
+  When when = kNever;
+};
+
 /// The learner's world, and the mistakes in it.
 class StudentWorld {
  public:
@@ -81,6 +90,7 @@ class StudentWorld {
   void answer_joints();
   void move_and_project(bool moves);
   void correct_all(int sweeps);
+  void close_joints();
   bool holds(const Joint& joint) const;
   std::vector<BodyState> truly() const;  ///< the current states, even if the engine reports others
   bool scales(Name quantity) const { return quantity.hash == scaled_hash_; }
@@ -104,11 +114,14 @@ class StudentWorld {
   void accelerate();
   void move();
   std::vector<Touch> touches() const;
+  template <class Touches>
+  void each_pair(const Touches& touches) const;  ///< `touches(a, b)` returns true if the two touch
   void touch(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circles(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
   void touch_circle_box(std::size_t circle, std::size_t box, std::vector<Touch>& out) const;
   void touch_corners(std::size_t box, std::size_t corners, std::vector<Touch>& out) const;
   void touch_boxes(std::size_t a, std::size_t b, std::vector<Touch>& out) const;
+  double apart_along(double along) const;
   double extent(const Rigid& body, Vec2d axis, bool in_overlap) const;
   struct Face {
     std::size_t box = 0;
@@ -131,8 +144,10 @@ class StudentWorld {
   void answer_all(std::vector<Touch>& found);
   void start_with_last_sums(std::vector<Touch>& found);
   void push_out();
+  void push_out(const std::vector<Touch>& found);
   void solve(const Joint& joint);
   void correct(const Joint& joint);
+  void correct_along(const Joint& joint, Vec2d axis);
   struct Arms {
     Vec2d a, b;
   };
@@ -156,9 +171,15 @@ class StudentWorld {
     Vec2d arm_a, arm_b, gap;
     Vec2d raw_a, raw_b;  ///< the anchors before they are rotated
   };
-  Ends ends(const Joint& joint) const;
+  Ends ends(const Joint& joint, Row row) const;
   bool joined(std::size_t a, std::size_t b) const;
   void keep_arms();
+  void keep_held();
+  struct Held {
+    Vec2d arm_a, arm_b, along;
+  };
+  Held held(const Joint& joint, Row row, const Held& now) const;
+  bool opens(const Touch& touch) const;
 
   Scene scene_;
   double dt_;
@@ -182,7 +203,9 @@ class StudentWorld {
   std::vector<BodyState> before_step_;              ///< the states before the last step
   std::vector<Rigid> bodies_;                       ///< bodies of the scene, then the fixed world
   std::vector<std::pair<Vec2d, Vec2d>> kept_arms_;  ///< of each joint, before the bodies moved
-  std::vector<std::array<std::size_t, 2>> ends_;    ///< indices of the two bodies of each joint
+  Stale stale_;
+  std::vector<Held> held_, held_next_;            ///< of each joint, from earlier
+  std::vector<std::array<std::size_t, 2>> ends_;  ///< indices of the two bodies of each joint
 };
 
 }  // namespace plumb::course
