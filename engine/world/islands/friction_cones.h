@@ -58,7 +58,7 @@ bool update_slips(JointedIsland<Real>& island, bool midpoint) {
       sliding = 0.5 * (sliding + along(before_b.start_velocity - before_a.start_velocity, before_a.start_spin,
                                        before_b.start_spin));
     const double missing = std::abs(sliding - double(c.surface_speed)) - cone.slip;
-    // Where the last change was too large, the secant says by how much. Other cones change as well, and rows
+    // Follows the secant if the last change was too large. Other cones change as well, and rows
     // reach bounds: with 1/16 in place of 1/4 half as many again of a crowd's islands stay unsolved.
     if (missing * cone.last_missing < 0)
       cone.gain = std::max(cone.last_step / (cone.last_missing - missing), cone.gain / 4);
