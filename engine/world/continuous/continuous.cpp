@@ -90,21 +90,36 @@ void schedule_others_toi_events(WorldData<Real>& w, int index, double from, Impa
   }
 }
 
+// Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if lifting is not
+// allowed.
+template <class Real>
+bool lift(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search, bool blocked_link = false) {
+  SweptBody& swept = w.scratch.continuous.swept_bodies[next.swept_body];
+  if (swept.impacts > 0 || (swept.changed && swept.lifts == 0)) return false;
+  const SweptPair<Real> pair{next.shape, next.other, constraint_between(w, next.shape, next.other)};
+  const SweptPath path(swept, next.fraction, search);
+  const std::optional<Vec2d> by = lift_off(w, path, pair, 1, blocked_link);
+  if (!by || *by == Vec2d{}) return false;
+  swept.continue_lifted(next.fraction, *by);
+  insert_swept_aabb(w, swept);
+  schedule_toi_event(w, next.swept_body, next.fraction, search);
+  schedule_others_toi_events(w, next.swept_body, next.fraction, search);
+  return true;
+}
+
 // Stops a link of a mechanism alone if it begins the step where an obstacle in contact with it stopped it
 // before: the solver moves it there again and again. Stopped as a whole in each step, a heap of ragdolls
 // would hang in the air, and forces would still speed it up. The joints open by the link's way and close by
-// and by. Returns false if it has moved.
+// and by. A link that slides over an edge is lifted off it, so that they open by the lift, not by its way.
+// Returns false if it has moved.
 template <class Real>
 bool stop_blocked_link(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
   SweptBody& swept = w.scratch.continuous.swept_bodies[next.swept_body];
-  const int body = swept.body, obstacle = w.shapes[next.other].body;
-  if (swept.from > 0 || swept.stopped || w.bodies[body].first_joint == kNone ||
+  const int obstacle = w.shapes[next.other].body;
+  if (swept.stopped || !is_blocked_link(w, swept, next.fraction) ||
       constraint_between(w, next.shape, next.other) == nullptr)
     return false;
-  const double extent = static_cast<double>(w.extents[body]);
-  const double moved = length(swept.position_at(next.fraction) - swept.position_at(0)) +
-                       next.fraction * std::abs(swept.delta_angle) * extent;
-  if (moved > tuning::kImpactTolerance * extent) return false;
+  if (lift(w, next, search, true)) return true;
   std::vector<int>& stopped = w.scratch.continuous.stopped;
   stopped.assign(1, next.swept_body);
   if (!w.is_dynamic(obstacle)) remove_remaining_work(w, stopped, next.fraction, search.dt);
@@ -165,23 +180,6 @@ template <class Real>
 void invalidate_points(WorldData<Real>& w, const ToiEvent& next) {
   if (const auto* const contact = constraint_between(w, next.shape, next.other))
     constraint_of(w, w.contacts[contact->contact]).recycle_budget = -1;
-}
-
-// Lifts a body off a surface that it rests on, instead of stopping it there. Returns false if lifting is not
-// allowed.
-template <class Real>
-bool lift(WorldData<Real>& w, const ToiEvent& next, ImpactSearch& search) {
-  SweptBody& swept = w.scratch.continuous.swept_bodies[next.swept_body];
-  if (swept.impacts > 0 || (swept.changed && swept.lifts == 0)) return false;
-  const SweptPair<Real> pair{next.shape, next.other, constraint_between(w, next.shape, next.other)};
-  const SweptPath path(swept, next.fraction, search);
-  const std::optional<Vec2d> by = lift_off(w, path, pair);
-  if (!by || *by == Vec2d{}) return false;
-  swept.continue_lifted(next.fraction, *by);
-  insert_swept_aabb(w, swept);
-  schedule_toi_event(w, next.swept_body, next.fraction, search);
-  schedule_others_toi_events(w, next.swept_body, next.fraction, search);
-  return true;
 }
 
 // Maximum number of bodies that move together. Each one that is added has all of them searched again, so that

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "engine/collision/distance/hull_distance.h"
 #include "engine/collision/distance/time_of_impact.h"
@@ -15,6 +16,7 @@
 #include "engine/world/continuous/swept_bound.h"
 #include "engine/world/continuous/swept_boxes.h"
 #include "engine/world/state/constants.h"
+#include "engine/world/state/contacts.h"
 
 namespace plumb {
 namespace {
@@ -346,18 +348,30 @@ struct LiftAxes {
   }
 };
 
+// Returns true if a joint holds a body to one that is not dynamic. A mouse joint pulls, but does not hold.
+template <class Real>
+bool is_joint_held(const WorldData<Real>& w, int body) {
+  return any_edge(w.joints, w.bodies[body].first_joint, [&](const JointRecord& joint) {
+    return joint.active && !(w.is_dynamic(joint.body_a) && w.is_dynamic(joint.body_b)) &&
+           !std::holds_alternative<MouseDefinition>(w.joint_set.definition(joint.slot));
+  });
+}
+
 // Returns true if a body touches a surface that it may be lifted off.
 template <class Real>
-bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair) {
+bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
+              bool blocked_link) {
   const int body = path.swept.body, other = w.shapes[pair.other].body;
   if (pair.contact == nullptr || path.swept.lifts >= kMaxLifts || path.swept.pushed_by != kNone) return false;
-  // The normal of a deep contact may point to the wrong side. Down to the cores of both it does not.
+  // The normal of a deep contact may point to the wrong side. Down to the cores of both it does not, nor down
+  // to the inner cores, to which joints press a blocked link.
   const ContactConstraint<Real>& c = *pair.contact;
   const Real touching = Real(tuning::kTouchSeparation / tuning::kDepenetrationSpeed) * c.depenetration_speed,
-             core = Real(tuning::kCoreDepth) *
+             core = Real(blocked_link ? tuning::kInnerCoreDepth : tuning::kCoreDepth) *
                     std::min(half_width_of(w, pair.shape), half_width_of(w, pair.other));
   if (std::min(c.separation[0], c.separation[1]) < -std::max(touching, core)) return false;
-  if (w.bodies[body].first_joint != kNone || w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
+  if (blocked_link ? is_joint_held(w, body) : w.bodies[body].first_joint != kNone) return false;
+  if (w.bodies[body].lock_x || w.bodies[body].lock_y) return false;
   return !w.is_dynamic(other) && w.motion[other].delta_angle == 0;
 }
 
@@ -365,8 +379,8 @@ bool may_lift(const WorldData<Real>& w, const SweptPath& path, const SweptPair<R
 
 template <class Real>
 std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
-                              double entry_fraction) {
-  if (!enabled(Switch::Lifts) || !may_lift(w, path, pair)) return std::nullopt;
+                              double entry_fraction, bool blocked_link) {
+  if (!enabled(Switch::Lifts) || !may_lift(w, path, pair, blocked_link)) return std::nullopt;
   const int body = path.swept.body, other = w.shapes[pair.other].body;
   const double side = pair.contact->body_b == body ? 1 : -1;
   const Vec2d normal = side * pair.contact->normal.template as<double>();
@@ -395,7 +409,10 @@ std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, c
   const double limit = std::min(start.largest(), end.largest()) - allowed_depth;
   if (!axes.stay_above(limit, start, end, static_cast<double>(w.extents[body]))) return std::nullopt;
   const double min_lift = path.swept.lifts > 0 ? kMinLift * static_cast<double>(w.extents[body]) : 0;
-  if (lift > kMaxLift * smaller) return std::nullopt;
+  // Joints open by a link's lift, or by its way if it is stopped.
+  const double way =
+      length(path.sweep.motion) + std::abs(path.sweep.delta_angle) * static_cast<double>(w.extents[body]);
+  if (lift > (blocked_link ? way : kMaxLift * smaller)) return std::nullopt;
   return lift > min_lift ? lift * (end.turning > end.fixed ? axes.turned(1) : normal) : Vec2d{};
 }
 
@@ -417,13 +434,14 @@ double fraction_of_impact(const WorldData<Real>& w, const SweptPath& path, const
   // Shapes that touch at the start are separated by their contact until the core comes too near.
   const bool touch =
       first.state == Result::State::Overlapped || first.exact_fraction == 0 || at.passes(first);
-  if (touch && lift_off(w, path, pair, core_result.exact_fraction) == Vec2d{}) return 1;
+  const bool blocked_link = is_blocked_link(w, path.swept, at.fraction(core_result));
+  if (touch && lift_off(w, path, pair, core_result.exact_fraction, blocked_link) == Vec2d{}) return 1;
   return touch ? at.fraction(core_result) : at.fraction(first);
 }
 
 #define PLUMB_FOR(Real)                                                                                    \
   template std::optional<Vec2d> lift_off(const WorldData<Real>&, const SweptPath&, const SweptPair<Real>&, \
-                                         double);                                                          \
+                                         double, bool);                                                    \
   template double fraction_of_impact(const WorldData<Real>&, const SweptPath&, const SweptPair<Real>&);
 PLUMB_FOR(float)
 PLUMB_FOR(double)

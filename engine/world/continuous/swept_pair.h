@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
+#include "engine/world/state/constants.h"
 #include "engine/world/world_data.h"
 
 namespace plumb {
@@ -41,10 +43,23 @@ struct SweptPair {
 /// step, m; zero if its core ends outside. Returns nullopt if the body must be stopped instead, because it is
 /// deeper, or because the other body rotates or is dynamic. Without this, a thin body that turns or slides on
 /// a surface would stop for good, because its core is less deep than the overlap of a resting contact.
-/// `entry_fraction`: fraction of the path at which its core enters; 1: unknown.
+/// `entry_fraction`: fraction of the path at which its core enters; 1: unknown. A body with joints is lifted
+/// only if it is a `blocked_link`, which would be stopped alone, and no joint holds it to one that is not
+/// dynamic: its joints open by the lift.
 template <class Real>
 std::optional<Vec2d> lift_off(const WorldData<Real>& w, const SweptPath& path, const SweptPair<Real>& pair,
-                              double entry_fraction = 1);
+                              double entry_fraction = 1, bool blocked_link = false);
+
+/// Returns true if a body that would be stopped at a fraction of the step is a link of a mechanism and has
+/// not moved in this step: it began it where an obstacle had stopped it before.
+template <class Real>
+bool is_blocked_link(const WorldData<Real>& w, const SweptBody& swept, double fraction) {
+  if (w.bodies[swept.body].first_joint == kNone) return false;
+  const double extent = static_cast<double>(w.extents[swept.body]);
+  const double turned = swept.delta_angle_before + swept.elapsed_fraction(fraction) * swept.delta_angle;
+  return length(swept.position_at(fraction) - swept.step_start) + std::abs(turned) * extent <=
+         tuning::kImpactTolerance * extent;
+}
 
 /// Returns the fraction of the step at which a moving body bounces off another shape or must be stopped in
 /// front of it; 1: no impact. Tests the core (convex_core.h), not the surface: until a shape reaches the
