@@ -65,14 +65,16 @@ bool gains_by_taking_back(const JointedIsland<Real>& island) {
 }
 
 /// Lets the rows of an island add to their impulses, but not take back any. These do no work, because no
-/// one-sided row demands a positive speed.
+/// one-sided row demands a positive speed. The rows are built anew: those that were infeasible have the
+/// velocities that they reached as targets, on which the impulses of another solution may do any work (a heap
+/// of ragdolls at rest left at 1e7 m/s).
 template <class Real>
-void keep_impulses(JointedIsland<Real>& island) {
-  for (std::size_t i = 0; i < island.system.rows.size(); ++i) {
-    BoundedRow& row = island.system.rows[i];
-    island.impulses[i] -= row.impulse, row.impulse = 0;
+void keep_impulses(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step) {
+  std::pmr::vector<BoundedRow>& rows = island.system.rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) island.impulses[i] -= rows[i].impulse;
+  RowBuilder<Real>(w, island, step, Stage::Relax).build();
+  for (BoundedRow& row : rows)
     if (is_one_sided(row)) row.lower = std::max(row.lower, 0.0);
-  }
 }
 
 // ---- Drivers: kinematic bodies that move, and do whatever work that takes. If the load of one is caught,

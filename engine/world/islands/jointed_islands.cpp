@@ -206,7 +206,7 @@ template <class Real>
 void relax(WorldData<Real>& w, JointedIsland<Real>& island, const ContactStep<Real>& step, double& budget) {
   solve(w, island, step, Stage::Relax, budget);
   if (enabled(Switch::KeptImpulses) && !(budget > 0) && gains_by_taking_back(island)) {
-    keep_impulses(island);
+    keep_impulses(w, island, step);
     solve_rows(island, false);
     store_impulses(island, false);
   }
