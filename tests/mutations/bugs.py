@@ -90,6 +90,8 @@ MUTATIONS = [
              "std::min(opening(start), Real(0))", "Real(0)", "world", ("world/ragdoll_heaps",)),
     Mutation("world: contacts hold against joints that are open", "engine/world/step/narrow_phase.cpp",
              "yield_to_open_joints(w);", "", "world", ("world/ragdoll_heaps",)),
+    Mutation("world: stretched springs take contacts from what lies between", "engine/world/step/open_joints.cpp",
+             "if (!weld->linear_spring) yield_to", "yield_to", "world", ("world/soft_welds",)),
     Mutation("world: pressed mechanisms do not yield", "engine/world/islands/island_rows.h",
              "if (driven) soften(", "if (false) soften(", "world", ("world/pressed_mechanisms",)),
     Mutation("world: what rides on a lift yields to its own load", "engine/world/islands/island_rows.h",

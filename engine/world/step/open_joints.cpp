@@ -81,7 +81,8 @@ void yield_to_open_joints(WorldData<Real>& w) {
     if (const auto* hinge = std::get_if<RevoluteDefinition>(&kind)) {
       yield_to(w, joint.body_a, joint.body_b, *hinge);
     } else if (const auto* weld = std::get_if<WeldDefinition>(&kind)) {
-      yield_to(w, joint.body_a, joint.body_b, *weld);
+      // A spring is meant to stretch.
+      if (!weld->linear_spring) yield_to(w, joint.body_a, joint.body_b, *weld);
     }
   });
 }
