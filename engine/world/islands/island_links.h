@@ -51,28 +51,53 @@ void find_links(WorldData<Real>& w, JointedIsland<Real>& island) {
   for (const ContactConstraint<Real>* c : island.contacts) add(c->body_a, c->body_b);
 }
 
-/// Groups links that joints with three rigid rows connect: contacts between links of a group have nothing to
-/// carry.
-template <class Real>
-void find_rigid_groups(WorldData<Real>& w, JointedIsland<Real>& island) {
-  std::pmr::vector<JointedLink>& links = island.links;
-  const auto group_of = [&](int link) {
-    while (links[link].rigid_group != link) link = links[link].rigid_group;
+/// Joins groups of links. `Member` is the member of JointedLink that is the lowest link of its group.
+template <int JointedLink::*Member>
+class LinkGroups {
+ public:
+  explicit LinkGroups(std::pmr::vector<JointedLink>& links) : links_(links) {
+    for (int link = 0; link < static_cast<int>(links.size()); ++link) links[link].*Member = link;
+  }
+  void join(int a, int b) {
+    a = of(a), b = of(b);
+    links_[std::max(a, b)].*Member = std::min(a, b);
+  }
+  /// Stores the lowest link of each link's group.
+  void finish() {
+    for (int link = 0; link < static_cast<int>(links_.size()); ++link) links_[link].*Member = of(link);
+  }
+
+ private:
+  int of(int link) const {
+    while (links_[link].*Member != link) link = links_[link].*Member;
     return link;
-  };
-  const int count = static_cast<int>(links.size());
-  for (int link = 0; link < count; ++link) links[link].rigid_group = link;
-  if (!enabled(Switch::RigidGroups)) return;
+  }
+  std::pmr::vector<JointedLink>& links_;
+};
+
+/// Groups links that joints connect, and those that joints with three rigid rows connect: contacts between
+/// links of such a group have nothing to carry.
+template <class Real>
+void find_link_groups(WorldData<Real>& w, JointedIsland<Real>& island) {
+  LinkGroups<&JointedLink::rigid_group> rigid(island.links);
+  LinkGroups<&JointedLink::joint_group> jointed(island.links);
+  int ground = kNone;
+  for (int link = 0; link < static_cast<int>(island.links.size()); ++link) {
+    if (w.is_dynamic(island.links[link].body)) continue;
+    if (ground != kNone) jointed.join(ground, link);
+    ground = link;
+  }
   std::vector<JointSolverRow<Real>>& rows = w.scratch.solver.joint_rows;
   for (std::size_t i = 0; i < island.joints.size(); ++i) {
+    const auto [a, b] = island.blocks[i];
+    jointed.join(a, b);
     rows.clear();
     w.joint_set.solver_rows(island.joints[i], w.solver_bodies(), rows);
     const auto is_rigid = [](const JointSolverRow<Real>& row) { return row.role == RowRole::Rigid; };
-    if (std::count_if(rows.begin(), rows.end(), is_rigid) < 3) continue;
-    const int a = group_of(island.blocks[i].first), b = group_of(island.blocks[i].second);
-    links[std::max(a, b)].rigid_group = std::min(a, b);
+    if (enabled(Switch::RigidGroups) && std::count_if(rows.begin(), rows.end(), is_rigid) >= 3)
+      rigid.join(a, b);
   }
-  for (int link = 0; link < count; ++link) links[link].rigid_group = group_of(link);
+  rigid.finish(), jointed.finish();
 }
 
 /// Returns the length of the link to which a row's gap is relative, as joint_opening.h defines it, m; 1 for

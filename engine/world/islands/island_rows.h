@@ -243,7 +243,9 @@ class RowBuilder {
                    normal_response = coupling(bodies, normal, normal);
       const double gain =
           normal_response > 0 ? 1 + friction * friction * tangent_response / normal_response : 1;
-      island_.cones.push_back({&c, block_, first, count, friction, slip, gain});
+      const bool guided =
+          !redundant && island_.links[link_a].joint_group == island_.links[link_b].joint_group;
+      island_.cones.push_back({&c, block_, first, count, friction, slip, gain, 0, 0, guided});
     }
     if (c.rolling_arm > 0) {
       BoundedRow row = along({}, 1, 1);

@@ -93,7 +93,7 @@ class Mechanism {
   void close() {
     make_joint_rows(Level::Position);
     collect_contacts();
-    find_rigid_groups(w_, island_);
+    find_link_groups(w_, island_);
     if (order() > tuning::kMaxJointedCost) return;
     for (int round = 0; round < kCloseRounds; ++round) {
       if (round > 0) make_joint_rows(Level::Position);

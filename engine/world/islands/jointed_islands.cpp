@@ -66,11 +66,21 @@ void solve_rows(JointedIsland<Real>& island, bool midpoint) {
   // At rest, the remaining velocities are rounding, so errors are relative to the energy of the first solve.
   island.system.solve(midpoint ? 0 : island.energy);
   if (midpoint) island.energy = island.system.energy_scale();
-  for (int i = 0; i < (island.system.is_exhausted() ? 1 : kMaxUpdates); ++i) {
-    const bool slips = update_slips(island, midpoint), bounds = update_bounds(island, midpoint);
-    if (!slips && !bounds) break;
-    island.system.solve_again();
-  }
+  const auto settle = [&] {
+    for (int i = 0; i < (island.system.is_exhausted() ? 1 : kMaxUpdates); ++i) {
+      const bool slips = update_slips(island, midpoint), bounds = update_bounds(island, midpoint);
+      if (!slips && !bounds) return true;
+      island.system.solve_again();
+    }
+    return false;
+  };
+  if (!settle() || !midpoint || !release_jammed(island)) return;
+  island.system.solve_again();
+  set_released_slips(island, midpoint);
+  island.system.solve_again();
+  if (settle()) return;
+  hold_released(island, midpoint);
+  island.system.solve_again();
 }
 
 // Stores the impulses of the last solution.
@@ -365,7 +375,7 @@ void prepare_jointed_islands(WorldData<Real>& w) {
   for (int i = 0; i < w.scratch.islands.jointed_count; ++i) {
     JointedIsland<Real>& island = w.scratch.islands.jointed_islands[i];
     find_links(w, island);
-    find_rigid_groups(w, island);
+    find_link_groups(w, island);
     load_impulses(island);
   }
 }

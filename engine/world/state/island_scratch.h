@@ -36,6 +36,7 @@ struct JointedLink {
   Vec2d delta_position{};                                  ///< m, since the start of the step
   double delta_angle = 0, rotation_c = 1, rotation_s = 0;  ///< the same for rotation
   int rigid_group = 0;  ///< lowest link to which joints connect it without any freedom
+  int joint_group = 0;  ///< lowest link to which joints connect it; all static and kinematic bodies are one
 };
 
 /// The source of a row of an island with joints.
@@ -60,6 +61,9 @@ struct FrictionCone {
   double slip = 0;                         ///< m/s, along the tangent: the slip for which the rows were made
   double gain = 1;                         ///< factor of the next change of `slip`
   double last_missing = 0, last_step = 0;  ///< m/s: what `slip` missed before its last change; that change
+  bool guided = false;                     ///< joints connect the bodies, by way of others or the ground
+  bool released = false;                   ///< has no impulse, to find the slip without it
+  double held_slip = 0;                    ///< m/s, before it was released
 };
 
 /// Impulses of a contact, N s and N m s.
