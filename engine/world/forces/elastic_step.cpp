@@ -32,12 +32,18 @@ constexpr double kMaxExtrapolation = 0.5;
 /// Number of halvings in the search for the smallest fraction: to 1e-9.
 constexpr int kBisections = 30;
 
+double square(double x) { return x * x; }
+
+/// Returns the elastic energy that a spring gains between two lengths, divided by half its stiffness, m^2.
+double stretched(const ElasticStep::Spring& spring, double start, double end) {
+  if (!spring.pulls_only) return (end - start) * (end + start - 2 * spring.rest_length);
+  return square(std::max(end - spring.rest_length, 0.0)) - square(std::max(start - spring.rest_length, 0.0));
+}
+
 Vec2d across(Vec2d axis) { return {-axis.y, axis.x}; }
 
 /// Returns sin(x) / x.
 double sinc(double x) { return std::abs(x) < 1e-2 ? 1 - x * x / 6 * (1 - x * x / 20) : rotation_of(x).s / x; }
-
-double square(double x) { return x * x; }
 
 /// Returns 1 / x, and 0 for x = 0, because an inverse mass of 0 means that the body does not move.
 double inverse_of(double x) { return x > 0 ? 1 / x : 0; }
@@ -123,7 +129,12 @@ ElasticStep::Line ElasticStep::line_of(const Spring& spring, double dt) const {
   Line line{.arm_a = mean_arm(spring.a, spring.arm_a),
             .arm_b = mean_arm(spring.b, spring.arm_b),
             .axis = axis_of(mean)};
-  const double pull = spring.stiffness * (1 - rest_ratio);
+  double pull = spring.stiffness * (1 - rest_ratio);
+  if (spring.pulls_only && std::min(length_of(start), length_of(end)) < spring.rest_length) {
+    if (std::max(length_of(start), length_of(end)) <= spring.rest_length) return line;
+    pull = spring.stiffness * stretched(spring, length_of(start), length_of(end)) /
+           (length_squared(end) - length_squared(start));
+  }
   line.pull = pull * mean + (damping / dt * dot(line.axis, end - start)) * line.axis;
   line.across = std::max(pull, 0.0);
   line.along = line.across + 2 * damping / dt;
@@ -324,7 +335,7 @@ void ElasticStep::compute_gains(double dt) {
   for (const Spring& spring : springs_) {
     const Vec2d before = line_before(spring), after = line_after(spring);
     const double start = length_of(before), end = length_of(after);
-    const double elastic = 0.5 * spring.stiffness * (end - start) * (end + start - 2 * spring.rest_length);
+    const double elastic = 0.5 * spring.stiffness * stretched(spring, start, end);
     const double damped = damping_of(spring) / dt * square(dot(axis_of(before + after), after - before));
     groups_[group_of(spring)].gain += 0.5 * dt * dt * (elastic + damped);
   }

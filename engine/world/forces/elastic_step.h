@@ -26,11 +26,18 @@ class ElasticStep {
     double inverse_inertia = 0;  ///< 1/(kg m^2)
   };
   struct Spring {
-    int a = 0, b = 0;        ///< indices that `add_body` returned
-    Vec2d arm_a{}, arm_b{};  ///< m, from the centres of mass, in the world's axes
-    double rest_length = 0;  ///< m
-    double stiffness = 0;    ///< N/m
-    double damping = 0;      ///< N s/m
+    int a = 0, b = 0;         ///< indices that `add_body` returned
+    Vec2d arm_a{}, arm_b{};   ///< m, from the centres of mass, in the world's axes
+    double rest_length = 0;   ///< m
+    double stiffness = 0;     ///< N/m
+    double damping = 0;       ///< N s/m
+    bool pulls_only = false;  ///< a rubber band: slack below its rest length
+  };
+  /// A body that `add_end` of force_laws.cpp has added, with the spring's arm there.
+  struct End {
+    int body = 0;
+    Vec2d arm{};              ///< m
+    double inverse_mass = 0;  ///< 1/kg, of this point along the direction in which it is largest
   };
 
   void clear();

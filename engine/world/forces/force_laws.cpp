@@ -1,10 +1,13 @@
 #include "engine/world/force_laws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "engine/forces/fluid_drag.h"
+#include "engine/math/small_rotation.h"
 #include "engine/scene/error.h"
+#include "engine/world/forces/elastic_step.h"
 #include "engine/world/forces/law_bodies.h"
 #include "engine/world/state/lock.h"
 
@@ -35,6 +38,15 @@ LawBody view_of(const WorldData<Real>& w, int body, double ahead) {
           w.body_data.get(body)};
 }
 
+// Returns the weight of a body in free flight. Returns zero for a body with constraints, whose forces are not
+// known before the step.
+template <class Real>
+Wrench<double> weight_in_flight(const WorldData<Real>& w, int body) {
+  const BodyRecord<Real>& record = w.bodies[body];
+  if (record.constraints > 0) return {};
+  return {static_cast<double>(record.mass * w.extras_of(body).gravity_scale) * w.settings.gravity, 0};
+}
+
 // Returns the sum of weight and applied forces of a body in free flight. Returns zero for a body with
 // constraints, whose forces are not known before the step.
 template <class Real>
@@ -51,6 +63,27 @@ template <class Real>
 Vec2d evaluation_point(const WorldData<Real>& w, int body, double dt) {
   return w.position[body] +
          (evaluation_fraction(w, body, dt) * dt) * w.motion[body].velocity.template as<double>();
+}
+
+// Adds a body of a spring, whose end is at `end` now, to a step of springs. As scene_forces.cpp does, it uses
+// x + (1/2 - c) dt v as the body's position, and the forces known so far for its motion without the spring.
+template <class Real>
+ElasticStep::End add_end(ElasticStep& step, const WorldData<Real>& w, int body, Vec2d end, double dt) {
+  const SolverBody<Real>& motion = w.motion[body];
+  const BodyRecord<Real>& record = w.bodies[body];
+  const Vec2d velocity = motion.velocity.template as<double>();
+  const double spin = static_cast<double>(motion.angular_velocity),
+               ahead = (evaluation_fraction(w, body, dt) - 0.5) * dt;
+  const double inverse_mass = static_cast<double>(motion.inverse_mass),
+               inverse_inertia = static_cast<double>(motion.inverse_inertia);
+  const Vec2d inverse{record.lock_x ? 0 : inverse_mass, record.lock_y ? 0 : inverse_mass};
+  const int index = step.add_body({w.position[body] + ahead * velocity, inverse, inverse_inertia});
+  const Vec2d arm = rotated_by(Rotation<double>{1, 0}, ahead * spin) * (end - w.position[body]);
+  const Wrench<double> load = weight_in_flight(w, body);
+  const Vec2d gain{inverse.x * load.force.x, inverse.y * load.force.y};
+  step.set_free_motion(index, dt * (velocity + 0.5 * dt * gain),
+                       dt * (spin + 0.5 * dt * inverse_inertia * load.torque));
+  return {index, arm, std::max(inverse.x, inverse.y) + inverse_inertia * length_squared(arm)};
 }
 
 void check(const Attraction& law, double dt) {
@@ -83,7 +116,7 @@ void apply_linear_drag(BasicWorld<Real>& world, const LinearDragRates& rates, do
   WorldData<Real>& w = unlocked_with_masses(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const SolverBody<Real>& motion = w.motion[body];
-    const Wrench<double> load = known_load(w, body);
+    const Wrench<double> load = weight_in_flight(w, body);
     return {mean_linear_drag(motion.velocity.template as<double>(), rates.linear,
                              static_cast<double>(motion.inverse_mass), load.force, dt),
             mean_linear_drag(static_cast<double>(motion.angular_velocity), rates.angular,
@@ -151,34 +184,27 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
   }
   require_positive("spring", "dt", dt);
   WorldData<Real>& w = unlocked_with_masses(world);
-  const Vec2d end_a = world.world_point(a, point_a), end_b = world.world_point(b, point_b);
+  const Vec2d point_on_a = world.world_point(a, point_a), point_on_b = world.world_point(b, point_b);
   const int body_a = static_cast<int>(a.index), body_b = static_cast<int>(b.index);
   const bool moves_a = w.is_dynamic(body_a), moves_b = w.is_dynamic(body_b);
   const bool awake = (moves_a && w.bodies[body_a].awake) || (moves_b && w.bodies[body_b].awake);
   if (!awake && !options.wakes) return;
 
-  const Vec2d line = end_b - end_a;
-  const double length = std::sqrt(length_squared(line));
-  if (length == 0) return;  // the direction is undefined
-  const Vec2d axis = (1 / length) * line;
-  const double rate = dot(axis, world.velocity_at(b, end_b) - world.velocity_at(a, end_a));
-  const Vec2d arm_a = end_a - w.position[body_a], arm_b = end_b - w.position[body_b];
-  const auto mobility = [&](int body, Vec2d arm) {
-    const double rotation = cross(arm, axis);
-    return static_cast<double>(w.motion[body].inverse_mass) +
-           static_cast<double>(w.motion[body].inverse_inertia) * rotation * rotation;
-  };
-  const double inverse_mass = mobility(body_a, arm_a) + mobility(body_b, arm_b);
-  // spring_tension extrapolates to the middle of the step. The length is shifted such that it then refers to
-  // the bodies' positions at evaluation_fraction.
-  const auto shift = [&](BodyId body, int index, Vec2d end) {
-    return (evaluation_fraction(w, index, dt) - 0.5) * dt * dot(axis, world.velocity_at(body, end));
-  };
-  const double length_then = length + shift(b, body_b, end_b) - shift(a, body_a, end_a);
-  const Vec2d pull = spring_tension(spring, length_then, rate, inverse_mass, dt) * axis;
+  thread_local ElasticStep step;  // keeps its memory from call to call
+  step.clear();
+  const ElasticStep::End on_a = add_end(step, w, body_a, point_on_a, dt),
+                         on_b = add_end(step, w, body_b, point_on_b, dt);
+  const double inverse_mass = on_a.inverse_mass + on_b.inverse_mass;
+  if (!(inverse_mass > 0)) return;
+  // A spring does not know those that other calls add to its bodies: each is limited to what one step can
+  // follow, omega dt = 1.
+  const double stiffness = std::min(spring.stiffness, 1 / (inverse_mass * dt * dt));
+  step.add({on_a.body, on_b.body, on_a.arm, on_b.arm, spring.rest_length, stiffness, spring.damping,
+            spring.pulls_only});
+  step.solve(dt);
   WrenchList list;
-  if (moves_a) list.add(body_a, {pull, cross(arm_a, pull)});
-  if (moves_b) list.add(body_b, {-pull, -cross(arm_b, pull)});
+  if (moves_a) list.add(body_a, step.wrench(on_a.body));
+  if (moves_b) list.add(body_b, step.wrench(on_b.body));
   add_wrenches(w, list);
 }
 
