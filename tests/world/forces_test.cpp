@@ -268,6 +268,25 @@ TYPED_TEST(ForceLaws, AttractionIsSoftenedLikeABallOfEvenDensity) {
   EXPECT_NEAR(world.velocity(body).x, -2 * 0.05 / 0.125 * kDt, TestFixture::kSingle ? 2e-9 : 1e-16);
 }
 
+// Drag of a coefficient c solves its equation together with the forces that were added before it:
+// v = F / c (1 - e^(-c t / m)), and the same for the spin under a torque, in steps in which most of it
+// happens.
+TYPED_TEST(ForceLaws, LinearDragKnowsTheForcesAddedBefore) {
+  typename TestFixture::World world(weightless());
+  const BodyId body = add_body(world, {0, 0}, kDisc);
+  constexpr double kLinear = 50, kAngular = 5;
+  for (int i = 1; i <= 10; ++i) {
+    world.apply_force(body, {6, 0});
+    world.apply_torque(body, 2);
+    apply_linear_drag(world, {.linear = kLinear, .angular = kAngular}, kDt);
+    world.step(kDt);
+    const double speed = 6 / kLinear * (1 - std::exp(-kLinear * i * kDt / world.mass(body))),
+                 spin = 2 / kAngular * (1 - std::exp(-kAngular * i * kDt / world.inertia(body)));
+    EXPECT_NEAR(world.velocity(body).x, speed, TestFixture::kSingle ? 1e-6 : 1e-13);
+    EXPECT_NEAR(world.angular_velocity(body), spin, TestFixture::kSingle ? 1e-6 : 1e-13);
+  }
+}
+
 TYPED_TEST(ForceLaws, DragLeavesTheWeightOfWhatRests) {
   typename TestFixture::World world(without_sleep());
   add_ground(world);

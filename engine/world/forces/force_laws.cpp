@@ -66,7 +66,8 @@ Vec2d evaluation_point(const WorldData<Real>& w, int body, double dt) {
 }
 
 // Adds a body of a spring, whose end is at `end` now, to a step of springs. As scene_forces.cpp does, it uses
-// x + (1/2 - c) dt v as the body's position, and the forces known so far for its motion without the spring.
+// x + (1/2 - c) dt v as the body's position, and the weight for its motion without the spring:
+// with the pulls of other springs, those of a grid of masses feed each other.
 template <class Real>
 ElasticStep::End add_end(ElasticStep& step, const WorldData<Real>& w, int body, Vec2d end, double dt) {
   const SolverBody<Real>& motion = w.motion[body];
@@ -116,7 +117,7 @@ void apply_linear_drag(BasicWorld<Real>& world, const LinearDragRates& rates, do
   WorldData<Real>& w = unlocked_with_masses(world);
   apply_to_bodies(w, options.wakes, [&](int body) -> Wrench<double> {
     const SolverBody<Real>& motion = w.motion[body];
-    const Wrench<double> load = weight_in_flight(w, body);
+    const Wrench<double> load = known_load(w, body);
     return {mean_linear_drag(motion.velocity.template as<double>(), rates.linear,
                              static_cast<double>(motion.inverse_mass), load.force, dt),
             mean_linear_drag(static_cast<double>(motion.angular_velocity), rates.angular,
