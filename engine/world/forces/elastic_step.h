@@ -33,12 +33,6 @@ class ElasticStep {
     double damping = 0;       ///< N s/m
     bool pulls_only = false;  ///< a rubber band: slack below its rest length
   };
-  /// A body that `add_end` of force_laws.cpp has added, with the spring's arm there.
-  struct End {
-    int body = 0;
-    Vec2d arm{};              ///< m
-    double inverse_mass = 0;  ///< 1/kg, of this point along the direction in which it is largest
-  };
 
   void clear();
   int add_body(const Body& body);

@@ -65,11 +65,18 @@ Vec2d evaluation_point(const WorldData<Real>& w, int body, double dt) {
          (evaluation_fraction(w, body, dt) * dt) * w.motion[body].velocity.template as<double>();
 }
 
+// A body of a spring in a step of springs.
+struct SpringEnd {
+  int body = 0;             ///< there
+  Vec2d arm{};              ///< m
+  double inverse_mass = 0;  ///< 1/kg, of the end along the direction in which it is largest
+};
+
 // Adds a body of a spring, whose end is at `end` now, to a step of springs. As scene_forces.cpp does, it uses
 // x + (1/2 - c) dt v as the body's position, and the weight for its motion without the spring:
 // with the pulls of other springs, those of a grid of masses feed each other.
 template <class Real>
-ElasticStep::End add_end(ElasticStep& step, const WorldData<Real>& w, int body, Vec2d end, double dt) {
+SpringEnd add_end(ElasticStep& step, const WorldData<Real>& w, int body, Vec2d end, double dt) {
   const SolverBody<Real>& motion = w.motion[body];
   const BodyRecord<Real>& record = w.bodies[body];
   const Vec2d velocity = motion.velocity.template as<double>();
@@ -193,8 +200,8 @@ void apply_spring(BasicWorld<Real>& world, BodyId a, Vec2d point_a, BodyId b, Ve
 
   thread_local ElasticStep step;  // keeps its memory from call to call
   step.clear();
-  const ElasticStep::End on_a = add_end(step, w, body_a, point_on_a, dt),
-                         on_b = add_end(step, w, body_b, point_on_b, dt);
+  const SpringEnd on_a = add_end(step, w, body_a, point_on_a, dt),
+                  on_b = add_end(step, w, body_b, point_on_b, dt);
   const double inverse_mass = on_a.inverse_mass + on_b.inverse_mass;
   if (!(inverse_mass > 0)) return;
   // A spring does not know those that other calls add to its bodies: each is limited to what one step can
